@@ -105,7 +105,7 @@ std::string Campaign::difference_to_the_first() {
     const auto text = [&](const Timeline& timeline) {
       if (i >= timeline.events.size()) return std::string("the end");
       const TimelineEvent& event = timeline.events[i];
-      return timeline.tasks[event.task] + " " + name(event.operation) + " " + event.object;
+      return timeline.tasks[event.task].title + " " + name(event.operation) + " " + event.object;
     };
     if (text(before) != text(after))
       return "the body leaks state from one schedule into the next: in the default order, event " + std::to_string(i) +

@@ -80,6 +80,28 @@ class Traces(ExecCase):
             self.assertGreaterEqual(last, 2e6, "microseconds of virtual time")
 
 
+    def test_show_each_process_with_its_threads(self):
+        trace, words = self.folder / "trace.json", ["--", "sh", "-c", "(sleep 1; kill -9 $$) & echo a | cat; sleep 2"]
+        done = subprocess.run([str(WAITPOINT), "exec", "--trace", str(trace), *words], capture_output=True, text=True)
+        self.assertEqual(done.returncode, -9)
+        events = json.loads(trace.read_text())["traceEvents"]
+        names = {}
+        for event in events:
+            if event["name"] == "process_name":
+                names.setdefault(event["pid"], []).append(event["args"]["name"])
+        self.assertEqual(names[1000], ["sh"])
+        cat = next(process for process in names if f"cat#{process}" in names[process])
+        self.assertEqual(names[cat], [f"sh#{cat}", f"cat#{cat}"])
+        threads = {(event["pid"], event["args"]["name"]) for event in events if event["name"] == "thread_name"}
+        self.assertIn((1000, "main#0 of sh"), threads)
+        self.assertIn((cat, f"main#0 of cat#{cat}"), threads)
+        self.assertEqual({event["pid"] for event in events if "ts" in event}, set(names))
+        stamps = [event["ts"] for event in events if event.get("cat") == "event"]
+        self.assertEqual(stamps, sorted(set(stamps)), "the events of all processes are in one order")
+        plain = subprocess.run([str(WAITPOINT), "exec", *words], capture_output=True, text=True)
+        self.assertEqual(Summary(done.stderr).digest, Summary(plain.stderr).digest)
+
+
 class Options(ExecCase):
     """Isolation of a run from the machine."""
 

@@ -68,6 +68,16 @@ class Exploring(ExecCase):
         self.assertEqual(done.returncode, 0)
         self.assertTrue(done.stdout.splitlines()[0].endswith("; exhaustive"), done.stdout)
 
+    def test_events_and_switches_of_all_processes_are_told(self):
+        trace = self.folder / "trace.json"
+        done = explore("--strategy", "dfs", "--trace", trace, "--", self.compile("two_processes.c"))
+        self.assertRegex(done.stdout, r"process two_processes(#1001)? goes first instead of process two_processes(#1001)?\n")
+        for thread in ("main#0 of two_processes", "main#0 of two_processes#1001"):
+            self.assertRegex(done.stdout, rf"\n  0\.\d+ [* ] {thread} .*semaphore")
+        self.assertRegex(done.stdout, r"\n  0\.\d+ \* main#0 of two_processes")
+        rows = {event["pid"] for event in json.loads(trace.read_text())["traceEvents"]}
+        self.assertEqual(rows, {1000, 1001})
+
     def test_programs_that_a_shell_starts_are_explored(self):
         program = self.compile("two_processes.c")
         done = explore("--iterations", "100", "--", "sh", "-c", f"{program} locked & {program}; wait")

@@ -10,7 +10,7 @@
 #include <set>
 #include <sstream>
 
-#include "fibers/posix/exec/exploration.hpp"
+#include "fibers/explore/report/timeline.hpp"
 #include "fibers/sync/simulation.hpp"
 #include "tools/command/shell_words.hpp"
 #include "tools/command/signal_words.hpp"
@@ -95,7 +95,8 @@ int run_seeds(const ExecOptions& options, const ProgramFiles& files) {
 
 void write_trace_of(const posix::Record& record, OutputFile& file) {
   std::ostringstream text;
-  if (record.trace != nullptr) exploration::write_trace(text, record.trace->timeline);
+  const posix::History* const history = history_of(record);
+  exploration::write_trace(text, history != nullptr ? history->timeline : exploration::Timeline());
   file.write(text.str());
   file.commit();
 }

@@ -39,6 +39,10 @@ const void* common_of(const posix::Record& record, posix::family::Part part) {
   return family_of(record).parts[static_cast<int>(part)];
 }
 
+const posix::History* history_of(const posix::Record& record) {
+  return static_cast<const posix::History*>(common_of(record, posix::family::Part::history));
+}
+
 Digest digest_of(const posix::Record& record) {
   const Family& family = family_of(record);
   if (family.made < 2 && family.digest_of_ended == 0) return record.digest();

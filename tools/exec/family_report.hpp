@@ -9,6 +9,7 @@
 #include <string>
 
 #include "core/digest.hpp"
+#include "fibers/posix/exec/history.hpp"
 #include "fibers/posix/family/processes.hpp"
 #include "fibers/posix/program/record.hpp"
 
@@ -16,6 +17,8 @@ namespace waitpoint::tools {
 
 /// What the processes share for a part of the layer; null if they have used none.
 const void* common_of(const posix::Record& record, posix::family::Part part);
+/// The events and choices of all processes; null if none were asked for.
+const posix::History* history_of(const posix::Record& record);
 /// The digest of all processes.
 Digest digest_of(const posix::Record& record);
 /// "2 processes, 3 threads, 2 at once, 40 events, 12 switches, 0.5 s of virtual time".

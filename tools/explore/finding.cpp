@@ -115,11 +115,11 @@ void Finding::take(const exploration::Schedule& schedule, bool has_parted) {
   deviations = schedule.deviations();
 }
 
-void Finding::tell(const exploration::Narrator& narrator, bool decision_asked, bool switches_too) {
-  if (const auto& answer = narrator.answer(); decision_asked && answer)
+void Finding::tell(const exploration::Narration& narration, bool decision_asked, bool switches_too) {
+  if (const auto& answer = narration.answer; decision_asked && answer)
     told = "at " + to_string(answer->time) + " s: " + answer->words;
   else if (switches_too)
-    told = to_text(narrator.switches(), lines_of_switches_max);
+    told = to_text(narration.switches, lines_of_switches_max);
 }
 
 void Finding::tell(const exploration::Timeline& timeline, bool trace_too) {

@@ -43,7 +43,7 @@ struct Finding {
   /// Copies the choices, and for a failure its switches.
   void take(const exploration::Schedule& schedule, bool has_parted);
   /// Copies the requested decision, or with `switches_too` the switches in words.
-  void tell(const exploration::Narrator& narrator, bool decision_asked, bool switches_too);
+  void tell(const exploration::Narration& narration, bool decision_asked, bool switches_too);
   /// Copies the tasks' events.
   void tell(const exploration::Timeline& timeline, bool trace_too);
   /// Copies the event before which the run was to end, with its task's call stack.

@@ -128,8 +128,8 @@ Finding finding_of_run(const RunMemory& memory, int status, const std::string& o
   if (record.explored == nullptr) return finding;
   const posix::Explored& explored = *record.explored;
   finding.digest = digest_of(record).value();
-  finding.end = record.scheduler.global_time();
-  finding.events = record.scheduler.events();
+  finding.end = time_of(record);
+  finding.events = events_of(record);
   const exploration::Schedule schedule = schedule_of(record);
   finding.take(schedule, explored.explorer.parted());
   if (request.choices) finding.choices = schedule.decisions;
@@ -141,8 +141,10 @@ Finding finding_of_run(const RunMemory& memory, int status, const std::string& o
     const std::span<const std::uint64_t> code = code_of(record);
     finding.profile.code.assign(code.begin(), code.end());
   }
-  finding.tell(explored.narrator, request.decision.has_value(), request.words);
-  if (request.events) finding.tell(explored.timeline, trace_too);
+  if (const posix::History* const history = history_of(record); history != nullptr) {
+    finding.tell(history->narration, request.decision.has_value(), request.words);
+    if (request.events) finding.tell(history->timeline, trace_too);
+  }
   if (request.log_from) finding.log = explored.log;
   if (request.stop_before && !explored.stopped_before.empty()) {
     const sync::CodePlaces stacks[] = {explored.stopped_calls};

@@ -7,7 +7,7 @@
 #include <cstdio>
 
 #include "core/error.hpp"
-#include "fibers/posix/exec/exploration.hpp"
+#include "tools/exec/family_report.hpp"
 #include "tools/exec/program_run.hpp"
 #include "tools/explore/program_finding.hpp"
 #include "tools/explore/program_target.hpp"
@@ -53,8 +53,10 @@ int replay_program(const ExploreOptions& asked) {
   const ProgramRun run(files, memory);
   const Finding finding = finding_of_run(memory, run.status(), "", request, trace.has_value());
   if (memory.record().explored == nullptr) throw BadInput("exec", "the program ended before main()");
-  const posix::Explored& explored = *memory.record().explored;
-  check_is_run_of(record, {schedule_of(memory.record()), explored.narrator.switches(), finding}, options.replay);
+  const posix::History* const history = history_of(memory.record());
+  const std::vector<exploration::Told> told =
+      history != nullptr ? history->narration.switches : std::vector<exploration::Told>();
+  check_is_run_of(record, {schedule_of(memory.record()), told, finding}, options.replay);
   if (trace) {
     trace->write(finding.trace);
     trace->commit();

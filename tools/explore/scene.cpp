@@ -135,7 +135,7 @@ void Scene::watch_and_carry_out(const Plan& plan, const Request& request, Findin
   scheduler.set_watch(nullptr);
   scheduler.set_decisions(stage_->explorer);
   if (profiling) finding.profile.finish(stage_->explorer.steps());
-  finding.tell(narrator, request.decision.has_value(), request.words);
+  finding.tell(narrator.narration(), request.decision.has_value(), request.words);
   if (request.events) finding.tell(timeline, options_.trace.has_value());
   finding.trail = to_text(trail);
   if (request.stop_before) tell_stop(finding);
@@ -201,7 +201,7 @@ bridge::RunResult Scene::result() const {
   return result;
 }
 
-const std::vector<exploration::Told>& Scene::switches() const { return stage_->narrator.switches(); }
+const std::vector<exploration::Told>& Scene::switches() const { return stage_->narrator.narration().switches; }
 
 const exploration::Schedule& Scene::schedule() const { return stage_->explorer.schedule(); }
 

@@ -25,23 +25,26 @@ std::string milliseconds(Duration duration) {
 
 }  // namespace
 
+void Narration::add(const Told& told, bool is_switch, bool is_answer) {
+  if (is_answer) answer = told;
+  if (is_switch) switches.push_back(told);
+}
+
 // Called after the explorer, whose last decision is then the current one.
 template <class Words>
-void Narrator::tell(const Words& words) {
-  const std::vector<Decision>& decisions = explorer_.schedule().decisions;
-  if (decisions.size() == decisions_) return;  // there was no choice
-  decisions_ = decisions.size();
-  const bool asked = asked_ && *asked_ + 1 == decisions_;
-  if (!asked && !decisions.back().is_switch()) return;
-  const Told told{scheduler_.global_time(), scheduler_.events(), words(decisions.back())};
-  if (asked) answer_ = told;
-  if (decisions.back().is_switch()) switches_.push_back(told);
+void Narrator::tell(std::size_t decisions_before, const Words& words) {
+  if (decisions() == decisions_before) return;  // there was no choice
+  const Decision& decision = explorer_.schedule().decisions.back();
+  const bool is_answer = asked_ && *asked_ + 1 == decisions();
+  if (!is_answer && !decision.is_switch()) return;
+  keep({scheduler_.global_time(), scheduler_.events(), words(decision)}, decision.is_switch(), is_answer);
 }
 
 std::uint32_t Narrator::next(Task* const* ready, std::uint32_t count) {
+  const std::size_t before = decisions();
   const std::uint32_t chosen = explorer_.next(ready, count);
   if (count > 1 && chosen < count)
-    tell([&](const Decision& decision) {
+    tell(before, [&](const Decision& decision) {
       const std::string one = in_brackets(*ready[decision.chosen]);
       if (decision.is_switch()) return one + " goes first instead of " + in_brackets(*ready[decision.usual]);
       return one + " goes first, the default of " + counted(count, "task");
@@ -50,18 +53,31 @@ std::uint32_t Narrator::next(Task* const* ready, std::uint32_t count) {
 }
 
 std::uint32_t Narrator::among(Choice choice, const Task& task, std::uint32_t count) {
+  const std::size_t before = decisions();
   const std::uint32_t chosen = explorer_.among(choice, task, count);
-  tell([&](const Decision& decision) {
+  tell(before, [&](const Decision& decision) {
     return in_brackets(task) + " " + in_words(choice, task, decision.chosen, count);
   });
   return chosen;
 }
 
 Duration Narrator::computing(const Task& task, Duration least, Duration greatest) {
+  const std::size_t before = decisions();
   const Duration chosen = explorer_.computing(task, least, greatest);
-  tell([&](const Decision& decision) {
+  tell(before, [&](const Decision& decision) {
     return title_of(task) + " computes " + milliseconds(chosen) +
            (decision.is_switch() ? " instead of " + milliseconds(greatest) : ", the default");
+  });
+  return chosen;
+}
+
+std::uint32_t Narrator::process(const Task& task, std::span<const char* const> names, bool can_continue) {
+  const std::size_t before = decisions();
+  const std::uint32_t chosen = explorer_.process(task, static_cast<std::uint32_t>(names.size()), can_continue);
+  tell(before, [&](const Decision& decision) {
+    const std::string one = std::string("process ") + names[decision.chosen];
+    if (decision.is_switch()) return one + " goes first instead of process " + names[decision.usual];
+    return one + " goes first, the default of " + std::to_string(names.size()) + " processes";
   });
   return chosen;
 }

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -18,30 +19,40 @@ struct Told {
   std::string words;
 };
 
-class Narrator final : public kernel::Decisions {
+struct Narration {
+  std::vector<Told> switches;
+  std::optional<Told> answer;  ///< the decision that was asked for
+
+  void add(const Told& told, bool is_switch, bool is_answer);
+};
+
+class Narrator : public kernel::Decisions {
  public:
   Narrator(kernel::Scheduler& scheduler, Explorer& explorer) : scheduler_(scheduler), explorer_(explorer) {}
 
   /// Also describes decision `number`, default or not.
   void ask_for(std::size_t number) { asked_ = number; }
 
-  const std::vector<Told>& switches() const { return switches_; }
-  const std::optional<Told>& answer() const { return answer_; }
+  const Narration& narration() const { return narration_; }
 
   std::uint32_t next(kernel::Task* const* ready, std::uint32_t count) override;
   std::uint32_t among(kernel::Choice choice, const kernel::Task& task, std::uint32_t count) override;
   Duration computing(const kernel::Task& task, Duration least, Duration greatest) override;
+  /// As Explorer::process(); the processes have these names.
+  std::uint32_t process(const kernel::Task& task, std::span<const char* const> names, bool can_continue);
+
+ protected:
+  virtual void keep(const Told& told, bool is_switch, bool is_answer) { narration_.add(told, is_switch, is_answer); }
 
  private:
   template <class Words>
-  void tell(const Words& words);
+  void tell(std::size_t decisions_before, const Words& words);
+  std::size_t decisions() const { return explorer_.schedule().decisions.size(); }
 
   kernel::Scheduler& scheduler_;
   Explorer& explorer_;
-  std::size_t decisions_ = 0;
   std::optional<std::size_t> asked_;
-  std::optional<Told> answer_;
-  std::vector<Told> switches_;
+  Narration narration_;
 };
 
 /// "12.340000000 s  segloc.slam of rackham computes 33 ms instead of 95 ms": one a line, indented; the last

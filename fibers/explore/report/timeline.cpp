@@ -20,7 +20,7 @@ constexpr std::size_t repeated_max = 8;   // longest sequence of lines checked f
 constexpr std::size_t repeats_shown = 3;  // repetitions up to this number are printed in full
 
 std::string line_of(const Timeline& timeline, const TimelineEvent& event, std::size_t width) {
-  const std::string& task = timeline.tasks[event.task];
+  const std::string& task = timeline.tasks[event.task].title;
   std::string line = "  " + to_string(event.time) + (event.is_switch ? " * " : "   ") + task;
   line += std::string(width - task.size() + 2, ' ') + name(event.operation);
   return event.object.empty() ? line : line + " " + event.object;
@@ -66,6 +66,31 @@ std::string microseconds(std::int64_t ns) {
   return std::to_string(ns / 1000) + "." + std::string(3 - digits.size(), '0') + digits;
 }
 
+const TimelineProcess of_simulation{1, "waitpoint"};
+
+// ",\"pid\":1,\"tid\":2" for a task.
+std::string place_of(const Timeline& timeline, std::uint32_t task) {
+  const TimelineProcess& process =
+      timeline.processes.empty() ? of_simulation : timeline.processes[timeline.tasks[task].process];
+  return ",\"pid\":" + std::to_string(process.id) + ",\"tid\":" + std::to_string(task + 1);
+}
+
+void name_rows(std::ostream& out, const Timeline& timeline) {
+  const auto row = [&out](const char* kind, const std::string& place, const std::string& name) {
+    out << "{\"ph\":\"M\",\"name\":\"" << kind << "\"" << place << ",\"args\":{\"name\":" << quoted(name) << "}}";
+  };
+  for (std::uint32_t i = 0; i < timeline.tasks.size(); ++i) {
+    row("thread_name", place_of(timeline, i), timeline.tasks[i].title);
+    out << ",\n";
+  }
+  const std::vector<TimelineProcess> one = {of_simulation};
+  const std::vector<TimelineProcess>& processes = timeline.processes.empty() ? one : timeline.processes;
+  for (const TimelineProcess& process : processes) {
+    row("process_name", ",\"pid\":" + std::to_string(process.id), process.name);
+    out << (&process != &processes.back() ? ",\n" : "\n");
+  }
+}
+
 // The task's state after an event, until its `next` one or, without one, the end of the run.
 std::string state_after(const TimelineEvent& event, const TimelineEvent* next) {
   if (event.operation == kernel::Operation::end) return "";
@@ -78,7 +103,7 @@ std::string state_after(const TimelineEvent& event, const TimelineEvent* next) {
 
 std::string to_text(const Timeline& timeline, std::size_t lines_max) {
   std::size_t width = 0;
-  for (const std::string& task : timeline.tasks) width = std::max(width, task.size());
+  for (const TimelineTask& task : timeline.tasks) width = std::max(width, task.title.size());
   std::vector<std::string> lines;
   for (const TimelineEvent& event : timeline.events) lines.push_back(line_of(timeline, event, width));
   lines = with_repeats_told(std::move(lines));
@@ -103,12 +128,9 @@ void write_trace(std::ostream& out, const Timeline& timeline) {
     following[events[i].task] = i;
   }
   out << "{\"displayTimeUnit\":\"ns\",\"traceEvents\":[\n";
-  for (std::size_t i = 0; i < timeline.tasks.size(); ++i)
-    out << "{\"ph\":\"M\",\"name\":\"thread_name\",\"pid\":1,\"tid\":" << i + 1
-        << ",\"args\":{\"name\":" << quoted(timeline.tasks[i]) << "}},\n";
   for (std::size_t i = 0; i < events.size(); ++i) {
     const TimelineEvent& event = events[i];
-    const std::string where = ",\"pid\":1,\"tid\":" + std::to_string(event.task + 1);
+    const std::string where = place_of(timeline, event.task);
     const auto slice = [&](const std::string& title, const char* kind, std::int64_t from_ns, std::int64_t to_ns) {
       out << "{\"ph\":\"X\",\"name\":" << quoted(title) << ",\"cat\":\"" << kind
           << "\",\"ts\":" << microseconds(from_ns) << ",\"dur\":" << microseconds(to_ns - from_ns) << where << "},\n";
@@ -122,11 +144,12 @@ void write_trace(std::ostream& out, const Timeline& timeline) {
     if (event.woken_by < 0) continue;
     const auto from = static_cast<std::size_t>(event.woken_by);
     out << "{\"ph\":\"s\",\"name\":\"wakes\",\"cat\":\"wake\",\"id\":" << i
-        << ",\"ts\":" << microseconds(stamps_ns[from]) << ",\"pid\":1,\"tid\":" << events[from].task + 1 << "},\n";
+        << ",\"ts\":" << microseconds(stamps_ns[from]) << place_of(timeline, events[from].task) << "},\n";
     out << "{\"ph\":\"f\",\"bp\":\"e\",\"name\":\"wakes\",\"cat\":\"wake\",\"id\":" << i
         << ",\"ts\":" << microseconds(stamps_ns[i]) << where << "},\n";
   }
-  out << "{\"ph\":\"M\",\"name\":\"process_name\",\"pid\":1,\"args\":{\"name\":\"waitpoint\"}}\n]}\n";
+  name_rows(out, timeline);
+  out << "]}\n";
 }
 
 }  // namespace waitpoint::exploration

@@ -26,9 +26,21 @@ struct TimelineEvent {
   bool is_switch;         ///< it was chosen over the default order's event
 };
 
+struct TimelineProcess {
+  std::int64_t id;
+  std::string name;
+};
+
+struct TimelineTask {
+  std::string title;
+  std::uint32_t process = 0;  ///< index of Timeline::processes
+};
+
 struct Timeline {
-  std::vector<std::string> tasks;  ///< task titles, in the order of their first events
+  std::vector<TimelineProcess> processes;  ///< empty: the one of the simulation
+  std::vector<TimelineTask> tasks;         ///< in the order of their first events
   std::vector<TimelineEvent> events;
+  std::size_t decisions = 0;  ///< of the explorer, up to the last event
 };
 
 /// The last events, one a line: the time, the task in its column, its operation; with an asterisk at a switch. Cycles
@@ -36,7 +48,8 @@ struct Timeline {
 std::string to_text(const Timeline& timeline, std::size_t lines_max);
 
 /// Chrome's trace format (JSON). At one instant, events are spaced a nanosecond apart, with that length. From there to
-/// its next event, or the end, a task is shown waiting, sleeping or, if time passes, computing.
+/// its next event, or the end, a task is shown waiting, sleeping or, if time passes, computing. A process's tasks are
+/// below it.
 void write_trace(std::ostream& out, const Timeline& timeline);
 
 }  // namespace waitpoint::exploration

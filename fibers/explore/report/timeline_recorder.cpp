@@ -15,26 +15,41 @@ TimelineRecorder::TimelineRecorder(Timeline& timeline, const Explorer* explorer,
 
 std::uint32_t TimelineRecorder::number_of(const Task& task) {
   const auto [known, is_new] = numbers_.emplace(task.id, static_cast<std::uint32_t>(timeline_.tasks.size()));
-  if (is_new) timeline_.tasks.push_back(title_of(task));
+  if (is_new) timeline_.tasks.push_back({title_of(task), process_});
   return known->second;
 }
 
-// True if the event now executing was chosen over the default: call it once per event.
+void TimelineRecorder::begin_process(const TimelineProcess& process) {
+  process_ = static_cast<std::uint32_t>(timeline_.processes.size());
+  timeline_.processes.push_back(process);
+}
+
+void TimelineRecorder::pause() {
+  if (last_ == nullptr) return;
+  TimelineEvent& last = timeline_.events[last_event_];
+  if (last.operation != Operation::end && last_->state == kernel::TaskState::blocked)
+    last.waits_for = sync::describe(*last_->blocked_on);
+}
+
+// True if the event now executing, or its process, was chosen over the default: call it once per event.
 bool TimelineRecorder::is_switch(const Explorer& explorer) {
   const std::vector<Decision>& decisions = explorer.schedule().decisions;
-  const bool is_new = decisions.size() > decisions_;
-  decisions_ = decisions.size();
-  return is_new && decisions.back().is_switch() && decisions.back().choice == Choice::task;
+  bool is_one = false;
+  for (std::size_t i = timeline_.decisions; i < decisions.size(); ++i)
+    if (decisions[i].choice == Choice::task || decisions[i].choice == Choice::process)
+      is_one = decisions[i].is_switch() || (is_one && decisions[i - 1].choice == Choice::process);
+  timeline_.decisions = decisions.size();
+  return is_one;
 }
 
 // After its event a task either waits, or is ready for the next: another task's event shows which. If none intervened,
 // its next event shows that it had waited.
 void TimelineRecorder::note_wait(const kernel::EventRecord& record) {
   if (last_ == nullptr) return;
-  TimelineEvent& last = timeline_.events.back();
+  TimelineEvent& last = timeline_.events[last_event_];
   if (last.operation == Operation::end) return;
   if (record.task != last_) {
-    if (last_->state == kernel::TaskState::blocked) last.waits_for = sync::describe(*last_->blocked_on);
+    pause();
   } else if (record.object != nullptr &&
              (record.operation == Operation::resume || record.operation == Operation::timeout)) {
     last.waits_for = sync::describe(*record.object);
@@ -48,6 +63,7 @@ void TimelineRecorder::record(kernel::Watch& watch, const kernel::EventRecord& r
   std::vector<TimelineEvent>& events = self.timeline_.events;
   self.note_wait(record);
   self.last_ = record.task;
+  self.last_event_ = events.size();
   std::int64_t woken_by = -1;
   if (record.object != nullptr && record.operation == Operation::resume) {
     const auto last = self.last_release_.find(record.object->identity);

@@ -9,11 +9,17 @@
 
 namespace waitpoint::exploration {
 
-/// The events of one run from `from` on, as its scheduler's watch.
+/// The events of one run from `from` on, as its scheduler's watch. Several processes of one simulation have each its
+/// own, for the same timeline.
 class TimelineRecorder : public kernel::Watch {
  public:
   /// Without an explorer no event is a switch; it must outlive the recorder.
   TimelineRecorder(Timeline& timeline, const Explorer* explorer, Time from = Time());
+
+  /// The events from now on are of this process, whose tasks have had none.
+  void begin_process(const TimelineProcess& process);
+  /// Before another process's events: notes what the task of the last event waits for.
+  void pause();
 
  private:
   static void record(kernel::Watch& watch, const kernel::EventRecord& record);
@@ -26,8 +32,9 @@ class TimelineRecorder : public kernel::Watch {
   Time from_;
   std::map<std::uint64_t, std::uint32_t> numbers_;      // by task id
   std::map<std::uint64_t, std::int64_t> last_release_;  // by object id: the last event that may have woken another task
-  std::size_t decisions_ = 0;
+  std::uint32_t process_ = 0;
   const Task* last_ = nullptr;  // the task of the last recorded event
+  std::size_t last_event_ = 0;  // its index
 };
 
 }  // namespace waitpoint::exploration

@@ -59,6 +59,10 @@ const Asked* shared_copy(const Asked& asked) {
   copy.deviations = shared_copy(asked.deviations);
   copy.at_random_from = asked.at_random_from;
   copy.steps = asked.steps;
+  copy.words = asked.words;
+  copy.events = asked.events;
+  copy.events_from = asked.events_from;
+  copy.decision = asked.decision;
   return &copy;
 }
 
@@ -93,14 +97,14 @@ void Explored::watch(kernel::Scheduler& scheduler, const Asked& asked) {
   if (asked.stops)
     processes.emplace(scheduler, explorer, stop_.emplace(scheduler, explorer, asked.stop_before), begin_in_process);
   else if (asked.words || asked.decision != Asked::none)
-    processes.emplace(scheduler, explorer, narrator, begin_in_process);
+    processes.emplace(scheduler, explorer, narrator, begin_in_process, &narrator);
   else
     processes.emplace(scheduler, explorer, explorer, begin_in_process);
   scheduler.set_decisions(*processes);
   if (asked.profile)
     scheduler.set_watch(&profiling_.emplace(profile));
   else if (asked.events)
-    scheduler.set_watch(&recorder_.emplace(timeline, &explorer, asked.events_from));
+    scheduler.set_watch(&recorder.emplace(&explorer, asked.events_from));
   else if (asked.log_from != Asked::none)
     scheduler.set_watch(&log_.emplace(log, explorer, asked.log_from));
 }

@@ -8,13 +8,12 @@
 #include <optional>
 #include <span>
 
-#include "fibers/explore/report/narrator.hpp"
-#include "fibers/explore/report/timeline_recorder.hpp"
 #include "fibers/explore/schedules/course.hpp"
 #include "fibers/explore/schedules/event_log.hpp"
 #include "fibers/explore/schedules/event_stop.hpp"
 #include "fibers/explore/schedules/explorer.hpp"
 #include "fibers/explore/strategies/profile.hpp"
+#include "fibers/posix/exec/history.hpp"
 #include "fibers/posix/exec/process_choices.hpp"
 #include "fibers/sync/source_lines.hpp"
 
@@ -53,16 +52,9 @@ struct Asked {
   exploration::EventOf stop_before;
 };
 
-/// A request that programs which are started later can read, in the family's memory: without what only reports need.
+/// A request that programs which are started later can read, in the family's memory: without what is about the first
+/// process's events only.
 const Asked* shared_copy(const Asked& asked);
-
-/// All events of a run. Made by the program, before its first thread.
-struct Trace {
-  Trace() : recorder(timeline, nullptr) {}
-
-  exploration::Timeline timeline;
-  exploration::TimelineRecorder recorder;
-};
 
 /// The results of a run whose schedule is explored.
 struct Explored {
@@ -72,15 +64,15 @@ struct Explored {
   Explored& operator=(const Explored&) = delete;
 
   exploration::Explorer explorer;
-  exploration::Narrator narrator;
+  HistoryNarrator narrator;
   std::optional<ProcessChoices> processes;
   exploration::Profile known;
   std::unique_ptr<exploration::Strategy> strategy;
   exploration::Profile profile;
-  exploration::Timeline timeline;
   std::vector<exploration::DoneEvent> log;
-  std::string stopped_before;      ///< an event, in words; empty if the run did not reach it
-  sync::CodePlaces stopped_calls;  ///< its task's call stack, without the layer's own frames
+  std::optional<HistoryRecorder> recorder;  ///< if events are asked for
+  std::string stopped_before;               ///< an event, in words; empty if the run did not reach it
+  sync::CodePlaces stopped_calls;           ///< its task's call stack, without the layer's own frames
 
   /// After the run: notes if it has stopped where requested.
   void note_stop();
@@ -93,7 +85,6 @@ struct Explored {
   void watch(kernel::Scheduler& scheduler, const Asked& asked);
 
   std::optional<exploration::Profiling> profiling_;
-  std::optional<exploration::TimelineRecorder> recorder_;
   std::optional<exploration::EventLog> log_;
   std::optional<exploration::EventStop> stop_;
 };

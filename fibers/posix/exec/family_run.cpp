@@ -7,6 +7,7 @@
 #include "fibers/posix/descriptors/descriptors.hpp"
 #include "fibers/posix/descriptors/pace.hpp"
 #include "fibers/posix/exec/exploration.hpp"
+#include "fibers/posix/exec/history.hpp"
 #include "fibers/posix/family/turn.hpp"
 #include "fibers/posix/program/program.hpp"
 #include "fibers/posix/time/clocks.hpp"
@@ -109,6 +110,7 @@ bool wait_for_pace(const kernel::Scheduler& scheduler, Time next, Time now) {
 
 bool step_in_family(kernel::Scheduler& scheduler, Time& until) {
   family::Family& all = *family::family;
+  if (record->recorder != nullptr) record->recorder->pause();
   do {
     if (all.is_over) return false;
     note_actions(scheduler);

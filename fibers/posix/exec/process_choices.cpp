@@ -87,7 +87,12 @@ Process* ProcessChoices::choose(bool can_stay) {
   const kernel::Task* const task = scheduler_.first_task();
   if (candidates.size() < 2 || task == nullptr) return candidates.empty() ? nullptr : candidates[0];
   const SharedChoice choice(explorer_);
-  return candidates[explorer_.process(*task, static_cast<std::uint32_t>(candidates.size()), candidates[0] == &last)];
+  const bool can_continue = candidates[0] == &last;
+  if (narrator_ == nullptr)
+    return candidates[explorer_.process(*task, static_cast<std::uint32_t>(candidates.size()), can_continue)];
+  std::vector<const char*> names;
+  for (const Process* const process : candidates) names.push_back(process->name);
+  return candidates[narrator_->process(*task, names, can_continue)];
 }
 
 std::uint32_t ProcessChoices::next(kernel::Task* const* ready, std::uint32_t count) {

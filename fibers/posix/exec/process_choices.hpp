@@ -7,6 +7,7 @@
 // takes over those of the others.
 #pragma once
 
+#include "fibers/explore/report/narrator.hpp"
 #include "fibers/explore/schedules/explorer.hpp"
 #include "fibers/posix/family/family.hpp"
 
@@ -26,13 +27,18 @@ struct SharedSchedule {
   std::uint32_t last;  ///< the place in the table of the process of the last event
 };
 
-/// Sits between the kernel and the process's `decisions`, which record their choices in `explorer`.
+/// Sits between the kernel and the process's `decisions`, which record their choices in `explorer`. The narrator, if
+/// there is one, describes the choices of processes.
 class ProcessChoices final : public kernel::Decisions {
  public:
   /// `begin_in_process` is called in each other process than the first, before its first choice.
   ProcessChoices(kernel::Scheduler& scheduler, exploration::Explorer& explorer, kernel::Decisions& decisions,
-                 void (*begin_in_process)())
-      : scheduler_(scheduler), explorer_(explorer), decisions_(decisions), begin_in_process_(begin_in_process) {}
+                 void (*begin_in_process)(), exploration::Narrator* narrator = nullptr)
+      : scheduler_(scheduler),
+        explorer_(explorer),
+        decisions_(decisions),
+        begin_in_process_(begin_in_process),
+        narrator_(narrator) {}
 
   std::uint32_t next(kernel::Task* const* ready, std::uint32_t count) override;
   std::uint32_t among(kernel::Choice choice, const kernel::Task& task, std::uint32_t count) override;
@@ -49,6 +55,7 @@ class ProcessChoices final : public kernel::Decisions {
   exploration::Explorer& explorer_;
   kernel::Decisions& decisions_;
   void (*begin_in_process_)();
+  exploration::Narrator* narrator_;
   family::Process* chosen_ = nullptr;
   pid_t process_ = 0;  // the one that the strategy has begun in
 };

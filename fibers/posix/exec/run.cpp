@@ -138,10 +138,8 @@ kernel::Scheduler& begin_run() {
   names_waitables =
       record->settings.traced ||
       (asked != nullptr && (asked->words || asked->events || asked->stops || asked->decision != Asked::none));
-  if (record->settings.traced) {
-    record->trace = new Trace();
-    scheduler.set_watch(&record->trace->recorder);
-  }
+  if (record->settings.traced) scheduler.set_watch(record->recorder = new HistoryRecorder(nullptr));
+  if (record->explored != nullptr && record->explored->recorder) record->recorder = &*record->explored->recorder;
   begin_idle_watch(scheduler);
   before_partner = prepare_to_keep_pace;
   record->running = &kernel::running;
@@ -215,10 +213,14 @@ const char* failure_in_words(Ending ending) {
 
 // The first program has the first process's name; further ones, by exec too, names with their process's number.
 void begin_robot(kernel::Scheduler& scheduler, const char* name) {
-  if (!family::is_joined()) return scheduler.add(record->robot, name);
+  if (!family::is_joined()) {
+    scheduler.add(record->robot, name);
+    return kernel::copy_name(family::own->name, name);
+  }
   // A session has given it one.
   if (const char* const given = getenv(name_variable); given != nullptr) {
     scheduler.add(record->robot, given);
+    kernel::copy_name(family::own->name, given);
     unsetenv(name_variable);
     record->robot.digest_in_use = &family::own->digest;
     return;
@@ -226,6 +228,7 @@ void begin_robot(kernel::Scheduler& scheduler, const char* name) {
   char numbered[kernel::name_size];
   std::snprintf(numbered, sizeof numbered, "%.36s#%d", name, static_cast<int>(family::own->id));
   scheduler.add(record->robot, numbered);
+  kernel::copy_name(family::own->name, numbered);
   record->robot.digest_in_use = &family::own->digest;
 }
 

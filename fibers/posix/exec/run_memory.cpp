@@ -34,7 +34,6 @@ void make_record() {
   record = new (memory) Record();
   record->settings = family.settings;
   record->file = family.file;
-  record->settings.traced = false;
 }
 
 }  // namespace

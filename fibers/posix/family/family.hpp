@@ -26,7 +26,20 @@
 namespace waitpoint::posix::family {
 
 /// The parts of the layer with a state that the processes share.
-enum class Part { names, futexes, semaphores, memory, messages, inside_files, schedule, files, ports, races, count };
+enum class Part {
+  names,
+  futexes,
+  semaphores,
+  memory,
+  messages,
+  inside_files,
+  schedule,
+  files,
+  ports,
+  races,
+  history,
+  count
+};
 
 inline constexpr int processes_max = 1024;
 /// The number of the first process; the others count on, with their threads.
@@ -62,6 +75,7 @@ struct Process {
   bool is_unnoted = false;      ///< it was stopped since its parent last took note
   bool drops_children = false;  ///< it ignores SIGCHLD: its children leave no status
   pid_t id = 0;
+  char name[kernel::name_size] = {};  ///< as its robot's: "sh", "sh#1003"; empty before its first program
   pid_t parent = no_parent;
   pid_t group = 0, session = 0;
   std::atomic<pid_t> real_id = 0;  ///< of the system; 0 until it is known

@@ -56,7 +56,11 @@ int expect_child() {
   if (room == MAP_FAILED) return ENOMEM;
   copy_of_record = room;
   expected = family::expect_child();
-  if (expected != nullptr) return 0;
+  if (expected != nullptr) {
+    const auto number = static_cast<int>(expected->id);
+    std::snprintf(expected->name, sizeof expected->name, "%.36s#%d", program_invocation_short_name, number);
+    return 0;
+  }
   drop_copy();
   return EAGAIN;
 }
@@ -86,8 +90,7 @@ void begin_events() {
   kernel::Scheduler& scheduler = *kernel::running->scheduler;
   kernel::Robot& robot = record->robot;
   const auto number = static_cast<std::uint64_t>(family::own->id);
-  std::snprintf(robot.name, sizeof robot.name, "%.36s#%d", program_invocation_short_name,
-                static_cast<int>(family::own->id));
+  kernel::copy_name(robot.name, family::own->name);
   robot.id = Digest::mix(robot.id + number);
   robot.digest = PairDigest();
   robot.digest_in_use = &family::own->digest;

@@ -43,7 +43,7 @@ struct RunFile {
 
 struct Asked;
 struct Explored;
-struct Trace;
+class HistoryRecorder;
 
 struct Settings {
   kernel::Order order = kernel::Order::seeded;
@@ -81,8 +81,8 @@ struct alignas(Arena::alignment) Record {
   bool began = false;  ///< the scheduler exists
   Ending ending = Ending::own;
   Explored* explored = nullptr;
-  Trace* trace = nullptr;
-  Arena arena;  ///< the rest of the file, behind this record
+  HistoryRecorder* recorder = nullptr;  ///< if events are asked for
+  Arena arena;                          ///< the rest of the file, behind this record
   std::uint32_t threads_made = 0;
   std::uint32_t threads_most = 0;          ///< at once
   kernel::Task* const* running = nullptr;  ///< the program's kernel::running

@@ -69,6 +69,21 @@ TEST(Timeline, ATraceShowsHowLongTasksComputeSleepAndWait) {
   EXPECT_NEAR(length_us(trace, "waiting for semaphore #3 \\\"never"), 500'000, about) << trace;  // to the end
 }
 
+TEST(Timeline, ATraceShowsTasksBelowTheirProcesses) {
+  exploration::Timeline timeline;
+  timeline.processes = {{1000, "sh"}, {1001, "cat#1001"}};
+  timeline.tasks = {{"main#0 of sh"}, {"main#0 of cat#1001", 1}};
+  for (const std::uint32_t task : {0u, 1u})
+    timeline.events.push_back({Time(), task, kernel::Operation::start, "", "", -1, false});
+  std::ostringstream trace;
+  write_trace(trace, timeline);
+  for (const char* const part :
+       {"\"process_name\",\"pid\":1000,\"args\":{\"name\":\"sh\"}}", "\"pid\":1001,\"args\":{\"name\":\"cat#1001\"}}",
+        "\"thread_name\",\"pid\":1001,\"tid\":2,\"args\":{\"name\":\"main#0 of cat#1001\"}}",
+        "\"ts\":0.001,\"dur\":0.001,\"pid\":1001,\"tid\":2}"})
+    EXPECT_TRUE(contains(trace.str(), part)) << part << "\n" << trace.str();
+}
+
 TEST(Timeline, ALivelockIsToldInFewLines) {
   const ExploreReport report = explore([] {
     atomic<bool> never{false};
@@ -85,7 +100,8 @@ TEST(Timeline, ALivelockIsToldInFewLines) {
 
 TEST(Timeline, WhatIsRepeatedStandsThereOnceWithHowOften) {
   using kernel::Operation;
-  exploration::Timeline timeline{{"a#1"}, {}};
+  exploration::Timeline timeline;
+  timeline.tasks = {{"a#1"}};
   const auto add = [&](Operation operation, const char* object) {
     timeline.events.push_back({Time(), 0, operation, object, "", -1, false});
   };
@@ -103,7 +119,8 @@ TEST(Timeline, WhatIsRepeatedStandsThereOnceWithHowOften) {
 
 TEST(Timeline, WhatIsRepeatedWithinWhatIsRepeatedStandsThereOnceToo) {
   using kernel::Operation;
-  exploration::Timeline timeline{{"a#1", "b#2"}, {}};
+  exploration::Timeline timeline;
+  timeline.tasks = {{"a#1"}, {"b#2"}};
   const auto add = [&](std::uint32_t task, Operation operation, int times) {
     for (int i = 0; i < times; ++i) timeline.events.push_back({Time(), task, operation, "", "", -1, false});
   };
