@@ -286,6 +286,58 @@ class Office(unittest.TestCase):
             self.assertIn("expected a command to run", status(*words)[1])
 
 
+class Processes(unittest.TestCase):
+    """A pipeline of a shell in `waitpoint gdb -- exec`."""
+
+    SCRIPT = "for i in 1 2 3; do echo $i; sleep 1; done | while read n; do echo $n; done | cat"
+
+    def of_pipeline(self, *commands):
+        return self.of_program(["sh", "-c", self.SCRIPT], *commands)
+
+    def of_program(self, words, *commands):
+        if not (BUILD / "libwaitpoint-exec.so").exists():
+            self.skipTest("this build has no library for programs")
+        return session(commands, ["--", "exec", "--", *words], start=[BUILD / "tools/waitpoint", "gdb", "-nx", "-batch"])
+
+    @staticmethod
+    def rows(table):
+        return [re.split(r" {2,}", line.strip(" *")) for line in table.splitlines()]
+
+    def test_fibers_of_all_are_listed(self):
+        told = self.of_pipeline("break-time 0.5", "run", "info fibers", "virtual-time", "back", "continue")
+        self.assertIn("event 6 at 3.000000050 s: main of sh: resume", told[1])
+        self.assertEqual(self.rows(told[2]), [
+            ["Process", "No", "Name", "Robot", "Module", "Local time", "State", "Waits for"],
+            ["1000", "1", "main", "sh", "-", "3.000000050", "running"],
+            ["1002", "1", "main", "sh#1002", "-", "3.000000050", "ready", "its turn: receive"],
+            ["1003", "1", "main", "cat#1003", "-", "2.000000050", "blocked", "receive descriptor #1"]])
+        self.assertRegex(told[2], r"\n\* +1000 ")
+        self.assertIn("`waitpoint exec` has none", told[4])
+        self.assertIn("exited normally", told[5])
+
+    def test_the_programs_own_frames_are_selected(self):
+        program = folder() / "ends"
+        subprocess.run(["gcc", "-g", "-O1", "-pthread", ROOT / "tests/exec/ends.c", "-o", program], check=True)
+        told = self.of_program([program, "deadlock"], "break-time 1", "run", "next-event", "fiber main", "process", "continue")
+        self.assertRegex(told[1], r"#\d+ .* in end \(.*\n\d+\s+sleep\(2\);")
+        self.assertRegex(told[2], r"lock mutex.*\n#\d+ .* in end \(")
+        self.assertRegex(told[3], r"#\d+ .* in main \(.*\n\d+\s+sleep\(4\);")
+        self.assertEqual(told[4], "the program has no other process")
+        self.assertIn("deadlock at 4.000000000 s", told[5])
+
+    def test_another_process_is_looked_at(self):
+        told = self.of_pipeline("break-time 0.5", "run", "process 1003", "fiber main", "bt", "info fibers", "process 7", "detach",
+                                "process 1000", "virtual-time", "continue")
+        self.assertIn("process 1003, cat#1003", told[2])
+        self.assertIn("Fiber 1, main of cat#1003, at 2.000000050 s, blocked: receive descriptor #1", told[3])
+        self.assertRegex(told[4], r"#\d+ (.* in )?read\(int")
+        self.assertEqual([row[0] for row in self.rows(told[5])[1:]], ["1000", "1002", "1003"])
+        self.assertIn("there is no process '7'", told[6])
+        self.assertIn("process 1000, sh", told[8])
+        self.assertIn("3.000000050 s, event 6; main of sh", told[9])
+        self.assertIn("exited normally", told[10])
+
+
 def may_debug():
     done = subprocess.run([*PLAIN[:3], "-ex", "run", "--args", "true"], capture_output=True, text=True, env=CLEAN)
     return "exited normally" in done.stdout

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What gdb needs to see fibers as it sees threads, to step from event to event, and to step back."""
 
-from . import back, core_files, looking, selection, stepping, watching
+from . import back, core_files, looking, processes, selection, stepping, watching
 
 
 def register():
@@ -9,6 +9,7 @@ def register():
     selection.register()
     watching.register()
     looking.register()
+    processes.register()
     stepping.register()
     back.register()
     core_files.register()

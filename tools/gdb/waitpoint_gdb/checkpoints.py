@@ -13,6 +13,7 @@ import signal
 import gdb
 
 from . import records
+from .processes import own_entry
 
 SPACING_MIN = 65536  # events: a replay of some 50 ms
 MOST = 12
@@ -53,8 +54,11 @@ class Exit(gdb.Breakpoint):
 
 
 def wanted():
-    """Not for an attached process: its forks would continue after gdb detaches."""
-    return gdb.parameter("waitpoint-checkpoints") and not refused and not gdb.selected_inferior().was_attached
+    """Not for an attached process: its forks would continue after gdb detaches. Nor under `waitpoint exec`: a fork has no
+    copy of the memory that the processes share."""
+    if own_entry() or gdb.selected_inferior().was_attached:
+        return False
+    return gdb.parameter("waitpoint-checkpoints") and not refused
 
 
 def listed():
@@ -131,6 +135,8 @@ def restart_before(event):
     before = [made for made, (number, process) in kept.items() if made <= event and processes.get(number) == process]
     if not before:
         why = "gdb did not watch the process then" if wanted() else "none are made (show waitpoint-checkpoints)"
+        if own_entry():
+            why = "`waitpoint exec` has none"
         raise gdb.GdbError(f"there is no checkpoint before that event: {why}")
     nearest = max(before)
     gdb.execute(f"restart {kept[nearest][0]}", to_string=True)

@@ -5,7 +5,7 @@ import re
 
 import gdb
 
-from . import fibers, records, selection
+from . import fibers, processes, records, selection
 
 
 def header(task, scheduler):
@@ -19,6 +19,7 @@ class Waitpoint(gdb.Command):
     info fibers            list the tasks of the run, with their virtual times and reasons to wait
     fiber N|NAME           select a parked task for bt, up, info locals, print
     fiber apply all bt     apply a command to all fibers, or to some: fiber apply 1 3 bt
+    process N              make another process of the program the present one
     virtual-time           show the time of the current event
     blocked-on OBJECT      list the waiters and holders of an object
     next-event [N]         continue to the next event of any task
@@ -34,22 +35,43 @@ class Waitpoint(gdb.Command):
         gdb.execute("help waitpoint")
 
 
+TITLES = ("No", "Name", "Robot", "Module", "Local time", "State", "Waits for")
+
+
+def row(task, state, waiting):
+    return (str(task.made), task.name_given, task.robot, task.module or "-", records.seconds(task.number("local_time.ns_")), state,
+            waiting)
+
+
+def rows_of_processes(all_processes):
+    yield ("", "Process", *TITLES)
+    for process in all_processes:
+        begin = ("*" if process.has_turn else "", str(process.id))
+        if process.is_native or process.is_stopped:
+            yield (*begin, "-", "-", process.name, "-", "-", "native" if process.is_native else "stopped", "")
+            continue
+        for task, state, waiting in process.tasks():
+            if state == "running" and not process.has_turn:
+                state, waiting = "ready", "its process's turn"
+            yield (*begin, *row(task, state, waiting))
+
+
 class InfoFibers(gdb.Command):
     """List the tasks of the run: number, name, robot, module, local virtual time in seconds, state, reason to wait.
 
-    Tasks are numbered in order of creation. A star marks the running one."""
+    Tasks are numbered in order of creation. A star marks the running one. Of several processes under `waitpoint exec`, the
+    tasks of all are listed, with their process's number first; a star marks the process that has the turn."""
 
     def __init__(self):
         super().__init__("info fibers", gdb.COMMAND_STATUS)
 
     def invoke(self, argument, from_tty):
         scheduler = records.scheduler()
-        rows = [("", "No", "Name", "Robot", "Module", "Local time", "State", "Waits for")]
-        for task in fibers.all_tasks(scheduler):
-            state = task.state
-            rows.append(("*" if state == "running" else "", str(task.made), task.name_given, task.robot, task.module or "-",
-                         records.seconds(task.number("local_time.ns_")), state,
-                         "" if state == "running" else fibers.waits_for(task, scheduler)))
+        if several := processes.all_processes():
+            rows = list(rows_of_processes(several))
+        else:
+            described = processes.described(scheduler.address)
+            rows = [("", *TITLES), *(("*" if task[1] == "running" else "", *row(*task)) for task in described)]
         widths = [max(map(len, column)) for column in zip(*rows)]
         print("\n".join("  ".join(word.ljust(width) for word, width in zip(row, widths)).rstrip() for row in rows))
 

@@ -6,18 +6,24 @@ from the bytes by the offsets in the debugging information: gdb's own values cos
 for thousands of tasks.
 """
 
+import contextlib
 import functools
 
 import gdb
 
 NAMESPACE = "waitpoint::kernel::"
 NO_TIME = 2**63 - 1  # Time::max(): never
+TEXT_PIECE = 64  # read at once: within a page
+
+
+other = None  # while another process's memory is read: see of_process()
 
 
 @functools.lru_cache(maxsize=None)
 def record_type(name):
+    """Of the kernel, or with its whole name."""
     try:
-        return gdb.lookup_type(NAMESPACE + name).strip_typedefs()
+        return gdb.lookup_type(name if name.startswith("waitpoint::") else NAMESPACE + name).strip_typedefs()
     except gdb.error:
         raise gdb.GdbError("this program has no tasks of waitpoint, or no debugging information (-g) of them") from None
 
@@ -35,6 +41,12 @@ def place(name, path):
         offset += field.bitpos // 8
         kind = field.type.strip_typedefs()
     return offset, kind.sizeof, kind.code == gdb.TYPE_CODE_INT and kind.is_signed
+
+
+def number_at(address, name, path):
+    """A member of a record that is not read as a whole."""
+    offset, size, signed = place(name, path)
+    return int.from_bytes(memory(address + offset, size), "little", signed=signed)
 
 
 @functools.lru_cache(maxsize=None)
@@ -58,14 +70,52 @@ def forget():
         cache.cache_clear()
 
 
+class Memory:
+    """Of another process, which has the same libraries, but not at the same addresses."""
+
+    def __init__(self, file, running):
+        self.file, self.running = file, running
+
+    def read(self, address, size):
+        self.file.seek(address)
+        return self.file.read(size)
+
+
+@contextlib.contextmanager
+def of_process(system_id, running):
+    """Reads records from the memory of another process; its record has the address of its variable `running` at `running`.
+    OSError if it has ended."""
+    global other
+    with open(f"/proc/{system_id}/mem", "rb", buffering=0) as file:
+        other = Memory(file, running)
+        try:
+            yield
+        finally:
+            other = None
+
+
 def memory(address, size):
-    return bytes(gdb.selected_inferior().read_memory(address, size))
+    if other is None:
+        return bytes(gdb.selected_inferior().read_memory(address, size))
+    return other.read(address, size)
+
+
+def text_at(address):
+    """The zero-terminated text at this address: a kind or a label."""
+    if not address:
+        return ""
+    if other is None:
+        return own_text_at(address)
+    text = b""
+    while b"\0" not in text:
+        text += other.read(address + len(text), TEXT_PIECE - (address + len(text)) % TEXT_PIECE)
+    return text.split(b"\0")[0].decode(errors="replace")
 
 
 @functools.lru_cache(maxsize=4096)
-def text_at(address):
-    """The zero-terminated text at this address: a kind or a label; they never change."""
-    return gdb.Value(address).cast(gdb.lookup_type("char").pointer()).string(errors="replace") if address else ""
+def own_text_at(address):
+    """They never change."""
+    return gdb.Value(address).cast(gdb.lookup_type("char").pointer()).string(errors="replace")
 
 
 class Record:
@@ -100,6 +150,9 @@ def address_of(variable):
 
 def running():
     """The address of the task whose code is executing, or 0."""
+    if other is not None:
+        variable = int.from_bytes(memory(other.running, 8), "little")
+        return int.from_bytes(memory(variable, 8), "little") if variable else 0
     return int.from_bytes(memory(address_of("running"), 8), "little")
 
 

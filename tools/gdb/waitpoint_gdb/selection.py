@@ -18,7 +18,7 @@ from . import records
 SAVED = {"rbx": 40, "rbp": 48, "rip": 56}
 STACK_ABOVE_CONTEXT = 64
 # Frames of the primitives and of the library's templates beneath them: not of interest to users.
-INNER = re.compile(r"(?<!/tests)/fibers/(switch|kernel|clocks|sync|io|laas)/|/include/c\+\+/")
+INNER = re.compile(r"(?<!/tests)/fibers/(switch|kernel|clocks|sync|io|laas|posix)/|/include/c\+\+/")
 
 
 class FrameId:
