@@ -254,9 +254,8 @@ std::string Campaign::difference_to(const Token& token, const Outcome& outcome) 
   }
   if (token.digest == 0) return outcome.passed() ? "the recorded run ended its process, this one passed" : "";
   if (token.digest == token_digest(outcome.digest)) return "";
-  const std::string digests = "it had " + std::to_string(outcome.events) + " events, and its digest begins with " +
-                              digest_text(token_digest(outcome.digest)) + ", the token's with " +
-                              digest_text(token.digest);
+  std::string digests = "it had " + std::to_string(outcome.events) + " events, and its digest begins with " +
+                        digest_text(token_digest(outcome.digest)) + ", the token's with " + digest_text(token.digest);
   if (token.trail.marks.empty()) return digests;
   const Schedule schedule = body_.explorer().schedule();
   return digests + ": the run diverged " + parting(token.trail, take_trail(body_, schedule, token.trail.log_spacing));

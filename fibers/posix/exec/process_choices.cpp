@@ -91,6 +91,7 @@ Process* ProcessChoices::choose(bool can_stay) {
   if (narrator_ == nullptr)
     return candidates[explorer_.process(*task, static_cast<std::uint32_t>(candidates.size()), can_continue)];
   std::vector<const char*> names;
+  names.reserve(candidates.size());
   for (const Process* const process : candidates) names.push_back(process->name);
   return candidates[narrator_->process(*task, names, can_continue)];
 }
