@@ -66,7 +66,6 @@ for family, name in (socket.AF_UNIX, "\\0bytes" + str(os.getpid())), (socket.AF_
     os.wait()
 """
 
-
 class Run:
     def __init__(self, seed, *command, options=(), **more):
         words = [WAITPOINT, "exec", "--seed", seed, *options, "--", *command]
@@ -234,6 +233,10 @@ class Programs(Families):
     def test_a_killed_process_holds_up_nobody(self):
         run = Run(1, "sh", "-c", "sh -c 'kill -KILL $$'; echo $?; sleep 1; date +%S")
         self.assertEqual(run.output, "137\n01\n", run.errors)
+
+    def test_the_death_of_a_writer_is_found_by_its_parent_or_by_another_process(self):
+        for _ in range(5):
+            self.assertNative("bash", "-c", "(yes; echo $? >&2) | head -n 1")
 
     def test_a_session_of_init_server_and_clients(self):
         session = self.compile("session.c")

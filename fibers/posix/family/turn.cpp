@@ -43,8 +43,15 @@ bool take_from_killed() {
   const pid_t known_as = holder.real_id.load();
   if (&holder == own || known_as == 0 || is_running(known_as)) return false;
   if (!family->holder.compare_exchange_strong(index, index_of(*own))) return false;
-  if (holder.state != Process::State::ended && holder.state != Process::State::none)
-    note_end_of(holder, status_of_zombie(known_as));
+  if (holder.state == Process::State::ended || holder.state == Process::State::none) return true;
+  // The same follows, at the same time, whichever process has found it.
+  if (record->scheduler.global_time() < family->now) record->scheduler.advance(family->now);
+  const bool concerns_own = holder.parent == own->id || (own->listens_to & of_anything) != 0;
+  note_end_of(holder, status_of_zombie(known_as));
+  if (concerns_own && (!own->is_rung || own->rung_at > family->now)) {
+    own->is_rung = true;
+    own->rung_at = family->now;
+  }
   return true;
 }
 
@@ -96,15 +103,18 @@ bool is_joined() { return is_joined_; }
 
 Process* expect_child() {
   Process* const child = add();
-  if (child == nullptr) return nullptr;
+  if (child != nullptr) child->next = kernel::EventKey::never();
+  return child;
+}
+
+void let_begin(Process& child) {
   kernel::Task& task = *kernel::running;
   kernel::Chooser& chooser = task.scheduler->chooser();
   const std::uint64_t tie =
       chooser.order() == kernel::Order::seeded
-          ? Digest::mix(chooser.seed() ^ Digest::mix(task.id + static_cast<std::uint64_t>(child->id)))
+          ? Digest::mix(chooser.seed() ^ Digest::mix(task.id + static_cast<std::uint64_t>(child.id)))
           : kernel::tie_mask;
-  child->next = {task.local_time, kernel::make_order(kernel::Phase::tasks, tie)};
-  return child;
+  child.next = {task.local_time, kernel::make_order(kernel::Phase::tasks, tie)};
 }
 
 void note_child(Process& child, pid_t real_id) {

@@ -19,6 +19,8 @@ bool is_joined();
 
 /// Before a fork, by the running thread; null if there is no room.
 Process* expect_child();
+/// From now on it can be given the turn: the running thread makes it without a wait.
+void let_begin(Process& child);
 /// In the parent, with the child's number in the system; -1 if there is none.
 void note_child(Process& child, pid_t real_id);
 /// In the child: returns when it has the turn.

@@ -85,6 +85,7 @@ int lend_memory(const Clone& clone) {
   before_child();
   family::Process* const made = family::expect_child();
   if (made == nullptr) return fail(EAGAIN);
+  family::let_begin(*made);
   family::set_native(*made, true);
   await_child_in_system();
   kernel::running->scheduler->close_fast_path();

@@ -75,6 +75,7 @@ void copy_record() {
       "the record's arena reaches out of the record");
   std::memcpy(copy_of_record, static_cast<void*>(record), static_cast<std::size_t>(used));
   is_copied = true;
+  family::let_begin(*expected);  // the program's handlers before the fork may have waited until now
 }
 
 void take_own_record() {

@@ -74,6 +74,7 @@ class Child {
     pass(kernel::Operation::start, nullptr);
     note_start(!is_simulated);
     process_ = family::expect_child();
+    if (process_ != nullptr) family::let_begin(*process_);
     if (process_ == nullptr || is_simulated) return;
     family::set_native(*process_, true);
     await_child_in_system();

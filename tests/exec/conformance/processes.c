@@ -205,6 +205,20 @@ CASE(a_mutex_can_be_kept_free_for_children) {
   join(id);
 }
 
+static void wait_before_fork(void) { sleep_ms(3); }
+CASE(handlers_before_a_fork_can_wait) {
+  EXPECT_IS(pthread_atfork(wait_before_fork, wait_before_fork, NULL), 0);
+  const pid_t first = fork();
+  if (first == 0) {
+    for (int i = 0; i < 10; ++i) sleep_ms(1);
+    _exit(1);
+  }
+  const pid_t second = fork();
+  if (second == 0) _exit(2);
+  EXPECT_EXIT(second, 2);
+  EXPECT_EXIT(first, 1);
+}
+
 static void* do_nothing(void* argument) { return argument; }
 static void make_threads(int count) {
   for (int i = 0; i < count; ++i) {
