@@ -106,6 +106,7 @@ int HostedFamily::start(const std::string& name, const std::vector<std::string>&
                 static_cast<int>(process - family_->processes));
   environment.emplace_back(place);
   std::vector<char*> arguments;
+  arguments.reserve(words.size() + 1);
   for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
   arguments.push_back(nullptr);
   std::fflush(nullptr);
