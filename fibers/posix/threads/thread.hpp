@@ -12,6 +12,8 @@ int take_attributes(Thread& thread, const pthread_attr_t* attributes);
 
 /// As pthread_timedjoin_np, with a deadline of virtual time.
 int join(pthread_t id, void** result, Time deadline);
+/// A thread that has ended, and that no other will join, is freed.
+void let_go(Thread& thread);
 /// As pthread_equal(). It takes a little time, so that a loop ends in which another thread changes what is compared.
 bool are_equal(pthread_t one, pthread_t other);
 /// Ends the running thread after its function: destructors of keys and thread-local variables are called.
