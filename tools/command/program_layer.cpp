@@ -45,6 +45,7 @@ void begin_with_program_layer(const scenario::Scenario& scenario) {
   if (persona >= 0) personality(static_cast<unsigned long>(persona) | ADDR_NO_RANDOMIZE);
   std::vector<std::string> words = command_line();
   std::vector<char*> pointers;
+  pointers.reserve(words.size() + 1);
   for (std::string& word : words) pointers.push_back(word.data());
   pointers.push_back(nullptr);
   execv(std::filesystem::read_symlink("/proc/self/exe").c_str(), pointers.data());
