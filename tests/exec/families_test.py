@@ -44,6 +44,30 @@ if __name__ == "__main__":
     take(b, a)
 """
 
+KILLED_CHILD = """
+import asyncio
+async def main():
+    child = await asyncio.create_subprocess_exec("sleep", "100")
+    try: await asyncio.wait_for(child.wait(), 1)
+    except asyncio.TimeoutError: child.kill(); print("timeout", await child.wait())
+asyncio.run(main())
+"""
+
+PASSED_PIPE = """
+import os, socket, time
+ours, theirs = socket.socketpair()
+if os.fork() == 0:
+    reader, writer = os.pipe()
+    time.sleep(0.5)
+    socket.send_fds(theirs, [b"x"], [reader])
+    time.sleep(0.5)
+    os.write(writer, b"sent")
+    os._exit(0)
+_, descriptors, _, _ = socket.recv_fds(ours, 9, 1)
+print(os.read(descriptors[0], 9))
+os.wait()
+"""
+
 # The server waits for its client several times at one instant.
 BYTE_BY_BYTE = """
 import os, socket, time
@@ -235,9 +259,19 @@ class Programs(Families):
         self.assertEqual(run.output, "137\n01\n", run.errors)
 
     def test_the_death_of_a_writer_is_found_by_its_parent_or_by_another_process(self):
-        for _ in range(10):
-            run = Run(1, "bash", "-c", "(yes; echo $? >&2) | head -n 1")
+        runs = [Run(1, "bash", "-c", "(yes; echo $? >&2) | head -n 1") for _ in range(10)]
+        for run in runs:
             self.assertEqual((run.status, run.output, "141\n" in run.errors), (0, "y\n", True), run.errors)
+        self.assertEqual(len({run.digest for run in runs}), 1)
+
+    def test_a_killed_child_is_waited_for_by_a_thread(self):
+        for run in self.assertRepeats("python3", "-c", KILLED_CHILD):
+            self.assertEqual((run.status, run.output), (0, "timeout -9\n"), run.errors)
+            self.assertRegex(run.errors, r" 1\.0\d+ s of virtual time")
+
+    def test_a_passed_pipe_is_the_receivers_too(self):
+        for run in self.assertRepeats("python3", "-c", PASSED_PIPE):
+            self.assertEqual((run.status, run.output), (0, "b'sent'\n"), run.errors)
 
     def test_a_session_of_init_server_and_clients(self):
         session = self.compile("session.c")

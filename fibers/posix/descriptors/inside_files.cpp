@@ -149,7 +149,11 @@ void end_counting_of_inode(ino_t inode) {
   if (InsideFile* const file = place_of(inode); file != nullptr && file->inode == inode) file->is_counted = false;
 }
 
-void end_counting_of_all() { for_each_inside(end_counting); }
+void end_counting_of_all() {
+  for_each_inside([](int descriptor) {
+    if (InsideFile* const file = file_of(descriptor); file != nullptr) file->is_counted = false;
+  });
+}
 
 bool may_have_unnoticed_output() {
   bool may = false;
@@ -182,17 +186,20 @@ void note_start(bool is_native) {
   });
 }
 
-void inherit_inside() {
+void note_received(int descriptor) {
   const ErrorNumberKept kept;
+  const ino_t inode = inode_of(descriptor);
+  InsideFile* const file = inode != 0 ? place_of(inode) : nullptr;
+  if (file == nullptr || file->inode != inode) return;
+  note_inside(descriptor, true);
+  if (descriptor >= known_max) return;
+  const int mode = WAITPOINT_NEXT(fcntl)(descriptor, F_GETFL) & O_ACCMODE;
+  known[descriptor] = {file, static_cast<short>(mode == O_RDONLY ? POLLIN : POLLOUT), true, false};
+}
+
+void inherit_inside() {
   constexpr int most = 1024;
-  for (int descriptor = 0; descriptor < most; ++descriptor) {
-    const ino_t inode = inode_of(descriptor);
-    InsideFile* const file = inode != 0 ? place_of(inode) : nullptr;
-    if (file == nullptr || file->inode != inode) continue;
-    note_inside(descriptor, true);
-    const int mode = WAITPOINT_NEXT(fcntl)(descriptor, F_GETFL) & O_ACCMODE;
-    known[descriptor] = {file, static_cast<short>(mode == O_RDONLY ? POLLIN : POLLOUT), true, false};
-  }
+  for (int descriptor = 0; descriptor < most; ++descriptor) note_received(descriptor);
 }
 
 }  // namespace waitpoint::posix

@@ -58,6 +58,7 @@ inline bool is_counted_pipe(int descriptor) {
 /// From now on its bytes may change by other means.
 void end_counting(int descriptor);
 void end_counting_of_inode(ino_t inode);
+/// Of all, as duplicates may be passed to another process, which can find them by note_received().
 void end_counting_of_all();
 
 /// Before a program is started. A simulated one finds the pipes and sockets inside that were inside here; a native one
@@ -65,6 +66,8 @@ void end_counting_of_all();
 void note_start(bool is_native);
 /// In a program that was started: see there.
 void inherit_inside();
+/// The descriptor was received from another process: it is inside if its pipe or socket is.
+void note_received(int descriptor);
 
 /// True if a pipe or socket inside, other than a counted one, may have been written to by the C library.
 bool may_have_unnoticed_output();

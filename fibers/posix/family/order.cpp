@@ -54,7 +54,6 @@ void limit_window(kernel::Scheduler& scheduler) {
 }
 
 void ring(Process& process) {
-  if (&process == own) return;
   const Time now = kernel::running != nullptr ? kernel::running->local_time : record->scheduler.global_time();
   if (process.is_rung && process.rung_at <= now) return;
   process.is_rung = true;
@@ -65,7 +64,7 @@ void ring(Process& process) {
 void ring(Changes changes) {
   if (!has_others()) return;
   for (Process& process : entries())
-    if ((process.listens_to & changes) != 0 && takes_turns(process)) ring(process);
+    if (&process != own && (process.listens_to & changes) != 0 && takes_turns(process)) ring(process);
 }
 
 }  // namespace waitpoint::posix::family

@@ -47,7 +47,6 @@ void tell_parent(Process& process, int code) {
   information.si_uid = getuid();
   information.si_status = WIFEXITED(process.status) ? WEXITSTATUS(process.status) : process.status & 0x7F;
   if (is_dropped) remove(process);
-  if (parent == own) return;
   if (!is_dropped) send_letter(*parent, information, 0);
   ring(*parent);
 }

@@ -179,6 +179,17 @@ ssize_t send_parts(int descriptor, const msghdr& message, int flags) {
   return all;
 }
 
+void note_received_descriptors(msghdr& message) {
+  for (cmsghdr* head = CMSG_FIRSTHDR(&message); head != nullptr; head = CMSG_NXTHDR(&message, head)) {
+    if (head->cmsg_level != SOL_SOCKET || head->cmsg_type != SCM_RIGHTS) continue;
+    for (std::size_t at = CMSG_LEN(0); at + sizeof(int) <= head->cmsg_len; at += sizeof(int)) {
+      int descriptor = -1;
+      std::memcpy(&descriptor, reinterpret_cast<char*>(head) + at, sizeof descriptor);
+      note_received(descriptor);
+    }
+  }
+}
+
 bool has_bytes(const msghdr& message) {
   for (std::size_t i = 0; i < message.msg_iovlen; ++i)
     if (message.msg_iov[i].iov_len > 0) return true;
@@ -255,8 +266,10 @@ WAITPOINT_INTERPOSED ssize_t recvfrom(int descriptor, void* __restrict bytes, st
 WAITPOINT_INTERPOSED ssize_t recvmsg(int descriptor, msghdr* message, int flags) {
   if (waits_for_all(descriptor, flags) && can_be_read(message) && has_bytes(*message))
     return receive_all_parts(descriptor, *message, flags);
-  return receive(descriptor, may_block(descriptor, flags),
-                 [&] { return WAITPOINT_NEXT(recvmsg)(descriptor, message, flags); });
+  const ssize_t received = receive(descriptor, may_block(descriptor, flags),
+                                   [&] { return WAITPOINT_NEXT(recvmsg)(descriptor, message, flags); });
+  if (received >= 0) note_received_descriptors(*message);
+  return received;
 }
 
 WAITPOINT_INTERPOSED ssize_t send(int descriptor, const void* bytes, std::size_t size, int flags) {

@@ -99,7 +99,7 @@ int lend_memory(const Clone& clone) {
   const pid_t id = made->id;
   family::note_child(*made, child);
   if (child > 0 && (clone.flags & CLONE_PARENT_SETTID) != 0) *clone.parent_id = id;
-  look_at_descriptors();
+  look_at_descriptors(family::of_anything);
   return child > 0 ? id : child;
 }
 

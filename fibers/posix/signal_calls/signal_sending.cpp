@@ -72,7 +72,7 @@ int send_to_other(family::Process& process, const siginfo_t& information) {
   if (process.is_native) return WAITPOINT_NEXT(kill)(process.real_id, signal) == 0 ? 0 : errno;
   if (signal == SIGKILL) {
     family::kill_at_once(process);
-    look_at_descriptors();
+    look_at_descriptors(family::of_anything);
     return 0;
   }
   if (signal == SIGSTOP) family::note_stop_of(process, signal);

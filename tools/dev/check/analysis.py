@@ -34,8 +34,9 @@ UNKNOWN_TO_CLANG = {"-fno-enforce-eh-specs"}
 
 
 def known_to_clang(entry):
-    words = [word for word in shlex.split(entry["command"]) if word not in UNKNOWN_TO_CLANG]
-    return {**entry, "command": shlex.join(words)}
+    words = shlex.split(entry["command"])
+    known = [word for word in words if word not in UNKNOWN_TO_CLANG]
+    return entry if known == words else {**entry, "command": shlex.join(known)}
 
 
 def flags(entry):
