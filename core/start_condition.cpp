@@ -3,9 +3,11 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cstdio>
 #include <string_view>
+#include <vector>
 
 namespace waitpoint {
 namespace {
@@ -47,6 +49,24 @@ bool parse(const std::string& text, StartCondition& condition) {
     condition.of.resize(text.size() - of_start.size());
   }
   return !condition.of.empty();
+}
+
+std::size_t first_never_started(std::span<const ConditionedStart> programs) {
+  std::vector<bool> can_start(programs.size());
+  const auto holds = [&](const StartCondition& condition) {
+    if (!condition.is_of_program()) return true;
+    for (std::size_t i = 0; i < programs.size(); ++i)
+      if (programs[i].name == condition.of) return static_cast<bool>(can_start[i]);
+    return false;
+  };
+  for (bool any = true; any;) {
+    any = false;
+    for (std::size_t i = 0; i < programs.size(); ++i) {
+      if (can_start[i] || !std::all_of(programs[i].after.begin(), programs[i].after.end(), holds)) continue;
+      can_start[i] = any = true;
+    }
+  }
+  return static_cast<std::size_t>(std::find(can_start.begin(), can_start.end(), false) - can_start.begin());
 }
 
 bool holds_outside(const StartCondition& condition) {

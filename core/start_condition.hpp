@@ -7,7 +7,10 @@
 //   PATH          with a '/': the file or socket exists
 #pragma once
 
+#include <cstddef>
+#include <span>
 #include <string>
+#include <string_view>
 
 namespace waitpoint {
 
@@ -23,6 +26,15 @@ struct StartCondition {
 
 /// Parses a condition, without checks of names. False for an invalid port or an empty text.
 bool parse(const std::string& text, StartCondition& condition);
+
+/// A program that waits for all conditions.
+struct ConditionedStart {
+  std::string_view name;
+  std::span<const StartCondition> after;
+};
+/// The index of the first program that can never start, since conditions on programs form a cycle with it; the number
+/// of programs if there is none. Conditions are of programs among these.
+std::size_t first_never_started(std::span<const ConditionedStart> programs);
 
 /// True if a condition on a port or a file is fulfilled.
 bool holds_outside(const StartCondition& condition);

@@ -2,15 +2,14 @@
 #include "modules/run/robot_program.hpp"
 
 #include <dlfcn.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cstdlib>
 #include <memory>
-#include <sstream>
 #include <utility>
 
+#include "core/program_path.hpp"
 #include "fibers/sync/signals.hpp"
 
 namespace waitpoint::run {
@@ -43,16 +42,6 @@ bool has_programs(const scenario::Scenario& scenario, bool are_commands) {
   return false;
 }
 
-// As execvp() finds it.
-bool is_executable(const std::string& name) {
-  if (name.find('/') != std::string::npos) return access(name.c_str(), X_OK) == 0;
-  const char* const path = std::getenv("PATH");
-  std::istringstream folders(path != nullptr ? path : "");
-  for (std::string folder; std::getline(folders, folder, ':');)
-    if (access((folder.append("/") + name).c_str(), X_OK) == 0) return true;
-  return false;
-}
-
 }  // namespace
 
 bool has_shared_objects(const scenario::Scenario& scenario) { return has_programs(scenario, false); }
@@ -70,7 +59,7 @@ void RobotPrograms::load(Loaded& loaded) {
   if (!program.command.empty()) {
     const char* const library = std::getenv(library_variable);
     if (library == nullptr) throw program.written.bad("expected no command: only the program `waitpoint` can start it");
-    if (!is_executable(program.command.front()))
+    if (find_program(program.command.front()).empty())
       throw program.written.bad("there is no program '" + program.command.front() + "'");
     if (commands_ == nullptr) commands_ = std::make_unique<posix::HostedFamily>(scheduler_, library);
     return;

@@ -121,31 +121,19 @@ std::vector<StartCondition> read_conditions(const YamlNode& node) {
 
 // Those on other programs must be of enabled ones of the robot, and without cycles.
 void check_conditions(const std::vector<ProgramScenario>& programs) {
-  std::vector<const ProgramScenario*> startable;
-  const auto is_among = [](const auto& all, const std::string& name, const auto& name_of) {
-    return std::any_of(all.begin(), all.end(), [&](const auto& each) { return name_of(each) == name; });
+  const auto is_known = [&programs](const std::string& name) {
+    return std::any_of(programs.begin(), programs.end(), [&name](const auto& each) { return each.name == name; });
   };
-  const auto is_startable = [&](const std::string& name) {
-    return is_among(startable, name, [](const ProgramScenario* each) { return each->name; });
-  };
-  for (const ProgramScenario& program : programs)
+  std::vector<ConditionedStart> starts;
+  for (const ProgramScenario& program : programs) {
     for (const StartCondition& condition : program.after)
-      if (condition.is_of_program() &&
-          !is_among(programs, condition.of, [](const ProgramScenario& each) { return each.name; }))
+      if (condition.is_of_program() && !is_known(condition.of))
         throw program.written.bad("after: the robot has no program '" + condition.of + "'");
-  for (std::size_t before = ~std::size_t{0}; before != startable.size();) {
-    before = startable.size();
-    for (const ProgramScenario& program : programs) {
-      if (is_startable(program.name)) continue;
-      if (std::all_of(program.after.begin(), program.after.end(), [&](const StartCondition& condition) {
-            return !condition.is_of_program() || is_startable(condition.of);
-          }))
-        startable.push_back(&program);
-    }
+    starts.push_back({program.name, program.after});
   }
-  for (const ProgramScenario& program : programs)
-    if (!is_startable(program.name))
-      throw program.written.bad("'" + program.name + "' can never start: the conditions in after form a cycle");
+  if (const std::size_t never = first_never_started(starts); never < starts.size())
+    throw programs[never].written.bad("'" + programs[never].name +
+                                      "' can never start: the conditions in after form a cycle");
 }
 
 std::vector<ProgramScenario> read_programs(const YamlNode& node) {

@@ -12,15 +12,11 @@
 #include <sstream>
 #include <vector>
 
+#include "core/program_path.hpp"
 #include "fibers/posix/base/elf_file.hpp"
 
 namespace waitpoint::tools {
 namespace {
-
-bool is_program(const std::filesystem::path& path) {
-  std::error_code ignored;
-  return std::filesystem::is_regular_file(path, ignored) && access(path.c_str(), X_OK) == 0;
-}
 
 template <class T>
 bool read(std::ifstream& file, std::uint64_t offset, T& value) {
@@ -54,17 +50,6 @@ std::string trouble_of_script(std::ifstream& file) {
 }
 
 }  // namespace
-
-std::filesystem::path find_program(const std::string& name) {
-  if (name.find('/') != std::string::npos) return is_program(name) ? name : "";
-  const char* const path = std::getenv("PATH");
-  std::istringstream folders(path != nullptr ? path : "");
-  for (std::string folder; std::getline(folders, folder, ':');) {
-    std::filesystem::path file = std::filesystem::path(folder.empty() ? "." : folder) / name;
-    if (is_program(file)) return file;
-  }
-  return "";
-}
 
 // A static position-independent program has no interpreter either, but has a flag that says so.
 bool is_shared_object(const std::filesystem::path& path) {

@@ -7,9 +7,6 @@
 
 namespace waitpoint::tools {
 
-/// The path of the program of this name, which is a path or is searched in PATH; empty if there is none.
-std::filesystem::path find_program(const std::string& name);
-
 /// True if it is the path of a shared object that is not a program.
 bool is_shared_object(const std::filesystem::path& file);
 

@@ -98,34 +98,23 @@ void ProgramList::name_apart() {
 
 // Conditions on other programs must be of known ones, and without cycles: then some program can always start.
 void ProgramList::check_conditions() const {
-  std::vector<std::string> startable;
-  const auto is_startable = [&startable](const std::string& name) {
-    return std::find(startable.begin(), startable.end(), name) != startable.end();
-  };
   const auto is_known = [this](const std::string& name) {
     return std::any_of(programs_.begin(), programs_.end(), [&name](const Program& each) { return each.name == name; });
   };
+  std::vector<std::vector<StartCondition>> conditions;
+  std::vector<ConditionedStart> starts;
+  conditions.reserve(programs_.size());
   for (const Program& program : programs_) {
+    std::vector<StartCondition>& after = conditions.emplace_back();
     for (const std::string& text : program.conditions) {
-      const StartCondition condition = condition_of(text);
+      const StartCondition& condition = after.emplace_back(condition_of(text));
       if (condition.is_of_program() && !is_known(condition.of))
         throw BadInput("exec", "after:" + text + ": there is no program '" + condition.of + "'");
     }
+    starts.push_back({program.name, after});
   }
-  for (std::size_t before = ~std::size_t{0}; before != startable.size();) {
-    before = startable.size();
-    for (const Program& program : programs_) {
-      if (is_startable(program.name)) continue;
-      const bool is_free = std::all_of(program.conditions.begin(), program.conditions.end(), [&](const auto& text) {
-        const StartCondition condition = condition_of(text);
-        return !condition.is_of_program() || is_startable(condition.of);
-      });
-      if (is_free) startable.push_back(program.name);
-    }
-  }
-  for (const Program& program : programs_)
-    if (!is_startable(program.name))
-      throw BadInput("exec", "'" + program.name + "' can never start: the conditions after: form a cycle");
+  if (const std::size_t never = first_never_started(starts); never < starts.size())
+    throw BadInput("exec", "'" + programs_[never].name + "' can never start: the conditions after: form a cycle");
 }
 
 std::string ProgramList::title() const {

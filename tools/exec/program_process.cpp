@@ -12,6 +12,7 @@
 #include <cstring>
 
 #include "core/error.hpp"
+#include "core/program_path.hpp"
 #include "tools/command/installed_part.hpp"
 #include "tools/exec/program_file.hpp"
 

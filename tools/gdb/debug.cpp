@@ -9,6 +9,7 @@
 #include <filesystem>
 
 #include "core/error.hpp"
+#include "core/program_path.hpp"
 #include "tools/command/data_folder.hpp"
 #include "tools/command/shell_words.hpp"
 #include "tools/exec/exec.hpp"

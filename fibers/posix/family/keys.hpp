@@ -6,6 +6,11 @@
 
 namespace waitpoint::posix::family {
 
+/// The tie of a process's first event, in the seeded order; `maker` is the id of the task or robot that makes it.
+inline std::uint64_t tie_of_first(std::uint64_t seed, std::uint64_t maker, const Process& process) {
+  return Digest::mix(seed ^ Digest::mix(maker + static_cast<std::uint64_t>(process.id)));
+}
+
 /// True if it is simulated and neither stopped nor ended.
 inline bool takes_turns(const Process& process) { return process.state == Process::State::alive && !process.is_native; }
 

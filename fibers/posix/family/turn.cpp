@@ -111,9 +111,7 @@ void let_begin(Process& child) {
   kernel::Task& task = *kernel::running;
   kernel::Chooser& chooser = task.scheduler->chooser();
   const std::uint64_t tie =
-      chooser.order() == kernel::Order::seeded
-          ? Digest::mix(chooser.seed() ^ Digest::mix(task.id + static_cast<std::uint64_t>(child.id)))
-          : kernel::tie_mask;
+      chooser.order() == kernel::Order::seeded ? tie_of_first(chooser.seed(), task.id, child) : kernel::tie_mask;
   child.next = {task.local_time, kernel::make_order(kernel::Phase::tasks, tie)};
 }
 

@@ -15,11 +15,11 @@
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
-#include <fstream>
 #include <new>
 
 #include "fibers/posix/base/direct_call.hpp"
 #include "fibers/posix/family/keys.hpp"
+#include "fibers/posix/family/system_processes.hpp"
 
 namespace waitpoint::posix {
 namespace {
@@ -32,15 +32,6 @@ void futex(std::atomic<std::uint32_t>& word, int operation, std::uint32_t value,
   call_directly(SYS_futex, reinterpret_cast<long>(&word), operation, value, reinterpret_cast<long>(timeout));
 }
 void sleep_really(const timespec& span) { call_directly(SYS_nanosleep, reinterpret_cast<long>(&span)); }
-
-// A zombie does not run.
-bool is_running(pid_t process) {
-  std::ifstream file("/proc/" + std::to_string(process) + "/stat");
-  std::string text;
-  if (!std::getline(file, text)) return false;
-  const std::size_t end = text.rfind(") ");
-  return end != std::string::npos && text[end + 2] != 'Z' && text[end + 2] != 'X';
-}
 
 }  // namespace
 
@@ -75,7 +66,7 @@ HostedFamily::~HostedFamily() {
     for (const Process& process : std::span(family_->processes, family_->entries).subspan(1))
       if (process.state != Process::State::none && process.state != Process::State::ended && process.real_id > 0)
         kill(process.real_id, SIGKILL);
-    for (const Program& program : programs_) waitpid(program.in_system, nullptr, 0);
+    for (const Program& program : programs_) waitpid(program.process->real_id, nullptr, 0);
   }
   if (family_ != nullptr) munmap(family_, family_bytes);
   if (file_ >= 0) close(file_);
@@ -96,8 +87,7 @@ Process* HostedFamily::add(const Process* parent) {
 int HostedFamily::start(const std::string& name, const std::vector<std::string>& words, kernel::Robot& robot) {
   Process* const process = add(&own());
   if (process == nullptr) return -1;
-  const std::uint64_t tie =
-      Digest::mix(family_->settings.seed ^ Digest::mix(robot.id + static_cast<std::uint64_t>(process->id)));
+  const std::uint64_t tie = family::tie_of_first(family_->settings.seed, robot.id, *process);
   process->next = {scheduler_.global_time(), kernel::make_order(kernel::Phase::tasks, tie)};
   std::vector<std::string> environment = {"LD_PRELOAD=" + library_.string(), std::string(name_variable) + "=" + name};
   char place[64];
@@ -128,7 +118,7 @@ int HostedFamily::start(const std::string& name, const std::vector<std::string>&
     return -1;
   }
   process->real_id = child;
-  programs_.push_back({process, child, &robot});
+  programs_.push_back({process, &robot});
   set_limit();
   return static_cast<int>(programs_.size()) - 1;
 }
@@ -184,15 +174,9 @@ void HostedFamily::await_turn() {
 // A process that was killed while it had the turn, or has not got so far as to join.
 void HostedFamily::take_from_killed() {
   Process& holder = family_->processes[family_->holder];
-  if (&holder == &own() || holder.real_id == 0 || is_running(holder.real_id)) return;
+  if (&holder == &own() || holder.real_id == 0 || family::is_running(holder.real_id)) return;
   if (holder.state == Process::State::alive || holder.state == Process::State::stopped) {
-    const auto one = std::find_if(programs_.begin(), programs_.end(),
-                                  [&holder](const Program& each) { return each.process == &holder; });
-    siginfo_t information{};
-    if (one != programs_.end())
-      waitid(P_PID, static_cast<id_t>(one->in_system), &information, WEXITED | WNOHANG | WNOWAIT);
-    const bool has_exited = information.si_code == CLD_EXITED;
-    holder.status = has_exited ? information.si_status << 8 : information.si_pid != 0 ? information.si_status : SIGKILL;
+    holder.status = family::status_of_zombie(holder.real_id);
     holder.state = Process::State::ended;
     holder.next = kernel::EventKey::never();
     holder.listens_to = 0;
@@ -206,7 +190,7 @@ void HostedFamily::take_from_killed() {
 // What the system does at a process's end must have happened when another continues.
 void HostedFamily::await_end_of_leaving() {
   constexpr timespec soon{0, 20'000};
-  while (family_->leaving != 0 && is_running(family_->leaving)) sleep_really(soon);
+  while (family_->leaving != 0 && family::is_running(family_->leaving)) sleep_really(soon);
   family_->leaving = 0;
 }
 

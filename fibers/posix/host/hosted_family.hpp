@@ -37,7 +37,6 @@ class HostedFamily {
  private:
   struct Program {
     family::Process* process;
-    pid_t in_system;
     kernel::Robot* robot;
   };
   struct Limit {
