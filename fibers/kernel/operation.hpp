@@ -54,6 +54,7 @@ enum class Operation : std::uint8_t {
   compare_exchange,
   modify,  ///< an atomic: fetch_add, fetch_or, ...
   fence,
+  exit,  ///< of the process
 };
 
 /// The operation's name, as reports and event files show it.
@@ -67,9 +68,10 @@ constexpr const char* name(Operation operation) {
       "timer_start", "timer_stop", "signal",
       "lock_shared", "try_lock_shared", "unlock_shared", "arrive", "count_down", "try_wait",
       "request_stop", "stop_requested", "add_callback", "remove_callback", "make_ready", "call_once",
-      "load", "store", "exchange", "compare_exchange", "modify", "fence"};
+      "load", "store", "exchange", "compare_exchange", "modify", "fence",
+      "exit"};
   // clang-format on
-  static_assert(sizeof names / sizeof *names == static_cast<int>(Operation::fence) + 1);
+  static_assert(sizeof names / sizeof *names == static_cast<int>(Operation::exit) + 1);
   return names[static_cast<int>(operation)];
 }
 

@@ -181,6 +181,25 @@ class Exhaustive(ExecCase):
             self.assertEqual((done.returncode, done.stderr), (2, f"waitpoint: {line}\n"))
 
 
+class Ends(ExecCase):
+    """Threads beside a process that ends: all that they could still do is found."""
+
+    def test_of_the_process_can_be_preceded_by_each_thread(self):
+        program = self.compile("beside_exit.cpp")
+        for way in ("return", "statics", "atexit", "exit", "_exit", "quick_exit", "abort", "detach"):
+            for strategy in ("dfs", "bounded:1", "random"):
+                done = explore("--strategy", strategy, "--", program, way)
+                self.assertEqual(done.returncode, 1, f"{way} {strategy}: {done.stdout}{done.stderr}")
+                self.assertIn("terminated by signal 4 (Illegal instruction)", done.stdout, way)
+                self.assertIn("1 switch away from the default order fails", done.stdout, way)
+            self.assertIn("the same run as in the record", explore(*replay_words(done.stdout)).stderr, way)
+
+    def test_are_exhausted(self):
+        done = explore("--strategy", "dfs", "--", self.compile("beside_exit.cpp"), "nothing")
+        self.assertEqual(done.returncode, 0, done.stdout)
+        self.assertTrue(done.stdout.splitlines()[0].endswith("; exhaustive"), done.stdout)
+
+
 class Conditions(ExecCase):
     """Properties shared by all runs, besides their schedules."""
 
@@ -287,6 +306,17 @@ class Instrumented(ExecCase):
             again = explore(*replay_words(done.stdout))
             self.assertIn("the same run as in the record", again.stderr)
             self.assertIn("racing.cpp:", again.stderr)
+
+
+class Names(ExecCase):
+    def test_of_the_program_are_its_own(self):
+        # Instrumented, it refers to a library that has functions of these names, so that it exports them.
+        for option in ("-g", "-fsanitize=thread"):
+            program = self.compile("names_of_functions.c", "-fno-builtin", "-w", option)
+            self.assertEqual(subprocess.run([WAITPOINT, "exec", "--", program]).returncode, 0, option)
+            done = explore("--iterations", "20", "--", program)
+            self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+            program.unlink()
 
 
 class Debugging(ExecCase):

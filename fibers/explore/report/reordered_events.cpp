@@ -19,7 +19,9 @@ bool is_lock(Operation operation) { return operation == Operation::lock || opera
 // For events of two tasks. Joining a thread does not affect it; and a lock operation has the same result just before
 // and just after an unlock: only the order of lock operations matters.
 bool depend(const DoneEvent& a, const DoneEvent& b) {
-  if (a.object == 0 || a.object != b.object || a.event.task == b.event.task) return false;
+  if (a.event.task == b.event.task) return false;
+  if (a.operation == Operation::exit || b.operation == Operation::exit) return true;
+  if (a.object == 0 || a.object != b.object) return false;
   if (is_read_only(a.operation) && is_read_only(b.operation)) return false;
   if (a.operation == Operation::join || b.operation == Operation::join) return false;
   return !(is_lock(a.operation) && is_unlock(b.operation)) && !(is_unlock(a.operation) && is_lock(b.operation));

@@ -2,6 +2,8 @@
 // Dependent events, i.e. those whose order may change the result: at the same object, unless both only read it.
 #pragma once
 
+#include <cstdint>
+
 #include "fibers/kernel/task.hpp"
 
 namespace waitpoint::exploration {
@@ -25,9 +27,33 @@ inline bool is_of_lock(kernel::Operation operation) {
   }
 }
 
+/// True if it acts on something that the kernel does not know as an object, if it is given none: a descriptor, a file, a
+/// signal, memory between processes.
+inline bool acts_on_unknown(kernel::Operation operation) {
+  switch (operation) {
+    case kernel::Operation::start:
+    case kernel::Operation::end:
+    case kernel::Operation::resume:
+    case kernel::Operation::timeout:
+    case kernel::Operation::yield:
+    case kernel::Operation::sleep:
+    case kernel::Operation::fence: return false;
+    default: return true;
+  }
+}
+
+/// `x` and `y` identify the objects; 0: none.
+inline bool are_dependent(kernel::Operation a, std::uint64_t x, kernel::Operation b, std::uint64_t y) {
+  // Whatever comes behind the end of the process does not happen.
+  if (a == kernel::Operation::exit || b == kernel::Operation::exit) return true;
+  if (x == 0 && y == 0) return acts_on_unknown(a) && acts_on_unknown(b);
+  return x == y && !(is_read_only(a) && is_read_only(b));
+}
+
 /// Compares the pending operations of two tasks.
 inline bool are_dependent(const kernel::Task& a, const kernel::Task& b) {
-  return a.at != nullptr && a.at == b.at && !(is_read_only(a.operation) && is_read_only(b.operation));
+  const auto identity = [](const kernel::Task& task) { return task.at != nullptr ? task.at->identity : 0; };
+  return are_dependent(a.operation, identity(a), b.operation, identity(b));
 }
 
 }  // namespace waitpoint::exploration

@@ -24,7 +24,7 @@ bool Dpor::are_dependent(const Event& a, const Event& b) {
   if (a.operation == kernel::Operation::yield || b.operation == kernel::Operation::yield) return true;
   if (releases_unseen(a.operation) && is_of_lock(b.operation)) return true;
   if (releases_unseen(b.operation) && is_of_lock(a.operation)) return true;
-  return a.object != 0 && a.object == b.object && !(is_read_only(a.operation) && is_read_only(b.operation));
+  return exploration::are_dependent(a.operation, a.object, b.operation, b.object);
 }
 
 void Dpor::join(Clock& into, const Clock& other) {

@@ -10,6 +10,7 @@
 #include <cstring>
 
 #include "core/error.hpp"
+#include "fibers/posix/base/import_binding.hpp"
 #include "fibers/posix/base/interposed.hpp"
 #include "fibers/posix/base/preload.hpp"
 #include "fibers/posix/descriptors/descriptors.hpp"
@@ -70,6 +71,7 @@ Time keep_pace(kernel::Scheduler& scheduler) {
 // The C library calls this constructor before those of libraries, which may make threads that must be simulated.
 [[gnu::constructor(101)]] void begin() {
   if (record != nullptr) return;
+  bind_imports();
   const char* const descriptor = WAITPOINT_NEXT(getenv)(record_variable);
   if (descriptor == nullptr) refuse("this library is for programs that `waitpoint exec` starts");
   const int joined = map_run(descriptor);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Calls that end a process. If it is several programs, they end only the calling one.
+// Calls that end a process. If it is several programs, they end only the calling one. Until the last of its threads' code
+// was called, the other threads may come first: the calls, and the handlers of the exit, are switch points.
 #include <assert.h>
 #include <signal.h>
 #include <sys/wait.h>
@@ -15,6 +16,7 @@
 #include "fibers/posix/files/file_records.hpp"
 #include "fibers/posix/members/members.hpp"
 #include "fibers/posix/program/program.hpp"
+#include "fibers/posix/program/waiting.hpp"
 #include "fibers/posix/signals/signals.hpp"
 
 namespace waitpoint::posix {
@@ -32,6 +34,23 @@ bool add_handler(void (*function)(void*), void* argument) {
   return true;
 }
 
+void pass_exit() {
+  if (is_simulated()) pass(kernel::Operation::exit, nullptr);
+}
+
+/// A handler of the process's exit: most are destructors of static variables.
+struct HandlerOfProcess {
+  void (*function)(void*);
+  void* argument;
+};
+
+void call_handler_of_process(void* of) {
+  const HandlerOfProcess handler = *static_cast<HandlerOfProcess*>(of);
+  std::free(of);
+  pass_exit();
+  handler.function(handler.argument);
+}
+
 }  // namespace
 }  // namespace waitpoint::posix
 
@@ -39,13 +58,23 @@ using namespace waitpoint;
 using namespace waitpoint::posix;
 
 WAITPOINT_INTERPOSED void exit(int status) {
+  pass_exit();
   if (runs_in_member()) exit_member(status);
   if (family::own != nullptr) family::own->exit_status = status;
   WAITPOINT_NEXT(exit)(status);
   __builtin_unreachable();
 }
 
+WAITPOINT_INTERPOSED void quick_exit(int status) noexcept {
+  pass_exit();
+  if (runs_in_member()) end_member(status);
+  if (family::own != nullptr) family::own->exit_status = status;
+  WAITPOINT_NEXT(quick_exit)(status);
+  __builtin_unreachable();
+}
+
 WAITPOINT_INTERPOSED void _exit(int status) {
+  pass_exit();
   if (runs_in_member()) end_member(status);
   note_closing_all();
   family::leave(W_EXITCODE(status & 0xFF, 0));
@@ -56,6 +85,7 @@ WAITPOINT_INTERPOSED void _Exit(int status) noexcept { _exit(status); }
 
 // SIGABRT cannot be blocked or ignored here, and a handler can only leave by a jump.
 WAITPOINT_INTERPOSED void abort() noexcept {
+  pass_exit();
   if (is_simulated()) {
     this_thread().blocked &= ~only(SIGABRT);
     const struct sigaction& action = signals_of_program.actions[SIGABRT];
@@ -92,5 +122,11 @@ WAITPOINT_INTERPOSED void __assert_fail(const char* condition, const char* file,
 // is linked into the program itself, and calls this one.
 WAITPOINT_INTERPOSED int __cxa_atexit(void (*function)(void*), void* argument, void* object) {
   if (runs_in_member() && contains(this_member().image, object)) return add_handler(function, argument) ? 0 : -1;
+  if (!has_host) {
+    if (auto* const handler = static_cast<HandlerOfProcess*>(std::malloc(sizeof(HandlerOfProcess)))) {
+      *handler = {function, argument};
+      return WAITPOINT_NEXT(__cxa_atexit)(call_handler_of_process, handler, object);
+    }
+  }
   return WAITPOINT_NEXT(__cxa_atexit)(function, argument, object);
 }

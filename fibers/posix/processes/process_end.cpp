@@ -26,8 +26,14 @@ void note_status(int status, void*) {
   _exit(family::own->exit_status);
 }
 
+// The first that is registered is called last.
+void end_after_quick_handlers() { _exit(family::own->exit_status); }
+
 }  // namespace
 
-void note_exit_status() { on_exit(note_status, nullptr); }
+void note_exit_status() {
+  on_exit(note_status, nullptr);
+  at_quick_exit(end_after_quick_handlers);
+}
 
 }  // namespace waitpoint::posix

@@ -223,7 +223,6 @@ void end_other_threads(const Program& program, kernel::Scheduler& scheduler) {
 int create(pthread_t* id, const pthread_attr_t* attributes, StartRoutine start, bool is_c11, void* argument) {
   if (!is_simulated()) refuse("a thread is made before main() begins");
   trap_open_mp();
-  pass(kernel::Operation::start, nullptr);
   Thread* const thread = make_thread(this_program());
   if (thread == nullptr) return EAGAIN;
   thread->start = start;
@@ -247,6 +246,7 @@ int create(pthread_t* id, const pthread_attr_t* attributes, StartRoutine start, 
   thread->end.owner = thread->task;
   __libc_single_threaded = 0;
   *id = reinterpret_cast<pthread_t>(thread->area);
+  pass(kernel::Operation::start, nullptr);  // here, so that the new thread can come first
   return 0;
 }
 
