@@ -64,7 +64,7 @@ std::string lines_of(const posix::Record& record, const Process& process) {
 std::string states_of(const posix::Record& record) {
   if (!record.began) return "";
   std::string lines;
-  for (const Process& process : family_of(record).processes)
+  for (const Process& process : entries_of(family_of(record)))
     if (process.state == Process::State::alive || process.state == Process::State::stopped)
       lines += lines_of(record, process);
   return lines;

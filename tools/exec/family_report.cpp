@@ -18,7 +18,7 @@ using posix::family::Process;
 
 template <class Visit>
 void for_each_other(const Family& family, Visit visit) {
-  for (const Process& process : family.processes)
+  for (const Process& process : entries_of(family))
     if (&process != family.processes && process.state != Process::State::none) visit(process);
 }
 
@@ -84,7 +84,7 @@ std::string counts_of(const posix::Record& record) {
 }
 
 void kill_all(const posix::Record& record) {
-  for (const Process& process : family_of(record).processes)
+  for (const Process& process : entries_of(family_of(record)))
     if (is_in_system(process)) kill(process.real_id, SIGKILL);
 }
 
@@ -92,7 +92,7 @@ void end_others(const posix::Record& record, const std::function<bool()>& is_to_
   const Family& family = family_of(record);
   constexpr int look_ms = 1, looks_after_end = 2000;  // when the run is over each reports its threads, and ends
   const auto is_anybody_there = [&family] {
-    return std::any_of(family.processes, family.processes + posix::family::processes_max, [](const Process& process) {
+    return std::ranges::any_of(entries_of(family), [](const Process& process) {
       return process.state == Process::State::alive && !process.is_native && kill(process.real_id, 0) == 0;
     });
   };

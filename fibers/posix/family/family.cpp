@@ -29,7 +29,7 @@ Family& memory() {
   void* const pages = mmap(reinterpret_cast<void*>(family_address), family_bytes, PROT_READ | PROT_WRITE,
                            MAP_SHARED | MAP_ANONYMOUS | MAP_NORESERVE | MAP_FIXED, -1, 0);
   if (pages == MAP_FAILED) refuse("there is no address space for the memory shared by processes");
-  family = new (pages) Family();
+  family = new (pages) Family;
   family->arena.start(family + 1, static_cast<char*>(pages) + family_bytes);
   return *family;
 }

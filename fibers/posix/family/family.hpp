@@ -11,6 +11,7 @@
 #include <sys/types.h>
 #include <time.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
@@ -106,6 +107,19 @@ struct Process {
   PairDigest digest;  ///< of its events; the first process has its robot's
 };
 
+/// Entries are made at their first use: until then their memory is untouched, which a run of a millisecond notices.
+class ProcessTable {
+ public:
+  ProcessTable() {}
+  operator Process*() { return all_; }
+  operator const Process*() const { return all_; }
+
+ private:
+  union {
+    Process all_[processes_max];
+  };
+};
+
 /// What the process adds to the family's digest, whether it has ended or not: a sum, as they end in any order.
 inline std::uint64_t share_of_digest(pid_t process, const PairDigest& digest) {
   if (digest.pairs() == 0) return 0;
@@ -164,7 +178,7 @@ struct alignas(Arena::alignment) Family {
   Account account;
   Idleness idleness;
   Pace pace;
-  Process processes[processes_max];
+  ProcessTable processes;
 };
 
 /// Null before the run.
@@ -173,7 +187,13 @@ extern Family* family;
 extern Process* own;
 
 /// The entries of the table that are or were in use.
-inline std::span<Process> entries() { return {family->processes, family->entries}; }
+inline std::span<Process> entries_of(Family& all) {
+  return {static_cast<Process*>(all.processes), std::min<std::size_t>(all.entries, processes_max)};
+}
+inline std::span<const Process> entries_of(const Family& all) {
+  return {static_cast<const Process*>(all.processes), std::min<std::size_t>(all.entries, processes_max)};
+}
+inline std::span<Process> entries() { return entries_of(*family); }
 
 /// The shared state of a part, zeroed at the first call with a size; before that null.
 void* common(Part part, std::size_t bytes);

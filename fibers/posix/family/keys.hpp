@@ -36,7 +36,7 @@ inline bool precedes(const Family& all, const Process& a, const Process& b) {
 /// The process with the least event among those other than `own`; null without others.
 inline Process* least_other(Family& all, const Process& own) {
   Process* least = nullptr;
-  for (Process& process : std::span(all.processes, all.entries)) {
+  for (Process& process : entries_of(all)) {
     if (&process == &own || !takes_turns(process)) continue;
     if (least == nullptr || precedes(all, process, *least)) least = &process;
   }

@@ -80,7 +80,7 @@ void await_turn() {
 }  // namespace
 
 void begin() {
-  family = new (reinterpret_cast<void*>(family_address)) Family();
+  family = new (reinterpret_cast<void*>(family_address)) Family;
   family->settings = record->settings;
   family->file = record->file;
   family->arena.start(family + 1, reinterpret_cast<char*>(family_address + family_bytes));

@@ -43,7 +43,7 @@ HostedFamily::HostedFamily(kernel::Scheduler& scheduler, std::filesystem::path l
   void* const memory = mmap(nullptr, family_bytes, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_NORESERVE, file_,
                             static_cast<off_t>(record_bytes));
   if (memory == MAP_FAILED) return;
-  family_ = new (memory) Family();
+  family_ = new (memory) Family;
   // In the explored order the strategy decides between the host's tasks; the programs' order is drawn from the seed.
   family_->settings.seed = scheduler.chooser().seed();
   family_->settings.simulates_started = true;
@@ -63,7 +63,7 @@ HostedFamily::~HostedFamily() {
   const bool is_own =
       family_ != nullptr && family_->file.watcher == getpid();  // else of the process that forked this one
   if (is_own) {
-    for (const Process& process : std::span(family_->processes, family_->entries).subspan(1))
+    for (const Process& process : family::entries_of(*family_).subspan(1))
       if (process.state != Process::State::none && process.state != Process::State::ended && process.real_id > 0)
         kill(process.real_id, SIGKILL);
     for (const Program& program : programs_) waitpid(program.process->real_id, nullptr, 0);
@@ -196,7 +196,7 @@ void HostedFamily::await_end_of_leaving() {
 
 std::uint64_t HostedFamily::digest() const {
   std::uint64_t sum = family_->digest_of_ended;
-  for (const Process& process : std::span(family_->processes, family_->entries))
+  for (const Process& process : family::entries_of(*family_))
     if (process.state != Process::State::none) sum += family::share_of_digest(process.id, process.digest);
   return sum;
 }
