@@ -54,15 +54,15 @@ void ask(int socket, const int (&descriptors)[posix::run_descriptors]) {
 
 }  // namespace
 
-ForkServer::ForkServer(const ProgramFiles& files, posix::Settings settings) {
+ForkServer::ForkServer(const ProgramFiles& files, const posix::Settings& settings) : memory_(settings) {
   int ends[2];
   if (socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends) != 0) fail("cannot create a socket");
-  settings.server = fcntl(ends[1], F_DUPFD, least_descriptor);  // stays open in the program
-  if (settings.server < 0) fail("cannot duplicate a descriptor");
-  const RunMemory memory(settings);
-  process_ = start_program(files, memory);
+  const int of_program = fcntl(ends[1], F_DUPFD, least_descriptor);  // stays open in the program
+  if (of_program < 0) fail("cannot duplicate a descriptor");
+  memory_.record().settings.server = of_program;
+  process_ = start_program(files, memory_);
   close(ends[1]);
-  close(settings.server);
+  close(of_program);
   socket_ = ends[0];
   if (posix::ServerReady ready; receive(socket_, ready)) return;
   close(socket_);
@@ -79,25 +79,24 @@ ForkServer::~ForkServer() {
   }
 }
 
-ServedRun::ServedRun(const ForkServer& server, const RunMemory& memory, int input, int output) {
-  int ends[2];
-  if (socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends) != 0) fail("cannot create a socket");
-  answers_ = ends[0];
-  ask(server.socket_, {memory.descriptor(), input, output, ends[1]});
-  close(ends[1]);
-  posix::RunStarted started{};
-  if (!receive(answers_, started)) throw BadInput("exec", "the program has ended");
-  if (started.process < 0) throw BadInput("exec", "cannot create a process");
-  process_ = started.process;
+RunMemory& ForkServer::begin(const posix::Settings& settings) {
+  memory_.begin_anew(settings);
+  return memory_;
 }
 
-ServedRun::~ServedRun() { close(answers_); }
+pid_t ForkServer::start(int input, int output) {
+  ask(socket_, {input, output});
+  posix::RunStarted started{};
+  if (!receive(socket_, started)) throw BadInput("exec", "the program has ended");
+  if (started.process < 0) throw BadInput("exec", "cannot create a process");
+  return started.process;
+}
 
-std::optional<int> ServedRun::wait(int timeout_ms) {
-  pollfd one{answers_, POLLIN, 0};
+std::optional<int> ForkServer::wait(int timeout_ms) {
+  pollfd one{socket_, POLLIN, 0};
   if (poll(&one, 1, timeout_ms) <= 0) return std::nullopt;
   posix::RunEnded ended{SIGKILL};  // the server is gone
-  (void)receive(answers_, ended);
+  (void)receive(socket_, ended);
   return ended.status;
 }
 

@@ -12,33 +12,22 @@ class ForkServer {
  public:
   /// Starts the program and stops it before main(); until then, its output goes to this process's. BadInput if it does
   /// not reach main().
-  ForkServer(const ProgramFiles& files, posix::Settings settings);
-  /// Kills the remaining runs.
+  ForkServer(const ProgramFiles& files, const posix::Settings& settings);
+  /// Ends the program, and the run that goes on.
   ~ForkServer();
   ForkServer(const ForkServer&) = delete;
   ForkServer& operator=(const ForkServer&) = delete;
 
- private:
-  friend class ServedRun;
-  int socket_;
-  pid_t process_;
-};
-
-/// A run; it may be requested by a fork of the process that owns the server object. Killed with this object.
-class ServedRun {
- public:
-  /// Runs with the settings in `memory`, with descriptors for its input and output.
-  ServedRun(const ForkServer& server, const RunMemory& memory, int input, int output);
-  ~ServedRun();
-  ServedRun(const ServedRun&) = delete;
-  ServedRun& operator=(const ServedRun&) = delete;
-
-  pid_t process() const { return process_; }
+  /// The memory of the next run, with these settings. There is one run at a time.
+  RunMemory& begin(const posix::Settings& settings);
+  /// Starts the run, with descriptors for its input and output; returns its process.
+  pid_t start(int input, int output);
   /// Waits for its end, for at most `timeout_ms`; the status is as from waitpid().
   std::optional<int> wait(int timeout_ms);
 
  private:
-  int answers_;
+  RunMemory memory_;
+  int socket_;
   pid_t process_;
 };
 

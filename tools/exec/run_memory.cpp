@@ -28,9 +28,19 @@ RunMemory::RunMemory(const posix::Settings& settings) {
   void* const memory = mmap(reinterpret_cast<void*>(posix::record_address), posix::run_bytes, PROT_READ | PROT_WRITE,
                             MAP_SHARED | MAP_NORESERVE | MAP_FIXED_NOREPLACE, descriptor_, 0);
   if (memory == MAP_FAILED) no_memory();
-  record_ = new (memory) posix::Record();
+  record_ = static_cast<posix::Record*>(memory);
+  begin(settings);
+}
+
+void RunMemory::begin(const posix::Settings& settings) {
+  new (record_) posix::Record();
   record_->settings = settings;
   record_->file = {getpid(), descriptor_};
+}
+
+void RunMemory::begin_anew(const posix::Settings& settings) {
+  if (fallocate(descriptor_, FALLOC_FL_PUNCH_HOLE | FALLOC_FL_KEEP_SIZE, 0, posix::run_bytes) != 0) no_memory();
+  begin(settings);
 }
 
 RunMemory::~RunMemory() {

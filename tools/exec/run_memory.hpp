@@ -15,6 +15,8 @@ class RunMemory {
  public:
   explicit RunMemory(const posix::Settings& settings);
   ~RunMemory();
+  /// For another run, after the end of the one before.
+  void begin_anew(const posix::Settings& settings);
   RunMemory(const RunMemory&) = delete;
   RunMemory& operator=(const RunMemory&) = delete;
 
@@ -23,6 +25,8 @@ class RunMemory {
   int descriptor() const { return descriptor_; }
 
  private:
+  void begin(const posix::Settings& settings);
+
   int descriptor_;
   posix::Record* record_;
 };

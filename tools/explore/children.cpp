@@ -4,6 +4,7 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <sys/prctl.h>
+#include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -26,26 +27,58 @@ constexpr double between_looks_s = 0.5;
 
 [[noreturn]] void fail(const char* what) { throw std::system_error(errno, std::generic_category(), what); }
 
-void write_all(int pipe, const std::string& bytes) {
-  for (std::size_t at = 0; at < bytes.size();) {
-    const ssize_t written = write(pipe, bytes.data() + at, bytes.size() - at);
-    if (written < 0 && errno != EINTR) _exit(127);
-    if (written > 0) at += static_cast<std::size_t>(written);
+// A message is its size and its bytes. Both return false if the other end is gone.
+bool send_all(int socket, const void* bytes, std::size_t size) {
+  for (std::size_t at = 0; at < size;) {
+    const ssize_t sent = send(socket, static_cast<const char*>(bytes) + at, size - at, MSG_NOSIGNAL);
+    if (sent < 0 && errno != EINTR) return false;
+    if (sent > 0) at += static_cast<std::size_t>(sent);
   }
+  return true;
+}
+bool send_message(int socket, const std::string& bytes) {
+  const std::size_t size = bytes.size();
+  return send_all(socket, &size, sizeof size) && send_all(socket, bytes.data(), size);
+}
+bool receive_all(int socket, void* bytes, std::size_t size) {
+  for (std::size_t at = 0; at < size;) {
+    const ssize_t got = recv(socket, static_cast<char*>(bytes) + at, size - at, 0);
+    if (got == 0 || (got < 0 && errno != EINTR)) return false;
+    if (got > 0) at += static_cast<std::size_t>(got);
+  }
+  return true;
+}
+bool receive_message(int socket, std::string& bytes) {
+  std::size_t size = 0;
+  if (!receive_all(socket, &size, sizeof size)) return false;
+  bytes.resize(size);
+  return receive_all(socket, bytes.data(), size);
+}
+
+void make_sockets(int (&ends)[2]) {
+  if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) fail("cannot create a socket");
+}
+
+}  // namespace
+
+Children::~Children() {
+  running_.insert(running_.end(), free_.begin(), free_.end());
+  kill_from(0);
 }
 
 // In the child: skips the cleanup of the parent's objects.
-[[noreturn]] void carry_out(const std::function<std::string()>& work, int bytes_pipe, int errors_pipe) {
+void Children::carry_out(int jobs, int errors) const {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   const int nowhere = open("/dev/null", O_RDWR | O_CLOEXEC);
   dup2(nowhere, STDIN_FILENO);
   dup2(nowhere, STDOUT_FILENO);
-  dup2(errors_pipe, STDERR_FILENO);
+  dup2(errors, STDERR_FILENO);
   // The parent decides when to stop.
   std::signal(SIGINT, SIG_IGN);
   std::signal(SIGTERM, SIG_DFL);
   try {
-    write_all(bytes_pipe, work());
+    for (std::string job; receive_message(jobs, job);)
+      if (!send_message(jobs, work_(job)) || !limits_.is_reused) break;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s\n", error.what());
     std::fflush(stderr);
@@ -54,28 +87,37 @@ void write_all(int pipe, const std::string& bytes) {
   _exit(0);
 }
 
-}  // namespace
-
-void Children::start(std::uint64_t number, const std::function<std::string()>& work) {
-  int bytes[2], errors[2];
-  if (pipe2(bytes, O_CLOEXEC) != 0) fail("cannot create a pipe");
-  if (pipe2(errors, O_CLOEXEC) != 0) fail("cannot create a pipe");
+Children::Running Children::make() const {
+  int jobs[2], errors[2];
+  make_sockets(jobs);
+  make_sockets(errors);
   std::fflush(nullptr);  // a child would write buffered output a second time
   const pid_t process = fork();
   if (process < 0) fail("cannot create a process");
-  if (process == 0) carry_out(work, bytes[1], errors[1]);
-  close(bytes[1]);
+  if (process == 0) {
+    for (const auto* others : {&running_, &free_})
+      for (const Running& other : *others) close(other.jobs);
+    close(jobs[0]);
+    carry_out(jobs[1], errors[1]);
+  }
+  close(jobs[1]);
   close(errors[1]);
-  fcntl(bytes[0], F_SETFL, O_NONBLOCK);
-  fcntl(errors[0], F_SETFL, O_NONBLOCK);
-  const double now_s = wall_clock_s();
-  running_.push_back({process, bytes[0], errors[0], {number, 0, "", ""}, now_s, now_s});
+  return {process, jobs[0], errors[0]};
 }
 
-void Children::drain(int pipe, std::string& to, std::size_t most, bool& at_end) {
+void Children::start(std::uint64_t number, const std::string& job) {
+  if (free_.empty()) free_.push_back(make());
+  Running& child = running_.emplace_back(std::move(free_.back()));
+  free_.pop_back();
+  child.so_far = {number, 0, "", ""};
+  child.started_s = child.looked_s = wall_clock_s();
+  (void)send_message(child.jobs, job);  // a missing receiver is noticed when no bytes come
+}
+
+void Children::drain(int socket, std::string& to, std::size_t most, bool& at_end) {
   char part[65536];
   for (;;) {
-    const ssize_t got = read(pipe, part, sizeof part);
+    const ssize_t got = recv(socket, part, sizeof part, MSG_DONTWAIT);
     if (got < 0 && errno == EINTR) continue;
     at_end = got == 0;
     if (got <= 0) return;
@@ -89,26 +131,46 @@ Children::Ended Children::reap(std::size_t index) {
   while (waitpid(running.process, &running.so_far.status, 0) < 0 && errno == EINTR) {
   }
   bool at_end = false;
-  drain(running.errors_pipe, running.so_far.errors, errors_max, at_end);
-  close(running.bytes_pipe);
-  close(running.errors_pipe);
+  drain(running.errors, running.so_far.errors, errors_max, at_end);
+  close(running.jobs);
+  close(running.errors);
   return std::move(running.so_far);
 }
 
-std::optional<Children::Ended> Children::wait(int timeout_ms) {
-  std::vector<pollfd> pipes;
-  for (const Running& running : running_) {
-    pipes.push_back({running.bytes_pipe, POLLIN, 0});
-    pipes.push_back({running.errors_pipe, POLLIN, 0});
+bool Children::is_complete(const Ended& so_far) const {
+  std::size_t size = 0;
+  if (so_far.bytes.size() < sizeof size) return false;
+  std::memcpy(&size, so_far.bytes.data(), sizeof size);
+  return so_far.bytes.size() == sizeof size + size;
+}
+
+// The result of a child that has done its job.
+Children::Ended Children::take(std::size_t index) {
+  Ended ended = limits_.is_reused ? running_[index].so_far : reap(index);
+  if (limits_.is_reused) {
+    bool at_end = false;
+    drain(running_[index].errors, ended.errors, errors_max, at_end);
+    free_.push_back(std::move(running_[index]));
+    running_.erase(running_.begin() + static_cast<std::ptrdiff_t>(index));
   }
-  const int ready = poll(pipes.data(), pipes.size(), timeout_ms);
+  ended.bytes.erase(0, sizeof(std::size_t));
+  return ended;
+}
+
+std::optional<Children::Ended> Children::wait(int timeout_ms) {
+  std::vector<pollfd> sockets;
+  for (const Running& running : running_) {
+    sockets.push_back({running.jobs, POLLIN, 0});
+    sockets.push_back({running.errors, POLLIN, 0});
+  }
+  const int ready = poll(sockets.data(), sockets.size(), timeout_ms);
   end_those_beyond_limits();
   if (ready <= 0) return std::nullopt;
   for (std::size_t i = 0; i < running_.size(); ++i) {
     bool at_end = false, errors_end = false;
-    if (pipes[2 * i + 1].revents != 0)
-      drain(running_[i].errors_pipe, running_[i].so_far.errors, errors_max, errors_end);
-    if (pipes[2 * i].revents != 0) drain(running_[i].bytes_pipe, running_[i].so_far.bytes, std::string::npos, at_end);
+    if (sockets[2 * i + 1].revents != 0) drain(running_[i].errors, running_[i].so_far.errors, errors_max, errors_end);
+    if (sockets[2 * i].revents != 0) drain(running_[i].jobs, running_[i].so_far.bytes, std::string::npos, at_end);
+    if (is_complete(running_[i].so_far)) return take(i);
     if (at_end) return reap(i);
   }
   return std::nullopt;

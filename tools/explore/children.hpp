@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Forked processes that each do one job, return some bytes and exit. A failure in one, crashes included, does not
+// Forked processes that each do one job at a time: bytes in, bytes out. A failure in one, crashes included, does not
 // affect the others. All are killed with this object.
 #pragma once
 
@@ -9,6 +9,8 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 namespace waitpoint::tools {
@@ -16,8 +18,9 @@ namespace waitpoint::tools {
 class Children {
  public:
   struct Limits {
-    double wall_s = 0;     ///< wall clock limit of each; 0: none
-    bool computes = true;  ///< expected only to compute: a blocked child is killed
+    double wall_s = 0;       ///< wall clock limit of each job; 0: none
+    bool computes = true;    ///< expected only to compute: a blocked child is killed
+    bool is_reused = false;  ///< a child does any number of jobs; else it exits after one
   };
   struct Ended {
     std::uint64_t number;
@@ -27,38 +30,46 @@ class Children {
     std::string killed_for = {};  ///< the limit it exceeded, if any
   };
 
-  Children() = default;
-  explicit Children(const Limits& limits) : limits_(limits) {}
+  using Work = std::function<std::string(std::string_view job)>;
+
+  /// `work` is called in the children.
+  Children(Work work, const Limits& limits) : work_(std::move(work)), limits_(limits) {}
   /// Kills the remaining children.
-  ~Children() { kill_from(0); }
+  ~Children();
   Children(const Children&) = delete;
   Children& operator=(const Children&) = delete;
 
-  /// Forks a child that runs `work`, known as `number`. Its standard output is discarded.
-  void start(std::uint64_t number, const std::function<std::string()>& work);
+  /// A child, forked unless one is free, does the job, known as `number`. Its standard output is discarded.
+  void start(std::uint64_t number, const std::string& job);
+  /// The number of jobs that are being done.
   std::size_t count() const { return running_.size(); }
-  /// Waits for a child to end, for at most `timeout_ms`; kills those beyond a limit.
+  /// Waits for a job to end, for at most `timeout_ms`; kills those beyond a limit.
   std::optional<Ended> wait(int timeout_ms);
   /// Asks the child that has run longest, if that is a second at least, to end by SIGTERM, and returns what it says.
   std::optional<Ended> stop_longest();
-  /// Kills children with numbers from `number` up.
+  /// Kills children whose jobs have numbers from `number` up.
   void kill_from(std::uint64_t number);
 
  private:
   struct Running {
     pid_t process;
-    int bytes_pipe, errors_pipe;
-    Ended so_far;
-    double started_s, looked_s;  // wall clock: at the start, and when its ticks last grew
+    int jobs, errors;  // sockets: of jobs and their results, and of its standard error
+    Ended so_far = {};
+    double started_s = 0, looked_s = 0;  // wall clock: at the start of its job, and when its ticks last grew
     std::uint64_t ticks = 0;
   };
-  static void drain(int pipe, std::string& to, std::size_t most, bool& at_end);
+  static void drain(int socket, std::string& to, std::size_t most, bool& at_end);
+  Running make() const;
+  [[noreturn]] void carry_out(int jobs, int errors) const;
+  bool is_complete(const Ended& so_far) const;
+  Ended take(std::size_t index);
   Ended reap(std::size_t index);
   void end_those_beyond_limits();
 
+  Work work_;
   Limits limits_;
   double next_look_s_ = 0;  // the next check of limits, by the wall clock
-  std::vector<Running> running_;
+  std::vector<Running> running_, free_;
 };
 
 /// "the process was killed by signal 11 (Segmentation fault)" and the start of its standard error; empty for a normal

@@ -4,65 +4,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstring>
 #include <sstream>
-#include <type_traits>
 
-#include "core/error.hpp"
 #include "fibers/explore/report/reordered_events.hpp"
+#include "tools/explore/fields.hpp"
 
 namespace waitpoint::tools {
 namespace {
-
-class Writer {
- public:
-  template <class T>
-  void operator()(const T& value) requires std::is_trivially_copyable_v<T> {
-    bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
-  }
-  void operator()(const std::string& text) { put(text); }
-  template <class T>
-  void operator()(const std::vector<T>& values) requires std::is_trivially_copyable_v<T> {
-    put(values);
-  }
-  std::string bytes;
-
- private:
-  template <class Sequence>
-  void put(const Sequence& sequence) {
-    (*this)(sequence.size());
-    bytes.append(reinterpret_cast<const char*>(sequence.data()), sequence.size() * sizeof *sequence.data());
-  }
-};
-
-class Reader {
- public:
-  explicit Reader(std::string_view bytes) : rest_(bytes) {}
-  template <class T>
-  void operator()(T& value) requires std::is_trivially_copyable_v<T> {
-    take(&value, sizeof value);
-  }
-  void operator()(std::string& text) { get(text); }
-  template <class T>
-  void operator()(std::vector<T>& values) requires std::is_trivially_copyable_v<T> {
-    get(values);
-  }
-
- private:
-  void take(void* to, std::size_t size) {
-    WAITPOINT_CHECK(size <= rest_.size(), "a finding is shorter than it says");
-    if (size > 0) std::memcpy(to, rest_.data(), size);
-    rest_.remove_prefix(size);
-  }
-  template <class Sequence>
-  void get(Sequence& sequence) {
-    std::size_t size = 0;
-    (*this)(size);
-    sequence.resize(size);
-    take(sequence.data(), size * sizeof *sequence.data());
-  }
-  std::string_view rest_;
-};
 
 template <class Pass, class Task>
 void pass_task(Pass& pass, Task& task) {
@@ -142,7 +90,7 @@ bool is_same_failure(const Finding& a, const Finding& b) {
 }
 
 std::string to_bytes(const Finding& finding) {
-  Writer writer;
+  FieldWriter writer;
   pass_fields(writer, finding);
   writer(finding.profile.tasks.size());
   for (const auto& task : finding.profile.tasks) pass_task(writer, task);
@@ -151,7 +99,7 @@ std::string to_bytes(const Finding& finding) {
 
 Finding finding_of(std::string_view bytes) {
   Finding finding;
-  Reader reader(bytes);
+  FieldReader reader(bytes);
   pass_fields(reader, finding);
   std::size_t tasks = 0;
   reader(tasks);

@@ -79,7 +79,7 @@ ProgramTarget::ProgramTarget(const ExploreOptions& options)
 
 ProgramTarget::~ProgramTarget() { close(input_); }
 
-void ProgramTarget::prepare() { server_.emplace(files_, settings_of(options_)); }
+void ProgramTarget::prepare() { const ForkServer server(files_, settings_of(options_)); }
 
 // The default order's profile is taken with the switch points that all runs have.
 Finding ProgramTarget::run(const Plan& plan, const Request& request) {
@@ -91,22 +91,25 @@ Finding ProgramTarget::run(const Plan& plan, const Request& request) {
 }
 
 Finding ProgramTarget::run_once(const Plan& plan, const Request& request) {
-  RunMemory memory(settings_of(options_));
+  if (!server_) {
+    std::signal(SIGTERM, note_stop);
+    server_.emplace(files_, settings_of(options_));
+  }
+  RunMemory& memory = server_->begin(settings_of(options_));
   ask_for_run(memory, options_, plan, request, profile_);
   const int input = opened_again(input_), output = memfd_create("waitpoint-output", MFD_CLOEXEC);
-  ServedRun run(*server_, memory, input, output);
+  const pid_t process = server_->start(input, output);
   Watchdog watchdog(memory.record());
   std::string stalled;
   std::optional<int> status;
-  std::signal(SIGTERM, note_stop);
-  while (!(status = run.wait(look_around_ms))) {
+  while (!(status = server_->wait(look_around_ms))) {
     if (is_to_stop != 0 && stalled.empty()) {
       stalled = "stopped by a signal at " + to_string(time_of(memory.record())) + " s of virtual time\n" +
                 states_of(memory.record());
-      kill(run.process(), SIGKILL);
+      kill(process, SIGKILL);
     } else if (std::string words = watchdog.look(); !words.empty()) {
       stalled = std::move(words);
-      kill(run.process(), SIGKILL);
+      kill(process, SIGKILL);
     }
   }
   Finding finding = finding_of_run(memory, *status, end_of(output), request, options_.trace.has_value());

@@ -22,20 +22,20 @@ class ProgramTarget final : public Target {
   std::uint64_t fingerprint() const override { return fingerprint_; }
   bool has_noise() const override { return false; }
   const ExploreOptions& options() const override { return options_; }
+  /// Starts it once, up to main().
   void prepare() override;
-  void set_profile(exploration::Profile profile) override { profile_ = std::move(profile); }
   using Target::run;
   Finding run(const Plan& plan, const Request& request) override;
 
  private:
+  bool has_processes() const override { return true; }
   Finding run_once(const Plan& plan, const Request& request);
 
   const ExploreOptions& options_;
   ProgramFiles files_;
   std::uint64_t fingerprint_;
-  int input_;
-  exploration::Profile profile_;
-  std::optional<ForkServer> server_;
+  int input_;                         // of the runs: each reads it from its beginning
+  std::optional<ForkServer> server_;  // of the process that runs schedules
 };
 
 /// A digest of the program's file, its words and the settings that its runs share.

@@ -32,7 +32,6 @@ class Scene final : public Target {
   const ExploreOptions& options() const override { return options_; }
   /// Advances to the time at which runs part, if one is set.
   void prepare() override;
-  void set_profile(exploration::Profile profile) override { profile_ = std::move(profile); }
   using Target::run;
   Finding run(const Plan& plan, const Request& request) override;
 
@@ -45,6 +44,7 @@ class Scene final : public Target {
   std::uint64_t noise(std::uint64_t number) const;
 
  private:
+  bool has_processes() const override { return false; }
   struct Stage;
   void watch_and_carry_out(const Plan& plan, const Request& request, Finding& finding);
   void carry_out(Time until, Finding& finding);
@@ -57,7 +57,6 @@ class Scene final : public Target {
   const ExploreOptions& options_;
   std::string replay_;
   bool judged_at_until_;  // a run cut short must have reached its goals by then
-  exploration::Profile profile_;
   std::unique_ptr<Stage> stage_;
   bool is_left_ = false;
 };

@@ -22,30 +22,22 @@ Finding outcome_of(const Children::Ended& ended) {
   return finding;
 }
 
-// A scenario's run never blocks; a program's is a separate process, for which the child waits.
-Children::Limits limits_of(const Target& target) {
-  return {.wall_s = target.limit_s(), .computes = target.options().program.empty()};
-}
-
 // A program's run that has gone on for long says what its threads do.
-void stop(Children& children, const Target& target) {
+void stop(Target& target) {
   if (target.options().program.empty()) return;
-  if (const auto ended = children.stop_longest())
+  if (const auto ended = target.runs().stop_longest())
     if (const std::string words = outcome_of(*ended).words; !words.empty())
       std::fprintf(stderr, "waitpoint: %s\n", words.c_str());
 }
 
 }  // namespace
 
-Search::Search(Target& target, SearchProgress& progress)
-    : target_(target), progress_(progress), children_(limits_of(target)) {}
-
 std::optional<Finding> run_apart(Target& target, const Plan& plan, const Target::Request& request) {
-  Children children(limits_of(target));
-  children.start(0, [&] { return to_bytes(target.run(plan, request)); });
+  target.runs().start(0, Target::to_request(plan, request));
   while (interruption() == 0)
-    if (const auto ended = children.wait(look_around_ms)) return outcome_of(*ended);
-  stop(children, target);
+    if (const auto ended = target.runs().wait(look_around_ms)) return outcome_of(*ended);
+  stop(target);
+  target.runs().kill_from(0);
   return std::nullopt;
 }
 
@@ -70,7 +62,7 @@ void Search::take(std::uint64_t number, Finding finding, bool all) {
   if (finding.passed()) return;
   ++failures_;
   if (first_ && first_->number < number) return;
-  if (!all) children_.kill_from(number);
+  if (!all) target_.runs().kill_from(number);
   first_ = Failed{number, std::move(finding)};
 }
 
@@ -85,17 +77,17 @@ void Search::run(bool all) {
 void Search::run_drawn(bool all) {
   const ExploreOptions& options = target_.options();
   while (!interrupted_) {
-    while (children_.count() < options.jobs && may_start(all)) {
+    while (target_.runs().count() < options.jobs && may_start(all)) {
       const std::uint64_t number = options.shard.index - 1 + started_++ * options.shard.count;
-      children_.start(number, [&] { return to_bytes(target_.run({.number = number})); });
+      target_.runs().start(number, Target::to_request({.number = number}, {}));
     }
-    if (children_.count() == 0) break;
-    if (const auto ended = children_.wait(look_around_ms)) take(ended->number, outcome_of(*ended), all);
+    if (target_.runs().count() == 0) break;
+    if (const auto ended = target_.runs().wait(look_around_ms)) take(ended->number, outcome_of(*ended), all);
     progress_.update(schedules_, distinct(), failures_);
     interrupted_ = interruption() != 0;
   }
-  if (interrupted_) stop(children_, target_);
-  children_.kill_from(0);
+  if (interrupted_) stop(target_);
+  target_.runs().kill_from(0);
 }
 
 // Sequential: each schedule is derived from the one before.

@@ -10,7 +10,6 @@
 #include <string>
 #include <unordered_set>
 
-#include "tools/explore/children.hpp"
 #include "tools/explore/depth_first.hpp"
 #include "tools/explore/search_progress.hpp"
 #include "tools/explore/target.hpp"
@@ -31,7 +30,7 @@ class Search {
     Finding finding;
   };
 
-  Search(Target& target, SearchProgress& progress);
+  Search(Target& target, SearchProgress& progress) : target_(target), progress_(progress) {}
 
   /// Runs the schedules that the options request. With `all`, failures do not end the search.
   void run(bool all);
@@ -54,7 +53,6 @@ class Search {
 
   Target& target_;
   SearchProgress& progress_;
-  Children children_;
   std::uint64_t started_ = 0;
   std::uint64_t schedules_ = 0, failures_ = 0;
   std::unordered_set<std::uint64_t> digests_;

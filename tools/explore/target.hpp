@@ -5,8 +5,10 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "core/time.hpp"
+#include "tools/explore/children.hpp"
 #include "tools/explore/explore_options.hpp"
 #include "tools/explore/finding.hpp"
 #include "tools/explore/plan.hpp"
@@ -44,19 +46,30 @@ class Target {
 
   /// Advances to the common origin of all runs. BadInput if the target ends before it.
   virtual void prepare() = 0;
-  /// The default order's profile, for strategies that need it.
-  virtual void set_profile(exploration::Profile profile) = 0;
-
-  /// Wall clock limit of each following run; 0: none.
-  void set_limit(double seconds) { limit_s_ = seconds; }
-  double limit_s() const { return limit_s_; }
+  /// The default order's profile, for strategies that need it. There must be no run.
+  void set_profile(exploration::Profile profile);
+  /// Wall clock limit of each following run; 0: none. There must be no run.
+  void set_limit(double seconds);
 
   /// Executes one run by the plan, in a process that does nothing else.
   virtual Finding run(const Plan& plan, const Request& request) = 0;
   Finding run(const Plan& plan) { return run(plan, Request()); }
 
+  /// The processes that execute runs, by requests.
+  Children& runs();
+  static std::string to_request(const Plan& plan, const Request& request);
+
+ protected:
+  /// True if runs are processes by themselves: one process can execute several, one after the other, and waits for
+  /// them.
+  virtual bool has_processes() const = 0;
+  exploration::Profile profile_;
+
  private:
+  std::string execute(std::string_view request);
+
   double limit_s_ = 0;
+  std::optional<Children> runs_;
 };
 
 /// True if the schedules that this strategy draws depend on the default order's profile.

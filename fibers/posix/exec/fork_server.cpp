@@ -10,25 +10,14 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstdint>
 #include <cstring>
+#include <iterator>
 #include <type_traits>
 
-#include "core/error.hpp"
 #include "fibers/posix/program/program.hpp"
 
 namespace waitpoint::posix {
 namespace {
-
-struct Run {
-  pid_t process;
-  int end;      // pidfd: ready when the process has ended
-  int answers;  // a socket
-};
-
-constexpr int runs_max = 1024;
-Run runs[runs_max];
-int run_count = 0;
 
 // False if no further packet comes.
 bool receive(int socket, int (&descriptors)[run_descriptors]) {
@@ -56,69 +45,42 @@ void answer(int socket, const T& what) {
 }
 
 // In the run: it has the same descriptors as a program that was just started.
-int become_run(int socket, const int (&descriptors)[run_descriptors]) {
+void become_run(int socket, const int (&descriptors)[run_descriptors]) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   setpgid(0, 0);
-  for (int i = 0; i < run_count; ++i) {
-    close(runs[i].end);
-    close(runs[i].answers);
-  }
   close(socket);
   dup2(descriptors[run_input], STDIN_FILENO);
   dup2(descriptors[run_output], STDOUT_FILENO);
   dup2(descriptors[run_output], STDERR_FILENO);
-  for (const int one : {run_input, run_output, run_answers}) close(descriptors[one]);
-  return descriptors[run_record];
+  for (const int one : descriptors) close(one);
 }
 
-void reap(int index) {
-  WAITPOINT_CHECK(index >= 0 && index < run_count && runs[index].process > 0, "a run ends that is not in the table");
-  const Run run = runs[index];
-  runs[index] = runs[--run_count];
-  kill(-run.process, SIGKILL);  // with the processes that it has started
+// Waits for the end of the run, which is killed if nobody waits for its answer any more; returns its status.
+int await_end(pid_t run, int socket) {
+  pollfd all[] = {{static_cast<int>(syscall(SYS_pidfd_open, run, 0)), POLLIN, 0}, {socket, 0, 0}};
+  while (poll(all, std::size(all), -1) < 0 && errno == EINTR) {
+  }
+  close(all[0].fd);
+  kill(-run, SIGKILL);  // with the processes that it has started
+  if ((all[1].revents & POLLHUP) != 0) kill(run, SIGKILL);
   int status = 0;
-  while (waitpid(run.process, &status, 0) < 0 && errno == EINTR) {
+  while (waitpid(run, &status, 0) < 0 && errno == EINTR) {
   }
-  answer(run.answers, RunEnded{status});
-  close(run.end);
-  close(run.answers);
-}
-
-// Handles the ends of runs until a packet comes; false without further packets.
-bool wait_for_packet(int socket) {
-  static pollfd all[2 * runs_max + 1];
-  for (;;) {
-    all[0] = {socket, POLLIN, 0};
-    for (int i = 0; i < run_count; ++i) {
-      all[2 * i + 1] = {runs[i].end, POLLIN, 0};
-      all[2 * i + 2] = {runs[i].answers, 0, 0};
-    }
-    const int count = run_count;
-    if (poll(all, static_cast<nfds_t>(2 * count + 1), -1) < 0 && errno != EINTR) return false;
-    for (int i = count; i-- > 0;) {
-      if ((all[2 * i + 2].revents & POLLHUP) != 0) kill(runs[i].process, SIGKILL);
-      if (all[2 * i + 1].revents != 0) reap(i);
-    }
-    if (all[0].revents != 0 && run_count < runs_max) return true;
-  }
+  return status;
 }
 
 }  // namespace
 
-int serve_runs(int socket) {
+void serve_runs(int socket) {
+  prctl(PR_SET_PDEATHSIG, 0);  // it ends the run before itself
   answer(socket, ServerReady{});
   int descriptors[run_descriptors];
-  while (wait_for_packet(socket) && receive(socket, descriptors)) {
-    const pid_t process = fork();
-    if (process == 0) return become_run(socket, descriptors);
-    for (const int one : {run_record, run_input, run_output}) close(descriptors[one]);
-    answer(descriptors[run_answers], RunStarted{process});
-    if (process < 0) {
-      close(descriptors[run_answers]);
-      continue;
-    }
-    WAITPOINT_CHECK(run_count < runs_max, "the table of runs has no room for another");
-    runs[run_count++] = {process, static_cast<int>(syscall(SYS_pidfd_open, process, 0)), descriptors[run_answers]};
+  while (receive(socket, descriptors)) {
+    const pid_t run = fork();
+    if (run == 0) return become_run(socket, descriptors);
+    for (const int one : descriptors) close(one);
+    answer(socket, RunStarted{run});
+    if (run > 0) answer(socket, RunEnded{await_end(run, socket)});
   }
   _exit(0);
 }

@@ -109,7 +109,7 @@ namespace {
 kernel::Scheduler& begin_run() {
   begin();
   if (const int server = record->settings.server; server >= 0 && !family::is_joined()) {
-    map_record(serve_runs(server));
+    serve_runs(server);
     trap_raw_calls_of_child();
   }
   WAITPOINT_CHECK(kernel::running == nullptr, "a run begins within a task");

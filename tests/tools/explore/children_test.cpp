@@ -7,6 +7,8 @@
 
 #include <csignal>
 #include <map>
+#include <set>
+#include <string>
 
 namespace waitpoint::tools {
 namespace {
@@ -20,40 +22,56 @@ std::map<std::uint64_t, Children::Ended> all_of(Children& children) {
   return ended;
 }
 
-TEST(Children, give_back_what_they_came_to_or_how_they_died) {
-  Children children;
-  children.start(1, [] { return std::string("bytes"); });
-  children.start(2, []() -> std::string {
+std::string carry_out(std::string_view job) {
+  if (job == "die") {
     std::fputs("last words\n", stderr);
     std::raise(SIGKILL);
-    return "";
-  });
+  }
+  while (job == "compute") asm volatile("");
+  while (job == "wait") pause();
+  if (job == "sleep") sleep(11);
+  return job == "process" ? std::to_string(getpid()) : std::string(job);
+}
+
+TEST(Children, give_back_what_they_came_to_or_how_they_died) {
+  Children children(carry_out, {});
+  children.start(1, "bytes");
+  children.start(2, "die");
   const auto ended = all_of(children);
   EXPECT_EQ(ended.at(1).bytes, "bytes");
   EXPECT_EQ(death_of(ended.at(1)), "");
   EXPECT_EQ(death_of(ended.at(2)), "the process was killed by signal 9 (Killed), with standard error:\nlast words");
 }
 
+TEST(Children, do_one_job_each_or_any_number_until_they_die) {
+  for (const bool is_reused : {false, true}) {
+    Children children(carry_out, {.is_reused = is_reused});
+    std::set<std::string> processes;
+    for (const std::uint64_t number : {1, 2, 3}) {
+      children.start(number, "process");
+      processes.insert(all_of(children).at(number).bytes);
+    }
+    EXPECT_EQ(processes.size(), is_reused ? 1 : 3);
+    children.start(4, "die");
+    EXPECT_FALSE(death_of(all_of(children).at(4)).empty());
+    children.start(5, "process");
+    EXPECT_FALSE(processes.contains(all_of(children).at(5).bytes));
+  }
+}
+
 TEST(Children, that_compute_or_wait_for_too_long_are_ended) {
-  Children children({.wall_s = 12});
-  children.start(1, []() -> std::string {
-    for (;;) asm volatile("");
-  });
-  children.start(2, []() -> std::string {
-    for (;;) pause();
-  });
+  Children children(carry_out, {.wall_s = 12});
+  children.start(1, "compute");
+  children.start(2, "wait");
   const auto ended = all_of(children);
   EXPECT_EQ(death_of(ended.at(1)), "exceeded 12 s of wall clock time (--schedule-limit); process killed");
   EXPECT_EQ(death_of(ended.at(2)), "blocked for 10 s outside the simulation (a real lock or input); process killed");
 }
 
 TEST(Children, of_which_it_is_expected_may_wait) {
-  Children children({.wall_s = 0, .computes = false});
-  children.start(1, [] {
-    sleep(11);
-    return std::string("done");
-  });
-  EXPECT_EQ(all_of(children).at(1).bytes, "done");
+  Children children(carry_out, {.wall_s = 0, .computes = false});
+  children.start(1, "sleep");
+  EXPECT_EQ(all_of(children).at(1).bytes, "sleep");
 }
 
 }  // namespace
