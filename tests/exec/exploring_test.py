@@ -200,6 +200,33 @@ class Ends(ExecCase):
         self.assertTrue(done.stdout.splitlines()[0].endswith("; exhaustive"), done.stdout)
 
 
+class Hangs(ExecCase):
+    def test_behind_sockets_of_the_program_are_deadlocks(self):
+        program = self.compile("epoll_thread.c")
+        for strategy in ("portfolio", "dfs"):
+            done = explore("--strategy", strategy, "--", program)
+            self.assertEqual(done.returncode, 1, strategy)
+            self.assertRegex(done.stdout, r" failed at \S+ s: deadlock\n  waitpoint: deadlock at \S+ s of virtual time\n"
+                                          r"    main waits for condition variable received\n"
+                                          r"    thread 1 waits for descriptor \d+\b.*\n1 switch away from the default order fails")
+            self.assertIn("the same run as in the record", explore(*replay_words(done.stdout)).stderr, strategy)
+
+    def test_repeat_where_a_program_connects_to_itself(self):
+        command = [WAITPOINT, "exec", "--", self.compile("epoll_thread.c")]
+        runs = {subprocess.run(command, capture_output=True, text=True).stderr for _ in range(5)}
+        self.assertEqual(len(runs), 1, runs)
+
+    def test_outside_of_the_simulation_end_at_the_limit_and_so_does_their_replay(self):
+        done = explore("--schedule-limit", "2", "--", self.compile("epoll_thread.c"), "native wait", self.folder / "fifo")
+        self.assertRegex(done.stdout, r"failed at \S+ s: exceeded 2 s of wall clock time \(--schedule-limit\) at 0\.0+ s of virtual time\n"
+                                      r"  main waits for something outside\n1 switch away from the default order fails")
+        self.assertNotIn("--replay wx1.0.00000000.", done.stdout)
+        again = explore("--schedule-limit", "2", *replay_words(done.stdout))
+        self.assertEqual(again.returncode, 1)
+        self.assertIn("waitpoint: failed: exceeded 2 s of wall clock time (--schedule-limit)\n"
+                      "waitpoint: the same run as in the record\n", again.stderr)
+
+
 class Conditions(ExecCase):
     """Properties shared by all runs, besides their schedules."""
 

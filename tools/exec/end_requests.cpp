@@ -83,11 +83,15 @@ bool EndRequests::look() {
 
 void EndRequests::end(int signal) {
   ended_by_ = signal;
-  if (record_.began)
-    std::fprintf(stderr, "waitpoint: ended by %s at %s s of virtual time\n%s", signal_in_words(signal).c_str(),
-                 to_string(time_of(record_)).c_str(), states_of(record_).c_str());
-  kill_all(record_);
-  kill(program_, SIGKILL);
+  end_at_once(record_, program_, "ended by " + signal_in_words(signal));
+}
+
+void end_at_once(const posix::Record& record, pid_t program, const std::string& reason) {
+  if (record.began)
+    std::fprintf(stderr, "waitpoint: %s at %s s of virtual time\n%s", reason.c_str(),
+                 to_string(time_of(record)).c_str(), states_of(record).c_str());
+  kill_all(record);
+  kill(program, SIGKILL);
 }
 
 }  // namespace waitpoint::tools

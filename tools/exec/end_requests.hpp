@@ -7,9 +7,14 @@
 
 #include <sys/types.h>
 
+#include <string>
+
 #include "fibers/posix/program/record.hpp"
 
 namespace waitpoint::tools {
+
+/// Ends the run of `program`, and says what its threads do: "waitpoint: REASON at 3.000000000 s of virtual time".
+void end_at_once(const posix::Record& record, pid_t program, const std::string& reason);
 
 class EndRequests {
  public:

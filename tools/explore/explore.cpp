@@ -69,7 +69,7 @@ std::string sum(const Target& target, const Search& search, double seconds) {
 }
 
 // A schedule counts as endless beyond the fixed limit plus this multiple of the default order's time.
-constexpr double least_limit_s = 60, usual_times_max = 10;
+constexpr double usual_times_max = 10;
 
 int search(Target& target, Files& files) {
   heed_signals();

@@ -20,6 +20,9 @@ struct Shard {
   std::uint64_t index = 1, count = 1;
 };
 
+/// Of one schedule, in seconds of the wall clock, if none is asked for; a replay's is the same.
+inline constexpr double least_limit_s = 60;
+
 struct ExploreOptions {
   std::filesystem::path scenario;
   std::vector<std::filesystem::path> confined_to;  ///< the only folders to read from; empty: all

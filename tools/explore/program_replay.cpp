@@ -50,8 +50,13 @@ int replay_program(const ExploreOptions& asked) {
   const Target::Request request{.words = !record.plan.drawn, .places = true, .events = trace.has_value()};
   RunMemory memory(settings_of(options));
   ask_for_run(memory, options, record.plan, request, profile);
-  const ProgramRun run(files, memory);
-  const Finding finding = finding_of_run(memory, run.status(), "", request, trace.has_value());
+  const double limit_s = options.schedule_limit_s.value_or(least_limit_s);
+  const ProgramRun run(files, memory, -1, limit_s);
+  Finding finding = finding_of_run(memory, run.status(), "", request, trace.has_value());
+  if (run.is_over_limit()) {
+    finding.kind = Finding::Kind::no_progress;
+    finding.words = over_limit(limit_s);
+  }
   if (memory.record().explored == nullptr) throw BadInput("exec", "the program ended before main()");
   const posix::History* const history = history_of(memory.record());
   const std::vector<exploration::Told> told =

@@ -9,12 +9,15 @@
 #include <algorithm>
 #include <csignal>
 #include <fstream>
+#include <utility>
 
 #include "core/digest.hpp"
 #include "tools/exec/accounts.hpp"
 #include "tools/exec/family_report.hpp"
+#include "tools/exec/program_run.hpp"
 #include "tools/exec/watchdog.hpp"
 #include "tools/explore/program_finding.hpp"
+#include "tools/output/progress.hpp"
 
 namespace waitpoint::tools {
 namespace {
@@ -100,22 +103,30 @@ Finding ProgramTarget::run_once(const Plan& plan, const Request& request) {
   const int input = opened_again(input_), output = memfd_create("waitpoint-output", MFD_CLOEXEC);
   const pid_t process = server_->start(input, output);
   Watchdog watchdog(memory.record());
+  const double start_s = wall_clock_s();
+  std::uint64_t events = 0;
+  bool has_gone_on = true;  // since the last look
   std::string stalled;
   std::optional<int> status;
   while (!(status = server_->wait(look_around_ms))) {
-    if (is_to_stop != 0 && stalled.empty()) {
-      stalled = "stopped by a signal at " + to_string(time_of(memory.record())) + " s of virtual time\n" +
-                states_of(memory.record());
+    const bool is_over = limit_s() > 0 && wall_clock_s() - start_s >= limit_s();
+    if (stalled.empty() && (is_to_stop != 0 || is_over)) {
+      stalled = (is_over ? over_limit(limit_s()) : "stopped by a signal") + " at " +
+                to_string(time_of(memory.record())) + " s of virtual time\n" + states_of(memory.record());
       kill(process, SIGKILL);
     } else if (std::string words = watchdog.look(); !words.empty()) {
       stalled = std::move(words);
       kill(process, SIGKILL);
+    } else {
+      has_gone_on = events_of(memory.record()) != std::exchange(events, events_of(memory.record()));
     }
   }
   Finding finding = finding_of_run(memory, *status, end_of(output), request, options_.trace.has_value());
   if (!stalled.empty()) {
+    while (stalled.ends_with('\n')) stalled.pop_back();
     finding.kind = Finding::Kind::no_progress;
     finding.words = stalled;
+    if (has_gone_on) finding.digest = 0;  // how far it came is the wall clock's
   }
   close(input);
   close(output);

@@ -34,8 +34,10 @@ void Target::set_limit(double seconds) {
 
 Children& Target::runs() {
   if (!runs_)
-    runs_.emplace([this](std::string_view request) { return execute(request); },
-                  Children::Limits{.wall_s = limit_s_, .computes = !has_processes(), .is_reused = has_processes()});
+    runs_.emplace(
+        [this](std::string_view request) { return execute(request); },
+        Children::Limits{
+            .wall_s = has_processes() ? 0 : limit_s_, .computes = !has_processes(), .is_reused = has_processes()});
   return *runs_;
 }
 

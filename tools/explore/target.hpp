@@ -63,6 +63,7 @@ class Target {
   /// True if runs are processes by themselves: one process can execute several, one after the other, and waits for
   /// them.
   virtual bool has_processes() const = 0;
+  double limit_s() const { return limit_s_; }
   exploration::Profile profile_;
 
  private:

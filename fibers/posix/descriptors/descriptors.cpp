@@ -46,6 +46,7 @@ Waiter* last = nullptr;
 int waiting_outside = 0;
 int waiting_for_no_descriptor = 0;  // these must be polled
 int waiting_for_input = 0;          // for descriptors outside
+int waiting_for_outsiders = 0;
 
 kernel::Object descriptors_object{"descriptor"};
 kernel::Object outside_object{"something outside"};
@@ -69,10 +70,19 @@ void note_waits() {
   family::own->listens_to = awaited;
   family::own->waits_outside = waiting_outside > 0;
   family::own->awaits_input = waiting_for_input > 0;
+  family::own->awaits_outsiders = waiting_for_outsiders > 0;
+}
+
+bool is_explored() { return record->settings.asked != nullptr; }
+
+bool awaits_outsiders(const Waiter& waiter) {
+  if (waiter.count == 0) return true;
+  return waiter.partner == Partner::possible ? !is_explored() : waiter.partner != Partner::none;
 }
 
 void count_outside(const Waiter& waiter, int by) {
   waiting_outside += by;
+  if (awaits_outsiders(waiter)) waiting_for_outsiders += by;
   (waiter.count == 0 ? waiting_for_no_descriptor : waiting_for_input) += by;
   WAITPOINT_CHECK(waiting_for_no_descriptor >= 0 && waiting_outside >= waiting_for_no_descriptor,
                   "the counts of threads that wait outside disagree");
@@ -203,17 +213,19 @@ bool anybody_awaits_partner(const kernel::Scheduler& scheduler) {
   Partner nearest = Partner::none;
   for (const Waiter* waiter = first; waiter != nullptr; waiter = waiter->next)
     if (waiter->task->state == kernel::TaskState::blocked) nearest = std::max(nearest, waiter->partner);
-  return nearest == Partner::certain || (nearest == Partner::possible && !can_others_act(scheduler));
+  if (nearest == Partner::possible) return !is_explored() && !can_others_act(scheduler);
+  return nearest == Partner::certain;
 }
 
 void (*before_look)() = nullptr;
 void (*before_partner)() = nullptr;
 
 bool anybody_waits_outside() { return waiting_outside > 0; }
+bool anybody_awaits_outsiders() { return waiting_for_outsiders > 0; }
 
 void forget_waiters() {
   first = last = nullptr;
-  waiting_outside = waiting_for_no_descriptor = waiting_for_input = 0;
+  waiting_outside = waiting_for_no_descriptor = waiting_for_input = waiting_for_outsiders = 0;
 }
 
 const pollfd* awaited_descriptors(const kernel::Task& task, nfds_t& count) {
@@ -248,7 +260,7 @@ int wait_for(pollfd* descriptors, nfds_t count, Time deadline, Restart restart) 
     Waiter waiter{&task, descriptors, count, outside, awaited_at(descriptors, count)};
     for (nfds_t i = 0; i < count && outside; ++i)
       waiter.partner = std::max(waiter.partner, partner_at(descriptors[i].fd));
-    if (waiter.partner != Partner::none && before_partner != nullptr) before_partner();
+    if (waiter.partner >= Partner::possible && before_partner != nullptr) before_partner();
     add(waiter);
     // While a thread waits outside, the run pauses at the end of each instant.
     if (outside) task.scheduler->pause();
@@ -268,12 +280,14 @@ int wait_for(int descriptor, short events, Time deadline, Restart restart) {
 
 WaitsOutside::WaitsOutside() {
   ++waiting_outside;
+  if (!is_explored()) ++waiting_for_outsiders;
   note_waits();
   kernel::running->scheduler->pause();
 }
 WaitsOutside::~WaitsOutside() {
   WAITPOINT_CHECK(waiting_outside > waiting_for_no_descriptor, "more waits for signals have ended than begun");
   --waiting_outside;
+  if (!is_explored()) --waiting_for_outsiders;
   note_waits();
 }
 

@@ -20,7 +20,12 @@
 namespace waitpoint::posix {
 namespace {
 
-Partner watched_by[known_descriptors_max];  // by epoll descriptors
+/// What an epoll descriptor watches outside.
+struct Watched {
+  bool is_any = false;
+  Partner nearest = Partner::none;
+};
+Watched watched_by[known_descriptors_max];  // by epoll descriptors
 bool is_certain[known_descriptors_max];     // a certain partner was found there
 int certain_count = 0;
 
@@ -93,12 +98,12 @@ bool is_known(int descriptor) { return descriptor >= 0 && descriptor < known_des
 
 Partner partner_at(int descriptor) {
   if (!is_known(descriptor) || is_inside(descriptor)) return Partner::none;
-  if (watched_by[descriptor] != Partner::none) return watched_by[descriptor];
+  if (watched_by[descriptor].is_any) return watched_by[descriptor].nearest;
   const ErrorNumberKept kept;
   struct stat of {};
   if (fstat(descriptor, &of) != 0) return Partner::none;
   if (S_ISSOCK(of.st_mode)) return noted(descriptor, partner_of_socket(descriptor));
-  return S_ISFIFO(of.st_mode) && descriptor > STDERR_FILENO ? Partner::possible : Partner::none;
+  return S_ISFIFO(of.st_mode) && descriptor > STDERR_FILENO ? Partner::possible : Partner::input;
 }
 
 bool has_partner() { return certain_count > 0; }
@@ -113,12 +118,12 @@ void note_own_port(int descriptor) {
 }
 
 void note_watched(int epoll, int descriptor) {
-  if (is_known(epoll)) watched_by[epoll] = std::max(watched_by[epoll], partner_at(descriptor));
+  if (is_known(epoll)) watched_by[epoll] = {true, std::max(watched_by[epoll].nearest, partner_at(descriptor))};
 }
 
 void forget_watched(int descriptor) {
   if (!is_known(descriptor)) return;
-  watched_by[descriptor] = Partner::none;
+  watched_by[descriptor] = {};
   if (std::exchange(is_certain[descriptor], false)) --certain_count;
 }
 

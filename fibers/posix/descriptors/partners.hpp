@@ -8,7 +8,8 @@
 namespace waitpoint::posix {
 
 enum class Partner : std::uint8_t {
-  none,
+  none,      ///< both ends are of the family
+  input,     ///< no process at a socket: a terminal, standard input
   possible,  ///< a socket that listens, or is not connected; or a named pipe: the other end may be inside, too
   certain,   ///< it is connected with a process that is not of the family
 };

@@ -60,10 +60,18 @@ Process* next_waiting_outside() {
   return nullptr;
 }
 
-// No process can continue by itself. False if none waits for something outside.
+// No process can continue by itself. False if none waits for something outside, or all wait for each other at sockets.
 bool wait_outside_together(kernel::Scheduler& scheduler) {
   Process* const next = next_waiting_outside();
   if (next == nullptr) return false;
+  const auto awaits_outsiders = [](const Process& each) { return waits_outside(each) && each.awaits_outsiders; };
+  if (std::ranges::none_of(family::entries(), awaits_outsiders)) {
+    family::Family& all = *family::family;
+    if (all.settled_after == all.actions) return false;
+    wait_outside_for(time_under_way);
+    all.settled_after = ++all.actions;  // so that all look once more
+    return true;
+  }
   if (!waits_outside(*family::own)) {
     family::hand_over_to(scheduler, *next);
     return true;

@@ -8,6 +8,8 @@
 namespace waitpoint::posix {
 
 inline constexpr Duration nanosecond = Duration(std::chrono::nanoseconds(1));
+/// The real time in which all data between sockets of this machine arrives, however busy it is.
+inline constexpr Duration time_under_way = Duration(std::chrono::milliseconds(50));
 
 /// Between two windows of the run: hands over the turn if another process is due, and waits in real time for something
 /// outside if none is. Sets the end of the next window. False if the run is over: no process can continue.

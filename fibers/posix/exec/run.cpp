@@ -58,6 +58,8 @@ void* run_body(void*) { std::exit(program_body()); }
 
 // At the end of an instant: takes in external input; returns the end of the run's next window.
 Time keep_pace(kernel::Scheduler& scheduler) {
+  // What is there by now, as from the program itself over the loopback, is of this instant.
+  if (look_outside(false)) return later(scheduler.global_time(), nanosecond);
   const Time next = scheduler.next_event_time();
   const Duration left = next == Time::max() ? Duration::max() : left_until(next);
   if (left == Duration()) {
@@ -173,6 +175,11 @@ Ending run_to_end(kernel::Scheduler& scheduler) {
     const bool is_idle = state == kernel::RunState::idle;
     if (is_paced(scheduler) && (!is_idle || anybody_waits_outside())) {
       until = keep_pace(scheduler);
+    } else if (is_idle && anybody_waits_outside() && !anybody_awaits_outsiders()) {
+      // All wait for each other, at sockets: a deadlock, unless something is still under way.
+      wait_outside_for(time_under_way);
+      if (!look_outside(false)) break;
+      until = later(scheduler.global_time(), nanosecond);
     } else if (look_outside(is_idle)) {
       until = later(scheduler.global_time(), nanosecond);
     } else if (is_idle) {

@@ -95,6 +95,7 @@ struct Process {
   bool waits_outside = false;
   bool has_partner = false;            ///< outside: virtual time waits for real time
   bool awaits_input = false;           ///< the same for descriptors alone
+  bool awaits_outsiders = false;       ///< somebody who is not of the family may end one of these waits
   Time looked_at = Time::from_ns(-1);  ///< the instant at whose end it last looked outside
   std::uint64_t looked_after = 0;      ///< the family's actions until then
 
@@ -157,8 +158,9 @@ struct alignas(Arena::alignment) Family {
   RunFile file;
   Arena arena;
   void* parts[static_cast<int>(Part::count)] = {};
-  Time now;                   ///< of the event now executing
-  std::uint64_t actions = 0;  ///< grows whenever a thread of any process has run, and when a process ends
+  Time now;                         ///< of the event now executing
+  std::uint64_t settled_after = 0;  ///< the actions after which nothing came any more from sockets of the family
+  std::uint64_t actions = 0;        ///< grows whenever a thread of any process has run, and when a process ends
   pid_t last_id = first_id - 1;
   std::uint32_t alive = 0;                                ///< number of processes that take turns
   std::uint32_t made = 0;                                 ///< number of all so far

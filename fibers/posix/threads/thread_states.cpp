@@ -5,6 +5,7 @@
 
 #include "fibers/posix/base/symbols.hpp"
 #include "fibers/posix/descriptors/descriptors.hpp"
+#include "fibers/posix/descriptors/partners.hpp"
 #include "fibers/posix/family/processes.hpp"
 #include "fibers/posix/program/program.hpp"
 #include "fibers/posix/program/waitable.hpp"
@@ -19,7 +20,8 @@ void add_descriptors(BoundedText& text, const kernel::Task& task) {
   constexpr nfds_t told_max = 8;
   text.add("descriptor");
   for (nfds_t i = 0; i < count && i < told_max; ++i)
-    text.add("%s %d%s", i > 0 ? "," : "", awaited[i].fd, is_inside(awaited[i].fd) ? "" : " (outside)");
+    text.add("%s %d%s", i > 0 ? "," : "", awaited[i].fd,
+             partner_at(awaited[i].fd) == Partner::none ? "" : " (outside)");
   if (count > told_max) text.add(", ...");
 }
 
