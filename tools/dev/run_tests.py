@@ -39,6 +39,7 @@ OWN_CASES = {
     "the kernel's plain path gives this build's run": [str(ROOT / "tools/dev/builds.sh"), "build", "build-plain-path"],
     "exec": [sys.executable, str(ROOT / "tests/exec/debian_test.py"), BUILD],
     "exec, the command": [sys.executable, str(ROOT / "tests/exec/command_test.py"), BUILD],
+    "exec, misuse": [sys.executable, str(ROOT / "tests/exec/misuse_test.py"), BUILD],
     "exec, endless runs": [sys.executable, str(ROOT / "tests/exec/endless_test.py"), BUILD],
     "exec, partners": [sys.executable, str(ROOT / "tests/exec/partners_test.py"), BUILD],
     "exec, families": [sys.executable, str(ROOT / "tests/exec/families_test.py"), BUILD],

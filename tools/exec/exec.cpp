@@ -16,6 +16,7 @@
 #include "tools/command/signal_words.hpp"
 #include "tools/exec/family_report.hpp"
 #include "tools/exec/program_run.hpp"
+#include "tools/exec/misuse_report.hpp"
 #include "tools/exec/race_report.hpp"
 #include "tools/output/output_file.hpp"
 
@@ -125,6 +126,7 @@ int exec(const ExecOptions& options) {
   const bool failed = run.signal() != 0 || memory.record().ending != posix::Ending::own;
   if (memory.record().began) {
     std::fputs(races_of(memory.record()).c_str(), stderr);
+    std::fputs(misuses_of(memory.record()).c_str(), stderr);
     if (!options.quiet || failed) print_summary(memory.record(), files.programs.title());
     // Any other status is a failure only to the program's users.
     if (failed || (!options.quiet && run.exit_status() != 0))

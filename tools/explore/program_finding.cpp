@@ -11,6 +11,7 @@
 #include "fibers/posix/exec/exploration.hpp"
 #include "tools/command/signal_words.hpp"
 #include "tools/exec/family_report.hpp"
+#include "tools/exec/misuse_report.hpp"
 #include "tools/exec/race_report.hpp"
 
 namespace waitpoint::tools {
@@ -124,6 +125,11 @@ Finding finding_of_run(const RunMemory& memory, int status, const std::string& o
     finding.kind = Finding::Kind::unmet;
     finding.words = "a data race";
     if (request.places) finding.details = races_of(record);
+  }
+  if (const std::string misuse = first_misuse(record); finding.passed() && !misuse.empty()) {
+    finding.kind = Finding::Kind::unmet;
+    finding.words = "misuse: " + misuse;
+    if (request.places) finding.details = misuses_of(record);
   }
   if (record.explored == nullptr) return finding;
   const posix::Explored& explored = *record.explored;

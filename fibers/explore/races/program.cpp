@@ -23,6 +23,9 @@ void* __libc_realloc(void* old, std::size_t size);
 void* __libc_memalign(std::size_t alignment, std::size_t size);
 void __libc_free(void* memory);
 
+/// Of the layer under programs, where that is present.
+[[gnu::weak, gnu::visibility("hidden")]] void waitpoint_note_freed(void* memory);
+
 void __tsan_init();
 int __cxa_guard_acquire(std::uint64_t* guard);
 void __cxa_guard_release(std::uint64_t* guard);
@@ -71,7 +74,10 @@ int posix_memalign(void** memory, std::size_t alignment, std::size_t size) {
   *memory = given(found);
   return 0;
 }
-void free(void* memory) { __libc_free(memory); }
+void free(void* memory) {
+  if (waitpoint_note_freed != nullptr) waitpoint_note_freed(memory);
+  __libc_free(memory);
+}
 
 // While another task constructs the static, this one yields to it.
 int __cxa_guard_acquire(std::uint64_t* guard) {

@@ -23,8 +23,8 @@ namespace waitpoint::posix {
 /// True if a thread waits for something outside.
 bool anybody_waits_outside();
 /// True if the wait of one may be ended by somebody who is not of the family. Waits at sockets whose both ends are of
-/// the family are not, though the system delivers; while schedules are explored, nor are those at sockets that nobody is
-/// connected to, and for signals.
+/// the family are not, though the system delivers; while schedules are explored, nor are those at sockets that nobody
+/// is connected to, and for signals.
 bool anybody_awaits_outsiders();
 /// The same for descriptors with a partner outside (partners.hpp); with a possible one only if no other thread of the
 /// program could be at the other end.

@@ -11,6 +11,7 @@
 #include "fibers/kernel/call_stack.hpp"
 #include "fibers/posix/base/symbols.hpp"
 #include "fibers/posix/family/family.hpp"
+#include "fibers/posix/family/task_names.hpp"
 #include "fibers/posix/program/program.hpp"
 #include "fibers/posix/signals/signals.hpp"
 #include "fibers/posix/threads/thread_states.hpp"

@@ -2,9 +2,9 @@
 // Runs of a program by fork, from the point before main(): the program is loaded only once.
 //
 // The explorer requests each run by a packet over a socket, with the descriptors of its input and its output in it. The
-// record, which all runs use in turn, holds the run's settings by then. The answers are the run's process id and, at its
-// end, its status, as of waitpid(). A run is killed, and the server ends, when the other end of the socket is closed.
-// Processes of a run's group end with it.
+// record, which all runs use in turn, holds the run's settings by then. The answers are the run's process id and, at
+// its end, its status, as of waitpid(). A run is killed, and the server ends, when the other end of the socket is
+// closed. Processes of a run's group end with it.
 #pragma once
 
 #include <sys/types.h>

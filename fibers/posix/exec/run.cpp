@@ -20,6 +20,7 @@
 #include "fibers/posix/exec/family_run.hpp"
 #include "fibers/posix/exec/fork_server.hpp"
 #include "fibers/posix/exec/idle_watch.hpp"
+#include "fibers/posix/exec/misuse_log.hpp"
 #include "fibers/posix/exec/race_log.hpp"
 #include "fibers/posix/exec/run_memory.hpp"
 #include "fibers/posix/family/turn.hpp"
@@ -126,6 +127,7 @@ kernel::Scheduler& begin_run() {
     else
       begin_race_log(asked->learn, asked->code);
   }
+  begin_misuse_log();
   if (!kernel::Scheduler::has_address_space())
     refuse("there is no address space for the run's tables (a limit such as ulimit -v)");
   kernel::Scheduler& scheduler =

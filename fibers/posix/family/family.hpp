@@ -38,6 +38,7 @@ enum class Part {
   files,
   ports,
   races,
+  misuses,
   history,
   count
 };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Calls that end a process. If it is several programs, they end only the calling one. Until the last of its threads' code
-// was called, the other threads may come first: the calls, and the handlers of the exit, are switch points.
+// Calls that end a process. If it is several programs, they end only the calling one. Until the last of its threads'
+// code was called, the other threads may come first: the calls, and the handlers of the exit, are switch points.
 #include <assert.h>
 #include <signal.h>
 #include <sys/wait.h>

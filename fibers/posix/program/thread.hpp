@@ -42,6 +42,7 @@ struct Thread {
   bool detached = false;
   bool has_joiner = false;
   bool ended = false;
+  bool is_gone = false;  ///< ended, and joined or detached
   void* argument = nullptr;
   void* result = nullptr;
   /// A stack of the program's address or size; null: its task's stack is used.

@@ -3,6 +3,7 @@
 
 #include <sys/mman.h>
 
+#include <algorithm>
 #include <bit>
 
 #include "core/digest.hpp"
@@ -13,7 +14,7 @@
 namespace waitpoint::posix {
 namespace {
 
-constexpr std::size_t cells_at_once = 4096;
+constexpr std::size_t cells_at_once = 4096, page_bytes = 4096;
 
 union Cell {
   Cell* next_free;
@@ -29,6 +30,11 @@ Cell* next_cell = nullptr;
 Waitable** buckets = nullptr;
 std::size_t bucket_count = 0;
 std::size_t kept = 0;
+
+// A bit for each page with a waitable's address, by a hash: set for good.
+constexpr std::size_t page_bits = 1 << 16;
+std::uint64_t pages_with[page_bits / 64];
+std::uint64_t& word_of_page(std::uintptr_t page) { return pages_with[page % page_bits / 64]; }
 
 // An address that no program uses: holes may be reserved by the program.
 constexpr std::uintptr_t first_pages = 0x2b00'0000'0000;
@@ -134,6 +140,8 @@ void* fresh_cell(const void* address) {
   if (found != nullptr && found->idle()) return found;
   // A primitive there is still held or waited for: it remains, but is not found any more.
   if (found != nullptr) unlink(*found);
+  const std::uintptr_t page = reinterpret_cast<std::uintptr_t>(address) / page_bytes;
+  word_of_page(page) |= std::uint64_t{1} << page % 64;
   Waitable*& bucket = bucket_of(address);
   auto* made = new (take_cell()) Waitable(Waitable::Kind::word, "", address);
   made->next_of_bucket = bucket;
@@ -149,6 +157,29 @@ void forget(Waitable& waitable) {
   WAITPOINT_CHECK(cell != first_free, "the cell of a primitive is freed twice");
   cell->next_free = first_free;
   first_free = cell;
+}
+
+Waitable* mark_freed(const void* memory, std::size_t bytes) {
+  Waitable* awaited = nullptr;
+  const auto begin = reinterpret_cast<std::uintptr_t>(memory), end = begin + bytes;
+  for (std::uintptr_t page = begin / page_bytes; kept > 0 && page * page_bytes < end; ++page) {
+    if ((word_of_page(page) >> page % 64 & 1) == 0) continue;
+    const std::uintptr_t last = std::min(end, (page + 1) * page_bytes);
+    for (std::uintptr_t at = std::max(begin, page * page_bytes); at < last; at += alignof(void*))
+      for (Waitable* w = bucket_of(reinterpret_cast<void*>(at)); w != nullptr; w = w->next_of_bucket) {
+        if (reinterpret_cast<std::uintptr_t>(w->address) != at || w->kind == Waitable::Kind::word) continue;
+        w->is_freed = true;
+        if (w->object.first_waiter != nullptr) awaited = w;
+      }
+  }
+  return awaited;
+}
+
+void add_waitable(BoundedText& text, const Waitable& waitable) {
+  if (const char* const name = symbol_at(waitable.address); name != nullptr)
+    text.add("%s %s", waitable.object.kind, name);
+  else
+    text.add("%s at %p", waitable.object.kind, waitable.address);
 }
 
 const Waitable* waitable_of(const kernel::Object& object) {

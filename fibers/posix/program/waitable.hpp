@@ -12,6 +12,7 @@
 #include <new>
 
 #include "fibers/kernel/task.hpp"
+#include "fibers/posix/base/bounded_text.hpp"
 
 namespace waitpoint::posix {
 
@@ -23,9 +24,13 @@ struct Waitable {
 
   kernel::Object object;
   Kind kind;
+  bool is_freed = false;  ///< the memory of the program's object
   const void* address;
   Waitable* next_of_bucket = nullptr;
 };
+
+/// In the bytes of a primitive that was destroyed, and is not shared by processes: it has no waitable any more.
+inline constexpr std::uint32_t mark_of_destroyed = 0x44455354;
 
 /// Enough for any kind.
 inline constexpr std::size_t waitable_bytes_max = 256;
@@ -38,6 +43,10 @@ Waitable* find_waitable(const void* address, Waitable::Kind kind);
 void* fresh_cell(const void* address);
 /// Frees the cell of a destroyed primitive.
 void forget(Waitable& waitable);
+/// The memory is about to be freed: marks the waitables in it, and returns one that threads wait for; null without one.
+Waitable* mark_freed(const void* memory, std::size_t bytes);
+/// "mutex jobs_lock", or the address if the program has no symbol for it.
+void add_waitable(BoundedText& text, const Waitable& waitable);
 /// The waitable of an object, for reports; null if the object belongs to no primitive.
 const Waitable* waitable_of(const kernel::Object& object);
 

@@ -59,17 +59,19 @@ WAITPOINT_INTERPOSED int pthread_barrier_init(pthread_barrier_t* barrier, const 
 
 WAITPOINT_INTERPOSED int pthread_barrier_destroy(pthread_barrier_t* barrier) noexcept {
   Bytes& bytes = bytes_of(barrier);
+  if (!bytes.is_shared() && bytes.known != nullptr && !bytes.known->idle())
+    note_misuse("destroys", *bytes.known, ", awaited by ", bytes.known->object.first_waiter);
   if (bytes.arrived > 0) return EBUSY;
-  Waitable* const known = bytes.is_shared() ? find_waitable(barrier, Waitable::Kind::barrier) : bytes.known;
+  const Waitable* const known = bytes.is_shared() ? find_waitable(barrier, Waitable::Kind::barrier) : bytes.known;
   if (known != nullptr && !known->idle()) return EBUSY;
-  if (known != nullptr) forget(*known);
-  bytes.known = nullptr;
+  bytes.destroy(Waitable::Kind::barrier);
   return 0;
 }
 
 WAITPOINT_INTERPOSED int pthread_barrier_wait(pthread_barrier_t* barrier) noexcept {
   if (!is_simulated()) refuse("a thread waits before main() begins");
   Bytes& bytes = bytes_of(barrier);
+  bytes.check("waits for");
   Barrier& known = bytes.waitable();
   pass(kernel::Operation::arrive, &known.object);
   std::uint32_t opened = 0;

@@ -24,6 +24,7 @@ struct Condition : Waitable {
 
   kernel::Object last_leaves{"end of a condition variable"};  ///< for who destroys it
   std::uint32_t inside = 0;                                   ///< calls in their wait, of a private one
+  const Mutex* mutex = nullptr;                               ///< of the last wait
 };
 static_assert(sizeof(Condition) <= waitable_bytes_max);
 
@@ -139,11 +140,17 @@ class GivenUp {
 int wait_before(pthread_cond_t* condition, pthread_mutex_t* bytes, Time deadline) {
   if (!is_simulated()) refuse("a thread waits before main() begins");
   ConditionBytes& words = bytes_of(condition);
+  words.check("waits for");
   Condition& known = bytes_of(condition).waitable();
+  if (is_destroyed(*bytes)) return EINVAL;
   Mutex& mutex = mutex_of(bytes);
   const CancellationPoint point;
   pass(kernel::Operation::wait, &known.object);
   if (!is_mine(*bytes) && type_of(*bytes) != PTHREAD_MUTEX_TIMED_NP) return EPERM;
+  if (!is_mine(*bytes)) note_misuse("waits for a condition with", mutex, ", which it has not locked");
+  if (known.inside > 0 && known.mutex != &mutex)
+    note_misuse("waits for", known, " with another mutex than those that wait already");
+  known.mutex = &mutex;
   // Unlock and wait are one step, without a waitpoint between, so the happens-before edge is reported here.
   if (kernel::sanitizer::present) kernel::sanitizer::release(&mutex.object);
   const std::uint64_t ticket = words.is_shared() ? take_ticket(words) : 0;
@@ -167,6 +174,7 @@ int wait_before(pthread_cond_t* condition, pthread_mutex_t* bytes, Time deadline
 
 int notify(pthread_cond_t* condition, bool all) {
   if (!is_simulated()) return 0;
+  bytes_of(condition).check("signals");
   Condition& known = bytes_of(condition).waitable();
   pass(all ? kernel::Operation::notify_all : kernel::Operation::notify_one, &known.object);
   if (bytes_of(condition).is_shared())
@@ -201,9 +209,7 @@ WAITPOINT_INTERPOSED int pthread_cond_destroy(pthread_cond_t* condition) noexcep
     kernel::running->scheduler->enter(end);
     if (wait_on_shared(end, Time::max(), has_everybody_left, &bytes) == Wait::interrupted) handle_signals();
   }
-  Waitable* const known = bytes.is_shared() ? find_waitable(condition, Waitable::Kind::condition) : bytes.known;
-  if (known != nullptr) forget(*known);
-  bytes.known = nullptr;
+  bytes.destroy(Waitable::Kind::condition);
   return 0;
 }
 

@@ -7,6 +7,7 @@
 #include "core/error.hpp"
 #include "fibers/kernel/ownership.hpp"
 #include "fibers/posix/base/interposed.hpp"
+#include "fibers/posix/family/misuse.hpp"
 #include "fibers/posix/program/allocator.hpp"
 #include "fibers/posix/signals/signals.hpp"
 #include "fibers/posix/sync/robust_mutexes.hpp"
@@ -82,11 +83,23 @@ int wait_and_lock(Mutex& mutex, int type, Time deadline) {
   return enter(mutex);
 }
 
+// The mutex, if it is there: null, with a report, if it was destroyed.
+Mutex* mutex_for(const char* does, pthread_mutex_t* bytes) {
+  if (is_destroyed(*bytes)) {
+    note_misuse(does, Mutex(bytes), ", which was destroyed");
+    return nullptr;
+  }
+  Mutex& mutex = mutex_of(bytes);
+  check_is_there(does, mutex);
+  return &mutex;
+}
+
 // Short cuts for an uncontended lock and unlock, where no event can come between: the most frequent calls of programs.
 [[gnu::always_inline]] inline bool lock_at_once(const pthread_mutex_t& bytes) {
   Mutex* const mutex = reinterpret_cast<Mutex*>(bytes.__data.__list.__prev);
   kernel::Task* const task = kernel::running;
-  if (mutex == nullptr || mutex->object.owner != nullptr || mutex->robust_state != Mutex::RobustState::consistent)
+  if (mutex == nullptr || mutex->object.owner != nullptr || mutex->robust_state != Mutex::RobustState::consistent ||
+      mutex->is_freed)
     return false;
   if (!pass_at_once(task, kernel::Operation::lock, mutex->object)) return false;
   WAITPOINT_FAST_CHECK(mutex->object.owner == nullptr, "a mutex was taken during a short cut of its lock");
@@ -109,7 +122,9 @@ int wait_and_lock(Mutex& mutex, int type, Time deadline) {
 }
 
 [[gnu::noinline]] int lock_before(pthread_mutex_t* bytes, Time deadline, bool is_valid_deadline) {
-  Mutex& mutex = mutex_of(bytes);
+  Mutex* const there = mutex_for("locks", bytes);
+  if (there == nullptr) return EINVAL;
+  Mutex& mutex = *there;
   pass(kernel::Operation::lock, &mutex.object);
   if (mutex.is_shared) return shared_mutex::lock(*bytes, deadline, is_valid_deadline);
   // A second lock by the owner ignores the deadline, unless it would wait for itself.
@@ -120,7 +135,9 @@ int wait_and_lock(Mutex& mutex, int type, Time deadline) {
 }
 
 int try_lock(pthread_mutex_t* bytes) {
-  Mutex& mutex = mutex_of(bytes);
+  Mutex* const there = mutex_for("tries to lock", bytes);
+  if (there == nullptr) return EINVAL;
+  Mutex& mutex = *there;
   pass(kernel::Operation::try_lock, &mutex.object);
   if (mutex.is_shared) return shared_mutex::try_lock(*bytes);
   if (mutex.robust_state == Mutex::RobustState::unrecoverable) return ENOTRECOVERABLE;
@@ -135,7 +152,10 @@ int try_lock(pthread_mutex_t* bytes) {
 }
 
 [[gnu::noinline]] int unlock(pthread_mutex_t* bytes) {
-  Mutex& mutex = mutex_of(bytes);
+  const bool is_new = bytes->__data.__list.__prev == nullptr;  // it may have been locked before main()
+  Mutex* const there = mutex_for("unlocks", bytes);
+  if (there == nullptr) return EINVAL;
+  Mutex& mutex = *there;
   pass(kernel::Operation::unlock, &mutex.object);
   if (mutex.is_shared) return shared_mutex::unlock(*bytes);
   const bool is_mine = mutex.object.owner == kernel::running;
@@ -143,7 +163,11 @@ int try_lock(pthread_mutex_t* bytes) {
                    mutex.is_robust || inherits_priority(*bytes)))
     return EPERM;
   // A normal mutex: glibc lets any thread unlock it, locked or not.
-  if (mutex.object.owner == nullptr) return 0;
+  if (mutex.object.owner == nullptr) {
+    if (!is_new) note_misuse("unlocks", mutex, ", which is not locked");
+    return 0;
+  }
+  if (!is_mine) note_misuse("unlocks", mutex, ", locked by ", mutex.object.owner);
   if (mutex.depth > 1) {
     --mutex.depth;
     return 0;
@@ -238,11 +262,15 @@ WAITPOINT_INTERPOSED int pthread_mutex_init(pthread_mutex_t* mutex, const pthrea
 
 WAITPOINT_INTERPOSED int pthread_mutex_destroy(pthread_mutex_t* mutex) noexcept {
   auto*& known = reinterpret_cast<Mutex*&>(mutex->__data.__list.__prev);
+  if (is_destroyed(*mutex)) return 0;
   if (is_shared(*mutex)) return shared_mutex::destroy(*mutex);
-  if (known == nullptr) return 0;
-  if (!known->idle()) return EBUSY;
-  forget(*known);
+  if (known != nullptr && !known->idle()) {
+    note_misuse("destroys", *known, ", locked by ", known->object.owner);
+    return EBUSY;
+  }
+  if (known != nullptr) forget(*known);
   known = nullptr;
+  mutex->__data.__kind = kind_of_destroyed;
   return 0;
 }
 

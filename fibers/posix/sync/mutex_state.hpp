@@ -38,6 +38,10 @@ static_assert((PTHREAD_MUTEX_TIMED_NP | PTHREAD_MUTEX_RECURSIVE_NP | PTHREAD_MUT
 static_assert(offsetof(pthread_mutex_t, __data.__list.__prev) % alignof(void*) == 0 &&
               sizeof(pthread_mutex_t::__data.__list) == 2 * sizeof(void*));
 
+/// As glibc marks it: all calls but pthread_mutex_init() fail with EINVAL then.
+inline constexpr int kind_of_destroyed = -1;
+inline bool is_destroyed(const pthread_mutex_t& mutex) { return mutex.__data.__kind == kind_of_destroyed; }
+
 inline bool is_shared(const pthread_mutex_t& mutex) { return (mutex.__data.__kind & Mutex::shared_bit) != 0; }
 
 inline int type_of(const pthread_mutex_t& mutex) { return mutex.__data.__kind & 3; }

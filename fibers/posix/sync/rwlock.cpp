@@ -9,6 +9,7 @@
 #include "core/error.hpp"
 #include "fibers/kernel/ownership.hpp"
 #include "fibers/posix/base/interposed.hpp"
+#include "fibers/posix/family/misuse.hpp"
 #include "fibers/posix/program/waitable.hpp"
 #include "fibers/posix/program/waiting.hpp"
 #include "fibers/posix/signals/signals.hpp"
@@ -45,6 +46,16 @@ RwLock& lock_of(pthread_rwlock_t* lock) {
   return waitable_at(*reinterpret_cast<RwLock**>(lock), lock);
 }
 
+// The mark of a destroyed one is in glibc's padding.
+void check(const char* does, const pthread_rwlock_t& bytes) {
+  if (shared_rwlock::is_shared(bytes)) return;
+  const RwLock* const known = *reinterpret_cast<RwLock* const*>(&bytes);
+  if (known == nullptr && bytes.__data.__pad4 == mark_of_destroyed)
+    note_misuse(does, RwLock(&bytes), ", which was destroyed");
+  else if (known != nullptr)
+    check_is_there(does, *known);
+}
+
 bool prefers_writers(const pthread_rwlock_t& bytes) {
   return bytes.__data.__flags == PTHREAD_RWLOCK_PREFER_WRITER_NONRECURSIVE_NP;
 }
@@ -55,6 +66,7 @@ bool readers_wait(const pthread_rwlock_t& bytes, const RwLock& lock) {
 }
 
 int read_before(pthread_rwlock_t* bytes, Time deadline, bool valid) {
+  check("locks", *bytes);
   RwLock& lock = lock_of(bytes);
   pass(kernel::Operation::lock_shared, &lock.object);
   if (shared_rwlock::is_shared(*bytes)) return shared_rwlock::read_before(*bytes, lock.object, deadline, valid);
@@ -87,6 +99,7 @@ void admit_readers(RwLock& lock) {
 }
 
 int write_before(pthread_rwlock_t* bytes, Time deadline, bool valid) {
+  check("locks", *bytes);
   RwLock& lock = lock_of(bytes);
   pass(kernel::Operation::lock, &lock.object);
   if (shared_rwlock::is_shared(*bytes)) return shared_rwlock::write_before(*bytes, lock.object, deadline, valid);
@@ -123,9 +136,14 @@ void hand_on(RwLock& lock, bool prefers_writers) {
 }
 
 int unlock(pthread_rwlock_t* bytes) {
+  const bool is_new = *reinterpret_cast<RwLock* const*>(bytes) == nullptr;  // it may have been locked before main()
+  check("unlocks", *bytes);
   RwLock& lock = lock_of(bytes);
   pass(kernel::Operation::unlock, &lock.object);
   if (shared_rwlock::is_shared(*bytes)) return shared_rwlock::unlock(*bytes, lock.object);
+  if (lock.free() && !is_new) note_misuse("unlocks", lock, ", which is not locked");
+  if (lock.object.owner != nullptr && lock.object.owner != kernel::running)
+    note_misuse("unlocks", lock, ", locked by ", lock.object.owner);
   if (lock.object.owner != nullptr)
     take_from_owner(lock.object);
   else if (lock.readers > 0)
@@ -142,16 +160,24 @@ using namespace waitpoint::posix;
 
 WAITPOINT_INTERPOSED int pthread_rwlock_init(pthread_rwlock_t* lock, const pthread_rwlockattr_t* attributes) noexcept {
   const int error = WAITPOINT_NEXT(pthread_rwlock_init)(lock, attributes);
-  if (error == 0) *reinterpret_cast<RwLock**>(lock) = nullptr;
-  return error;
+  if (error != 0) return error;
+  *reinterpret_cast<RwLock**>(lock) = nullptr;
+  lock->__data.__pad4 = 0;
+  return 0;
 }
 
 WAITPOINT_INTERPOSED int pthread_rwlock_destroy(pthread_rwlock_t* lock) noexcept {
   RwLock*& known = *reinterpret_cast<RwLock**>(lock);
   Waitable* const waitable =
       shared_rwlock::is_shared(*lock) ? find_waitable(lock, Waitable::Kind::rwlock) : static_cast<Waitable*>(known);
+  if (waitable != nullptr && !shared_rwlock::is_shared(*lock)) {
+    const kernel::Task* const owner = waitable->object.owner;
+    if (owner != nullptr) note_misuse("destroys", *waitable, ", locked by ", owner);
+    if (owner == nullptr && known->readers > 0) note_misuse("destroys", *waitable, ", locked by readers");
+  }
   if (waitable != nullptr) forget(*waitable);
   known = nullptr;
+  if (!shared_rwlock::is_shared(*lock)) lock->__data.__pad4 = mark_of_destroyed;
   return 0;
 }
 

@@ -44,6 +44,7 @@ int acquire_before(sem_t* semaphore, Time deadline, bool is_valid_deadline) {
   if (!is_simulated()) refuse("a thread waits before main() begins");
   if (!is_valid_deadline) return fail(EINVAL);
   Bytes& bytes = bytes_of(semaphore);
+  bytes.check("waits for");
   Semaphore& known = bytes.waitable();
   const CancellationPoint point;
   pass(kernel::Operation::acquire, &known.object);
@@ -85,16 +86,13 @@ WAITPOINT_INTERPOSED int sem_init(sem_t* semaphore, int shared, unsigned count) 
 }
 
 WAITPOINT_INTERPOSED int sem_destroy(sem_t* semaphore) noexcept {
-  Bytes& bytes = bytes_of(semaphore);
-  Waitable* const known =
-      bytes.is_shared() ? find_waitable(semaphore, Waitable::Kind::semaphore) : static_cast<Waitable*>(bytes.known);
-  if (known != nullptr) forget(*known);
-  bytes.known = nullptr;
+  bytes_of(semaphore).destroy(Waitable::Kind::semaphore);
   return 0;
 }
 
 WAITPOINT_INTERPOSED int sem_post(sem_t* semaphore) noexcept {
   Bytes& bytes = bytes_of(semaphore);
+  bytes.check("posts");
   Semaphore& known = bytes.waitable();
   if (is_simulated()) pass(kernel::Operation::release, &known.object);
   if (bytes.is_shared()) return give_shared(bytes, known);

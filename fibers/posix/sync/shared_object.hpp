@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "fibers/posix/descriptors/descriptors.hpp"
+#include "fibers/posix/family/misuse.hpp"
 #include "fibers/posix/family/order.hpp"
 #include "fibers/posix/program/waitable.hpp"
 #include "fibers/posix/program/waiting.hpp"
@@ -23,6 +24,23 @@ struct SharedBytes {
   std::uint32_t mark;
 
   bool is_shared() const { return mark == mark_of_shared; }
+  /// Reports its use if it was destroyed, or its memory freed.
+  void check(const char* does) {
+    if (is_shared()) return;
+    if (mark == mark_of_destroyed && known == nullptr)
+      note_misuse(does, Known(this), ", which was destroyed");
+    else if (known != nullptr)
+      check_is_there(does, *known);
+  }
+  /// Forgets its waitable.
+  void destroy(Waitable::Kind kind) {
+    Waitable* const waitable = is_shared() ? find_waitable(this, kind) : known;
+    if (waitable != nullptr && !is_shared() && waitable->object.first_waiter != nullptr)
+      note_misuse("destroys", *waitable, ", awaited by ", waitable->object.first_waiter);
+    if (waitable != nullptr) forget(*waitable);
+    known = nullptr;
+    if (!is_shared()) mark = mark_of_destroyed;
+  }
   /// Its waitable in this process.
   Known& waitable() { return is_shared() ? waitable_at<Known>(this) : waitable_at(known, this); }
 };

@@ -6,6 +6,7 @@
 #include <cerrno>
 
 #include "fibers/posix/base/interposed.hpp"
+#include "fibers/posix/family/misuse.hpp"
 #include "fibers/posix/program/program.hpp"
 #include "fibers/posix/program/waiting.hpp"
 #include "fibers/posix/signals/cancellation.hpp"
@@ -42,9 +43,15 @@ class Joining {
 
 int join(pthread_t id, void** result, Time deadline) {
   Thread* const thread = find(id);
-  if (thread == nullptr) return ESRCH;
+  if (thread == nullptr || thread->is_gone) {
+    note_misuse("joins a thread that was joined before, or has ended detached");
+    return ESRCH;
+  }
   if (thread == &this_thread()) return deadline == Time() ? EBUSY : EDEADLK;
-  if (thread->detached || thread->has_joiner) return EINVAL;
+  if (thread->detached || thread->has_joiner) {
+    note_misuse(thread->detached ? "joins a detached thread" : "joins a thread that another one joins");
+    return EINVAL;
+  }
   if (!thread->ended)
     for (const kernel::Task* waiter = this_thread().end.first_waiter; waiter != nullptr; waiter = waiter->next_waiter)
       if (waiter == thread->task) return EDEADLK;
@@ -97,8 +104,14 @@ int waitpoint_pthread_equal(pthread_t one, pthread_t other) noexcept { return ar
 
 WAITPOINT_INTERPOSED int pthread_detach(pthread_t id) noexcept {
   Thread* const thread = find(id);
-  if (thread == nullptr) return ESRCH;
-  if (thread->detached) return EINVAL;
+  if (thread == nullptr || thread->is_gone) {
+    note_misuse("detaches a thread that was joined before, or has ended detached");
+    return ESRCH;
+  }
+  if (thread->detached) {
+    note_misuse("detaches a detached thread");
+    return EINVAL;
+  }
   pass(kernel::Operation::release, &thread->end);
   thread->detached = true;
   if (thread->ended) let_go(*thread);

@@ -174,6 +174,7 @@ void let_go(Thread& thread) {
   if (&thread == main_thread) return;
   WAITPOINT_CHECK(thread.ended && thread.task == nullptr, "a thread is freed that has not ended");
   free_ended();
+  thread.is_gone = true;
   to_free = &thread;
 }
 

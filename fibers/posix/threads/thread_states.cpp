@@ -3,10 +3,9 @@
 
 #include <cstring>
 
-#include "fibers/posix/base/symbols.hpp"
 #include "fibers/posix/descriptors/descriptors.hpp"
 #include "fibers/posix/descriptors/partners.hpp"
-#include "fibers/posix/family/processes.hpp"
+#include "fibers/posix/family/task_names.hpp"
 #include "fibers/posix/program/program.hpp"
 #include "fibers/posix/program/waitable.hpp"
 
@@ -25,17 +24,13 @@ void add_descriptors(BoundedText& text, const kernel::Task& task) {
   if (count > told_max) text.add(", ...");
 }
 
-// "mutex jobs_lock", or the address if the program has no symbol for it.
 void add_object(BoundedText& text, const kernel::Object& object, const kernel::Task& waiter) {
   const Waitable* const waitable = waitable_of(object);
   if (waitable == nullptr) {
     if (std::strcmp(object.kind, "descriptor") == 0) return add_descriptors(text, waiter);
     return text.add("%s", std::strcmp(object.kind, "thread") == 0 ? "the end of a thread" : object.kind);
   }
-  if (const char* const name = symbol_at(waitable->address); name != nullptr)
-    text.add("%s %s", object.kind, name);
-  else
-    text.add("%s at %p", object.kind, waitable->address);
+  add_waitable(text, *waitable);
 }
 
 void add_wait(BoundedText& text, const kernel::Task& task) {
@@ -50,12 +45,6 @@ void add_wait(BoundedText& text, const kernel::Task& task) {
 }
 
 }  // namespace
-
-void add_name(BoundedText& text, const kernel::Task& task) {
-  const bool is_one_of_several = family::family != nullptr && family::family->made > 1;
-  if (is_thread(task) && (thread_of(task).program->is_member || is_one_of_several)) text.add("%s: ", task.robot->name);
-  text.add("%s", task.name);
-}
 
 void add_time(BoundedText& text, Time time) {
   constexpr long long second_ns = 1'000'000'000;

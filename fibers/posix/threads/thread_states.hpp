@@ -10,8 +10,6 @@ namespace waitpoint::posix {
 
 /// "12.000000000 s of virtual time".
 void add_time(BoundedText& text, Time time);
-/// "main", or "reader: main" if there are several programs.
-void add_name(BoundedText& text, const kernel::Task& task);
 /// A line: "  main waits for mutex jobs_lock, held by thread 1", with the program's name if there are several.
 void add_state(BoundedText& text, const kernel::Task& task);
 /// A line for each thread of the run.

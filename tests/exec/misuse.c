@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Misuses of primitives and threads, and what is none: misuse WAY. Each thread comes at a later second.
+#include <errno.h>
+#include <pthread.h>
+#include <semaphore.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+static pthread_mutex_t mutex = PTHREAD_MUTEX_INITIALIZER, other = PTHREAD_MUTEX_INITIALIZER;
+static pthread_cond_t condition = PTHREAD_COND_INITIALIZER;
+static pthread_rwlock_t rwlock = PTHREAD_RWLOCK_INITIALIZER;
+static sem_t semaphore;
+
+static void* unlock(void* of) {
+  pthread_mutex_unlock(of);
+  return of;
+}
+static void* lock_and_unlock(void* of) {
+  sleep(1);
+  pthread_mutex_lock(of);
+  pthread_mutex_unlock(of);
+  return of;
+}
+static void* wait_with(void* of) {
+  pthread_mutex_lock(of);
+  pthread_cond_wait(&condition, of);
+  pthread_mutex_unlock(of);
+  return of;
+}
+static void* wait_for_post(void* of) {
+  sem_wait(&semaphore);
+  return of;
+}
+static void* unlock_rwlock(void* of) {
+  pthread_rwlock_unlock(&rwlock);
+  return of;
+}
+static void* nothing(void* of) { return of; }
+
+static pthread_t make(void* (*body)(void*), void* argument) {
+  pthread_t thread;
+  pthread_create(&thread, NULL, body, argument);
+  return thread;
+}
+static void join(pthread_t thread) { pthread_join(thread, NULL); }
+
+// Objects at one address, one after the other, each properly made: in a static variable, on the stack, on the heap.
+static void reuse(void) {
+  for (int i = 0; i < 3; ++i) {
+    pthread_mutex_t here = PTHREAD_MUTEX_INITIALIZER;
+    pthread_mutex_lock(&here);
+    pthread_mutex_unlock(&here);
+    pthread_mutex_destroy(&here);
+    pthread_mutex_init(&mutex, NULL);
+    join(make(lock_and_unlock, &mutex));
+    pthread_mutex_destroy(&mutex);
+    pthread_cond_init(&condition, NULL);
+    pthread_cond_signal(&condition);
+    pthread_cond_destroy(&condition);
+    sem_init(&semaphore, 0, 1);
+    sem_wait(&semaphore);
+    sem_destroy(&semaphore);
+    pthread_mutex_t* const made = malloc(sizeof *made);
+    pthread_mutex_init(made, NULL);
+    join(make(lock_and_unlock, made));
+    pthread_mutex_destroy(made);
+    free(made);
+    pthread_mutex_t* const zeroed = calloc(1, sizeof *zeroed);
+    join(make(lock_and_unlock, zeroed));
+    free(zeroed);
+  }
+}
+
+static void free_in_between(void) {
+  pthread_mutex_t* const made = malloc(sizeof *made);
+  pthread_mutex_init(made, NULL);
+  const pthread_t thread = make(lock_and_unlock, made);
+  pthread_mutex_lock(made);
+  pthread_mutex_unlock(made);
+  free(made);
+  join(thread);
+}
+
+int main(int count, char** words) {
+  const char* const way = count > 1 ? words[1] : "";
+  if (strcmp(way, "unlocked by another") == 0) {
+    pthread_mutex_lock(&mutex);
+    join(make(unlock, &mutex));
+  } else if (strcmp(way, "unlocked twice") == 0) {
+    pthread_mutex_lock(&mutex);
+    pthread_mutex_unlock(&mutex);
+    pthread_mutex_unlock(&mutex);
+  } else if (strcmp(way, "destroyed while locked") == 0) {
+    pthread_mutex_lock(&mutex);
+    if (pthread_mutex_destroy(&mutex) != EBUSY) return 1;
+  } else if (strcmp(way, "locked when destroyed") == 0) {
+    pthread_mutex_destroy(&mutex);
+    if (pthread_mutex_lock(&mutex) != EINVAL) return 1;
+  } else if (strcmp(way, "locked when freed") == 0) {
+    free_in_between();
+  } else if (strcmp(way, "two mutexes") == 0) {
+    const pthread_t one = make(wait_with, &mutex);
+    sleep(1);
+    const pthread_t two = make(wait_with, &other);
+    sleep(1);
+    pthread_cond_broadcast(&condition);
+    join(one);
+    join(two);
+  } else if (strcmp(way, "waits without mutex") == 0) {
+    const struct timespec past = {1, 0};
+    pthread_cond_timedwait(&condition, &mutex, &past);
+  } else if (strcmp(way, "condition destroyed") == 0) {
+    make(wait_with, &mutex);
+    sleep(1);
+    pthread_cond_destroy(&condition);
+    _exit(0);
+  } else if (strcmp(way, "semaphore destroyed") == 0) {
+    sem_init(&semaphore, 0, 0);
+    make(wait_for_post, NULL);
+    sleep(1);
+    sem_destroy(&semaphore);
+    _exit(0);
+  } else if (strcmp(way, "rwlock unlocked by another") == 0) {
+    pthread_rwlock_wrlock(&rwlock);
+    join(make(unlock_rwlock, NULL));
+  } else if (strcmp(way, "joined twice") == 0) {
+    const pthread_t thread = make(nothing, NULL);
+    join(thread);
+    if (pthread_join(thread, NULL) != ESRCH) return 1;
+  } else if (strcmp(way, "joined when detached") == 0) {
+    const pthread_t thread = make(wait_with, &mutex);
+    pthread_detach(thread);
+    if (pthread_join(thread, NULL) != EINVAL) return 1;
+    _exit(0);
+  } else {
+    reuse();
+  }
+  return 0;
+}

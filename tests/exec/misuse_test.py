@@ -1,0 +1,53 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Misuses of primitives and threads in unmodified programs: misuse_test.py BUILD."""
+
+import subprocess
+import unittest
+
+from exec_case import ExecCase, WAITPOINT
+
+MISUSES = {
+    "unlocked by another": ("thread 1 unlocks mutex mutex, locked by main", "unlock"),
+    "unlocked twice": ("main unlocks mutex mutex, which is not locked", "main"),
+    "destroyed while locked": ("main destroys mutex mutex, locked by main", "main"),
+    "locked when destroyed": ("main locks mutex mutex, which was destroyed", "main"),
+    "locked when freed": ("thread 1 locks mutex at 0x[0-9a-f]+, whose memory was freed", "lock_and_unlock"),
+    "two mutexes": ("thread 2 waits for condition variable condition with another mutex than those that wait already", "wait_with"),
+    "waits without mutex": ("main waits for a condition with mutex mutex, which it has not locked", "main"),
+    "condition destroyed": ("main destroys condition variable condition, awaited by thread 1", "main"),
+    "semaphore destroyed": ("main destroys semaphore semaphore, awaited by thread 1", "main"),
+    "rwlock unlocked by another": ("thread 1 unlocks read-write lock rwlock, locked by main", "unlock_rwlock"),
+    "joined twice": ("main joins a thread that was joined before, or has ended detached", "main"),
+    "joined when detached": ("main joins a detached thread", "main"),
+}
+
+
+class Misuse(ExecCase):
+    def setUp(self):
+        self.program = self.compile("misuse.c", "-g", "-O0")
+
+    def run_it(self, command, *words):
+        return subprocess.run([str(word) for word in (WAITPOINT, *command, "--", self.program, *words)],
+                              capture_output=True, text=True, timeout=120)
+
+    def test_is_reported_with_its_place_and_the_program_continues(self):
+        for way, (sentence, function) in MISUSES.items():
+            done = self.run_it(["exec"], way)
+            self.assertEqual(done.returncode, 0, way + done.stderr)
+            self.assertRegex(done.stderr, rf"(?m)^misuse at \d\.\d+ s: {sentence}\n    at {function} at .*misuse\.c:\d+$", way)
+
+    def test_is_a_failure_of_a_schedule(self):
+        for way in ("unlocked by another", "locked when freed"):
+            done = self.run_it(["explore", "--exec"], way)
+            self.assertEqual(done.returncode, 1, way)
+            self.assertRegex(done.stdout, rf"failed at \S+ s: misuse: {MISUSES[way][0]}\n", way)
+
+    def test_is_not_what_reuses_memory(self):
+        done = self.run_it(["exec"])
+        self.assertEqual((done.returncode, "misuse at" in done.stderr), (0, False), done.stderr)
+        done = self.run_it(["explore", "--exec", "--iterations", "100"])
+        self.assertEqual(done.returncode, 0, done.stdout)
+
+
+if __name__ == "__main__":
+    unittest.main()
