@@ -76,14 +76,14 @@ NOT_MISSED = (
         "the C library's comes to the same, in real time",
     )
     | dict.fromkeys(
-        "_Exit __cxa_atexit _exit exit".split(), "as the C library's, but among several programs (several_test.py)"
+        "_Exit __cxa_atexit _exit exit".split(), "as the C library's, but among several programs (robots_programs_test.py)"
     )
     | {
-        "__assert_fail": "as the C library's, but among several programs ends its own alone (several_test.py)",
+        "__assert_fail": "as the C library's, but among several programs ends its own alone (robots_programs_test.py)",
         "__pthread_once": "only what was linked with an older C library can call it so",
         "clock_settime": "natively it would set the machine's date (command_test.py, Options)",
         "settimeofday": "natively it would set the machine's date",
-        "socket": "says whose it is, among several programs (several_test.py)",
+        "socket": "says whose it is, among several programs (robots_programs_test.py)",
         "getcpu": "any processor is as good",
         "listen": "natively who finds a full queue tries again after a second (command_test.py, Loopback)",
         "sched_getcpu": "any processor is as good",

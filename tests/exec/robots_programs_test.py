@@ -1,0 +1,264 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Programs of a robot: robots_programs_test.py BUILD [CLASS[.TEST]...].
+
+They are shared objects in the simulator's process, or commands, which are processes. Their sources are independent of waitpoint
+(several/).
+"""
+
+import ctypes.util
+import json
+import os
+import pathlib
+import random
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+BUILD = pathlib.Path(sys.argv.pop(1)).resolve()
+WAITPOINT = BUILD / "tools/waitpoint"
+PROGRAMS = BUILD / "tests/exec/several"
+SCENARIO = pathlib.Path(__file__).resolve().parents[2] / "scenarios/office.yaml"
+CHAIN = [[PROGRAMS / "writer.so", 1, 10], [PROGRAMS / "filter.so", 1, 2], [PROGRAMS / "reader.so", 2]]
+
+
+TWO_ROBOTS = """
+format: 1
+name: two
+until_s: 2
+world: {{shapes: [{{corners_m: [0, 0, 1, 1]}}]}}
+robot_types: {{include: {types}}}
+{medium}
+robots:
+  - {{name: ada, type: rackham, start: [5, 5, 0], programs: [{{name: sender, file: {file}, arguments: [{sends}, {port}]}}]}}
+  - {{name: bea, type: rackham, start: [9, 5, 0], programs: [{{name: receiver, file: {file}, arguments: [{receives}, {port}]}}]}}
+"""
+
+
+class Links(unittest.TestCase):
+    """Messages between the programs of two robots."""
+
+    def heard(self, program, medium, *options, sends="send", receives="receive"):
+        port = random.randrange(20000, 60000)
+        with tempfile.TemporaryDirectory() as folder:
+            scenario = pathlib.Path(folder) / "two.yaml"
+            scenario.write_text(TWO_ROBOTS.format(types=SCENARIO.parent / "rackham.yaml", medium=medium, port=port,
+                                                  file=PROGRAMS / program, sends=sends, receives=receives))
+            run = subprocess.run([WAITPOINT, "run", scenario, *options], capture_output=True, text=True, timeout=60)
+            self.assertEqual(run.returncode, 0, run.stderr + run.stdout)
+            return [line for line in run.stdout.splitlines() if line.startswith(("number ", "record ", "bulk ", "end "))]
+
+    def test_datagrams_take_the_time_of_the_medium(self):
+        at_once = self.heard("datagrams.so", "")
+        self.assertEqual(at_once, [f"number {i} after 0 ms" for i in range(10)])
+        delayed = self.heard("datagrams.so", "medium: {latency_ms: 7}")
+        self.assertEqual(delayed, [f"number {i} after 7 ms" for i in range(10)])
+
+    def test_datagrams_are_lost_as_the_medium_says_and_the_seed_draws(self):
+        medium = "medium: {latency_ms: [2, 6], loss: 0.5}"
+        runs = [self.heard("datagrams.so", medium, "--seed", seed) for seed in ("1", "1", "2")]
+        self.assertTrue(0 < len(runs[0]) < 10, runs[0])
+        self.assertEqual(runs[0], runs[1])
+        self.assertNotEqual(runs[0], runs[2])
+
+    def test_streams_take_the_time_of_the_medium_and_lose_nothing(self):
+        def expected(ms):
+            return [*(f"record {i} after {ms} ms" for i in range(5)), "bulk of 1000000 bytes", f"end 5 after {ms} ms"]
+
+        self.assertEqual(self.heard("streams.so", ""), expected(0))
+        self.assertEqual(self.heard("streams.so", "medium: {latency_ms: 7}"), expected(7))
+        self.assertEqual(self.heard("streams.so", "medium: {latency_ms: 7, loss: 0.9}"), expected(7))
+
+    def test_streams_go_both_ways_and_arrive_after_their_sender_has_ended(self):
+        said = self.heard("streams.so", "medium: {latency_ms: 7}", sends="leave", receives="meet")
+        self.assertEqual(said, [*(f"record {i} after 7 ms" for i in range(3)), "end 2 after 7 ms"])
+
+    def test_streams_take_the_time_that_their_bytes_are_on_the_air(self):
+        slow = self.heard("streams.so", "medium: {latency_ms: 1, bandwidth_bit_s: 12800}")
+        self.assertEqual(slow[:5], [f"record {i} after 11 ms" for i in range(5)])
+
+
+PROGRAMS_OF_ROBOT = "[" + ", ".join(
+    f"{{name: {path.stem}, file: {path}, arguments: {arguments}}}" for path, *arguments in CHAIN) + "]"
+
+
+def office(command, *words, programs=PROGRAMS_OF_ROBOT, env=None):
+    """The office's robot with programs, for some seconds."""
+    return subprocess.run([WAITPOINT, command, SCENARIO, *words, "--set", f"robots.rackham.programs={programs}",
+                           "--set", "expect={}"], capture_output=True, text=True, timeout=120, env=env)
+
+
+def digest_of_summary(run):
+    return re.search(r"digest +(wp1:[0-9a-f]{16})", run.stdout).group(1)
+
+
+class Robot(unittest.TestCase):
+    """The writer, the filter and the reader as parts of the robot in the office."""
+
+    def test_their_threads_are_tasks_of_it(self):
+        with tempfile.TemporaryDirectory() as folder:
+            events = pathlib.Path(folder) / "events"
+            run = office("run", "--until", "5", "--events", events)
+            self.assertEqual(run.returncode, 0, run.stderr)
+            self.assertIn("LINE 2 AT 0.2 S\n", run.stdout)
+            self.assertIn("5 lines\n", run.stdout)
+            for program, status in ("writer", 0), ("filter", 0), ("reader", 5):
+                self.assertIn(f"  rackham: program {program} ended with exit status {status}\n", run.stdout)
+            tasks = {line.split()[2] for line in events.read_text().splitlines() if "writer:" in line}
+            self.assertTrue(tasks, "no event of a program")
+        alone = office("run", "--until", "5", programs="[]")
+        self.assertNotEqual(digest_of_summary(run), digest_of_summary(alone))
+        self.assertNotIn("program", alone.stdout)
+        self.assertEqual(digest_of_summary(run), digest_of_summary(office("run", "--until", "5")))
+
+    def test_the_example_that_is_shipped_runs_as_it_is_described(self):
+        with tempfile.TemporaryDirectory() as folder:
+            scenarios = shutil.copytree(SCENARIO.parent, pathlib.Path(folder) / "scenarios")
+            lines = (scenarios / "office-programs.yaml").read_text().splitlines()
+            command = next(line for line in lines if " cc " in line).lstrip("# ")
+            subprocess.run(command, shell=True, check=True, cwd=folder)
+            run = subprocess.run([WAITPOINT, "run", scenarios / "office-programs.yaml"], capture_output=True, text=True,
+                                 timeout=60)
+            self.assertEqual(run.returncode, 0, run.stdout + run.stderr)
+            self.assertIn("LINE 10 AT 1.0 S\n5 lines\n", run.stdout)
+
+    def test_the_run_is_the_same_with_another_allocator(self):
+        library = ctypes.util.find_library("jemalloc")
+        if library is None:
+            self.skipTest("there is no jemalloc here")
+        preloaded = {**os.environ, "LD_PRELOAD": library}
+        told = subprocess.run(["cat", "/proc/self/maps"], capture_output=True, text=True, env=preloaded)
+        self.assertIn("jemalloc", told.stdout)
+        run = office("run", "--until", "1", env=preloaded)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertEqual(digest_of_summary(run), digest_of_summary(office("run", "--until", "1")))
+
+    def test_schedules_of_them_are_explored(self):
+        run = office("explore", "--until", "2", "--iterations", "4")
+        self.assertEqual(run.returncode, 0, run.stdout + run.stderr)
+        again = office("explore", "--until", "2", "--iterations", "4")
+        last = [re.sub(r"[0-9.]+ (s|schedules/s|a second)", "", r.stdout.splitlines()[-1]) for r in (run, again)]
+        self.assertEqual(last[0], last[1])
+
+    def test_what_a_program_holds_at_its_end_is_given_back_if_it_asked_for_that(self):
+        holders = ", ".join(f"{{name: h{i}, file: {PROGRAMS / 'holder.so'}, arguments: [5]}}" for i in range(3))
+        run = office("run", "--until", "5", programs=f"[{holders}]")
+        self.assertEqual(run.stdout.count("ended with exit status 0\n"), 3, run.stdout)
+
+    def test_a_run_with_them_checks_itself(self):
+        run = office("run", "--until", "1", "--check")
+        self.assertEqual(run.returncode, 0, run.stdout + run.stderr)
+        self.assertIn("the same run, twice in this process and once in a perturbed one", run.stdout)
+
+    def test_events_are_written_into_a_pipe(self):
+        run = office("run", "--until", "1.5", "--events", "/dev/stdout")
+        self.assertRegex(run.stdout, r"rackham +writer: main")
+        self.assertNotIn("  digest ", run.stdout)  # the text has the error stream then
+        self.assertIn(digest_of_summary(office("run", "--until", "1.5")), run.stderr)
+
+    def test_a_program_that_does_not_end_is_left_where_it_is(self):
+        run = office("run", "--until", "0.5")
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertIn("  rackham: program writer was running to the end\n", run.stdout)
+
+    def test_what_cannot_be_loaded_is_bad_input(self):
+        for file, line in ("nowhere.so", "there is no program '.*nowhere.so': No such file or directory"), \
+                          (__file__, r".*robots_programs_test.py is no shared object for x86-64"), \
+                          (PROGRAMS / "executable", r".*executable is an executable: build it with -shared -fPIC"), \
+                          (PROGRAMS / "without-main.so", r".*without-main.so has no main\(\) that others see"):
+            run = office("run", programs=f"[{{name: one, file: {file}}}]")
+            self.assertEqual(run.returncode, 2, run.stderr)
+            self.assertRegex(run.stderr, f"^waitpoint: --set .*: {line}\n$")
+        run = office("check", programs="[{name: one}]")
+        self.assertEqual(run.returncode, 2)
+        self.assertIn("expected key 'file' in a program", run.stderr)
+
+
+def command(name, *words):
+    return f"{{name: {name}, command: {json.dumps([str(word) for word in words])}}}"
+
+
+class Commands(unittest.TestCase):
+    """Programs of a robot that are processes, with all that they start."""
+
+    SCRIPT = "for i in 1 2 3; do date +%T; sleep 1; done | while read line; do echo it is $line; done; exit 4"
+
+    def test_a_script_runs_in_the_time_of_the_robot(self):
+        runs = [office("run", "--until", "5", programs=f"[{command('clock', 'sh', '-c', self.SCRIPT)}]") for _ in range(3)]
+        for run in runs:
+            self.assertEqual(run.returncode, 0, run.stderr)
+            self.assertEqual(run.stderr, "")
+            self.assertIn("it is 00:00:00\nit is 00:00:01\nit is 00:00:02\n", run.stdout)
+            self.assertIn("  rackham: program clock ended with exit status 4\n", run.stdout)
+            self.assertEqual(digest_of_summary(run), digest_of_summary(runs[0]))
+        alone = office("run", "--until", "5", programs="[]")
+        self.assertNotEqual(digest_of_summary(runs[0]), digest_of_summary(alone))
+
+    def test_several_share_what_processes_share(self):
+        with tempfile.TemporaryDirectory() as folder:
+            pipe = f"{folder}/pipe"
+            os.mkfifo(pipe)
+            programs = [command("reader", "sh", "-c", f"read word < {pipe}; echo heard $word at $(date +%S)"),
+                        command("writer", "sh", "-c", f"sleep 2; echo hello > {pipe}")]
+            for _ in range(2):
+                run = office("run", "--until", "5", programs=f"[{', '.join(programs)}]")
+                self.assertIn("heard hello at 02\n", run.stdout, run.stderr)
+                self.assertIn("program writer ended with exit status 0\n", run.stdout)
+
+    def test_conditions_order_their_starts(self):
+        def waiting(text, after):
+            return f"{text[:-1]}, after: {json.dumps(after)}}}"
+
+        with tempfile.TemporaryDirectory() as folder:
+            file = f"{folder}/there"
+            programs = [command("a", "sh", "-c", "sleep 1; echo first"), waiting(command("b", "echo", "second"), ["a"]),
+                        waiting(command("c", "sh", "-c", f"sleep 0.5; echo third > {file}"), ["b.started", "a"]),
+                        waiting(command("d", "cat", file), [file])]
+            for _ in range(2):
+                run = office("run", "--until", "5", programs=f"[{', '.join(programs)}]")
+                self.assertIn("first\nsecond\nthird\n", run.stdout, run.stderr)
+                os.remove(file)
+        chain = [f"{{name: {path.stem}, file: {path}, arguments: {arguments}}}" for path, *arguments in CHAIN]
+        chain[0] = waiting(chain[0], ["reader.started"])
+        run = office("run", "--until", "5", programs=f"[{', '.join(chain)}]")
+        self.assertIn("LINE 10 AT 1.0 S\n5 lines\n", run.stdout, run.stderr)
+        for after, line in ((["nobody"], "after: the robot has no program 'nobody'"),
+                            (["one"], "'one' can never start: the conditions in after form a cycle"),
+                            (["tcp:x"], "expected NAME, NAME.started, tcp:PORT or a path with a '/' in after, got 'tcp:x'")):
+            run = office("run", programs=f"[{waiting(command('one', 'true'), after)}]")
+            self.assertEqual(run.returncode, 2, run.stderr)
+            self.assertRegex(run.stderr, f"^waitpoint: --set .*: {line}\n$")
+
+    def test_what_has_not_ended_is_left_and_what_dies_is_noticed(self):
+        programs = [command("long", "sleep", "100"), command("dies", "sh", "-c", "kill -9 $$"),
+                    command("crashes", "sh", "-c", "sleep 1; kill -SEGV $$")]
+        run = office("run", "--until", "3", programs=f"[{', '.join(programs)}]")
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertIn("program long was running to the end\n", run.stdout)
+        self.assertIn("program dies ended with exit status 137\n", run.stdout)
+        self.assertIn("program crashes ended with exit status 139\n", run.stdout)
+
+    def test_a_run_with_them_checks_itself_and_is_explored(self):
+        programs = f"[{command('clock', 'sh', '-c', self.SCRIPT)}]"
+        run = office("run", "--until", "2", "--check", programs=programs)
+        self.assertEqual(run.returncode, 0, run.stdout + run.stderr)
+        run = office("explore", "--until", "2", "--iterations", "3", programs=programs)
+        self.assertEqual(run.returncode, 0, run.stdout + run.stderr)
+
+    def test_what_cannot_be_started_is_bad_input(self):
+        for programs, line in ((command("one", "./nowhere"), "there is no program '.*nowhere'"),
+                               (command("one", "no-such-program"), "there is no program 'no-such-program'"),
+                               ("{name: one, command: []}", "expected a program in the command, got none"),
+                               ("{name: one, command: [ls], file: a.so}",
+                                "expected a file with arguments, or a command, in a program, got both"),
+                               (command("one", "true") + ", " + PROGRAMS_OF_ROBOT[1:-1],
+                                "expected programs of one kind in a scenario, shared objects or commands, got both")):
+            run = office("run", programs=f"[{programs}]")
+            self.assertEqual(run.returncode, 2, run.stderr)
+            self.assertRegex(run.stderr, f"^waitpoint: --set .*: {line}\n$")
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=1)
