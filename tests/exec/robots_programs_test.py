@@ -90,6 +90,10 @@ def office(command, *words, programs=PROGRAMS_OF_ROBOT, env=None):
                            "--set", "expect={}"], capture_output=True, text=True, timeout=120, env=env)
 
 
+def program(name, file, *arguments):
+    return f"{{name: {name}, file: {PROGRAMS / file}, arguments: {json.dumps([str(word) for word in arguments])}}}"
+
+
 def digest_of_summary(run):
     return re.search(r"digest +(wp1:[0-9a-f]{16})", run.stdout).group(1)
 
@@ -163,6 +167,16 @@ class Robot(unittest.TestCase):
         self.assertEqual(run.returncode, 0, run.stderr)
         self.assertIn("  rackham: program writer was running to the end\n", run.stdout)
 
+    def test_each_has_the_libraries_that_it_is_linked_to_for_itself(self):
+        own = subprocess.run([PROGRAMS / "linked-program", "x", "3"], capture_output=True, text=True)
+        self.assertEqual(own.stdout, "x: lower upper program, 3 4 7 7 1, 7\n" + self.DESTROYED.format(3, 4))
+        run = office("run", "--until", "1", programs=f"[{program('a', 'linked.so', 'a', 3)}, {program('b', 'linked.so', 'b', 5)}]")
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertIn("a: lower upper program, 3 4 7 7 1, 7\n" + self.DESTROYED.format(3, 4), run.stdout)
+        self.assertIn("b: lower upper program, 5 6 11 11 1, 7\n" + self.DESTROYED.format(5, 6), run.stdout)
+
+    DESTROYED = "program destroyed\nupper destroyed at {}\nlower destroyed at {}\n"
+
     def test_what_cannot_be_loaded_is_bad_input(self):
         for file, line in ("nowhere.so", "there is no program '.*nowhere.so': No such file or directory"), \
                           (__file__, r".*robots_programs_test.py is no shared object for x86-64"), \
@@ -171,6 +185,13 @@ class Robot(unittest.TestCase):
             run = office("run", programs=f"[{{name: one, file: {file}}}]")
             self.assertEqual(run.returncode, 2, run.stderr)
             self.assertRegex(run.stderr, f"^waitpoint: --set .*: {line}\n$")
+        with tempfile.TemporaryDirectory() as folder:
+            for name in "linked.so", "libupper.so":
+                shutil.copy(PROGRAMS / name, folder)
+            run = office("run", programs=f"[{{name: one, file: {folder}/linked.so}}]")
+            self.assertEqual(run.returncode, 2, run.stderr)
+            self.assertRegex(run.stderr, r"^waitpoint: --set .*: \S+/linked.so cannot be loaded: liblower.so: cannot open shared "
+                                         r"object file: No such file or directory\n$")
         run = office("check", programs="[{name: one}]")
         self.assertEqual(run.returncode, 2)
         self.assertIn("expected key 'file' in a program", run.stderr)
