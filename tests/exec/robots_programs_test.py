@@ -175,6 +175,17 @@ class Robot(unittest.TestCase):
         self.assertIn("a: lower upper program, 3 4 7 7 1, 7\n" + self.DESTROYED.format(3, 4), run.stdout)
         self.assertIn("b: lower upper program, 5 6 11 11 1, 7\n" + self.DESTROYED.format(5, 6), run.stdout)
 
+    def test_each_opens_its_own_libraries_and_those_that_it_finds(self):
+        def expected(name, count):
+            return f"{name}: lower plugin noted, {count} {count} {count + 1}\nplugin destroyed at {count}\nlower destroyed at {count}\n"
+
+        own = subprocess.run([PROGRAMS / "opening-program", "x", "3"], capture_output=True, text=True)
+        self.assertEqual(own.stdout, expected("x", 3))
+        run = office("run", "--until", "1", programs=f"[{program('a', 'opening.so', 'a', 3)}, {program('b', 'opening.so', 'b', 5)}]")
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertIn(expected("a", 3), run.stdout)
+        self.assertIn(expected("b", 5), run.stdout)
+
     DESTROYED = "program destroyed\nupper destroyed at {}\nlower destroyed at {}\n"
 
     def test_what_cannot_be_loaded_is_bad_input(self):

@@ -121,7 +121,8 @@ WAITPOINT_INTERPOSED void __assert_fail(const char* condition, const char* file,
 // Handlers that a program registers are called when it exits; those of its libraries, when the process does. atexit()
 // is linked into the program itself, and calls this one.
 WAITPOINT_INTERPOSED int __cxa_atexit(void (*function)(void*), void* argument, void* object) {
-  if (runs_in_member() && contains(this_member().image, object)) return add_handler(function, argument) ? 0 : -1;
+  if (runs_in_member() && copy_with(this_member().image, object) != nullptr)
+    return add_handler(function, argument) ? 0 : -1;
   if (!has_host) {
     if (auto* const handler = static_cast<HandlerOfProcess*>(std::malloc(sizeof(HandlerOfProcess)))) {
       *handler = {function, argument};

@@ -51,7 +51,7 @@ class Environment {
 
 // The dynamic linker in use lists the libraries of a program, those that it does not find, too, into a file: see
 // ld.so(8). False if it cannot be run.
-bool list_libraries(const char* program, int output) {
+bool list_libraries(const char* program, const char* asked, int output) {
   Dl_info linker{};
   posix_spawn_file_actions_t actions;
   const Environment environment("LD_TRACE_LOADED_OBJECTS=1");
@@ -60,7 +60,9 @@ bool list_libraries(const char* program, int output) {
     return false;
   posix_spawn_file_actions_adddup2(&actions, output, STDOUT_FILENO);
   posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
-  const char* const words[] = {linker.dli_fname, program, nullptr};
+  const char* const of_program[] = {linker.dli_fname, program, nullptr};
+  const char* const with_asked[] = {linker.dli_fname, "--preload", asked, program, nullptr};
+  const char* const* const words = asked == nullptr ? of_program : with_asked;
   pid_t process = 0;
   const int error = WAITPOINT_NEXT(posix_spawn)(&process, words[0], &actions, nullptr, const_cast<char* const*>(words),
                                                 const_cast<char* const*>(environment.all()));
@@ -95,7 +97,7 @@ void LinkedLibraries::list() {
   const int file = memfd_create("libraries", MFD_CLOEXEC);
   if (file < 0) return;
   struct stat of {};
-  if (list_libraries(program_, file) && WAITPOINT_NEXT(fstat)(file, &of) == 0 && of.st_size > 0) {
+  if (list_libraries(program_, asked_, file) && WAITPOINT_NEXT(fstat)(file, &of) == 0 && of.st_size > 0) {
     size_ = static_cast<std::size_t>(of.st_size);
     void* const memory = mmap(nullptr, size_, PROT_READ, MAP_PRIVATE, file, 0);
     if (memory != MAP_FAILED) list_ = static_cast<char*>(memory);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The files of the libraries that a program is linked to, directly or by another library, as the dynamic linker finds
-// them: by run paths, with $ORIGIN, by LD_LIBRARY_PATH and by its cache.
+// The files of the libraries that a program is linked to, directly or by another library, or that it asks for, as the
+// dynamic linker finds them: by run paths, with $ORIGIN, by LD_LIBRARY_PATH and by its cache.
 #pragma once
 
 #include <climits>
@@ -10,7 +10,8 @@ namespace waitpoint::posix {
 
 class LinkedLibraries {
  public:
-  explicit LinkedLibraries(const char* program) : program_(program) {}
+  /// Of a program, or a library; and, unless it is null, a library that it asks for by name.
+  explicit LinkedLibraries(const char* program, const char* asked = nullptr) : program_(program), asked_(asked) {}
   ~LinkedLibraries();
   LinkedLibraries(const LinkedLibraries&) = delete;
   LinkedLibraries& operator=(const LinkedLibraries&) = delete;
@@ -22,7 +23,7 @@ class LinkedLibraries {
  private:
   void list();
 
-  const char* program_;
+  const char *program_, *asked_;
   bool is_listed_ = false;
   char* list_ = nullptr;  ///< the dynamic linker's list, see ld.so(8)
   std::size_t size_ = 0;

@@ -48,7 +48,7 @@ void end_with_last_thread() {
 }  // namespace
 
 bool start(Member& member, kernel::Scheduler& scheduler) {
-  WAITPOINT_CHECK(member.robot != nullptr && member.image.handle != nullptr && !member.ended,
+  WAITPOINT_CHECK(member.robot != nullptr && member.image.program != nullptr && !member.ended,
                   "a member starts before it is loaded, or after it has ended");
   home = getpid();
   member.is_member = true;

@@ -16,6 +16,7 @@
 #include "fibers/posix/base/interposed.hpp"
 #include "fibers/posix/members/added_segment.hpp"
 #include "fibers/posix/members/linked_libraries.hpp"
+#include "fibers/posix/members/object_changes.hpp"
 
 namespace waitpoint::posix {
 namespace {
@@ -62,13 +63,17 @@ bool write_all(int descriptor, const char* bytes, std::size_t size, std::uint64_
   return true;
 }
 
-/// Makes the copies of one program.
+/// What a copy is.
+enum class Kind : std::uint8_t { program, library, opened };
+
+/// Makes the copies of one program, or of a library that it opens.
 class Copying {
  public:
-  Copying(const char* program, LoadError& error) : error_(error), libraries_(program) {}
+  Copying(const char* file, ObjectCopy* last, const ObjectCopy* program, LoadError& error)
+      : program_(program), error_(error), libraries_(file), last_(last) {}
 
   /// Copies a file, to which others are linked by `name`; null with the reason.
-  ObjectCopy* copy(const char* file, const char* name, bool is_program);
+  ObjectCopy* copy(const char* file, const char* name, Kind kind);
   /// The copies made.
   ObjectCopy* last() const { return last_; }
 
@@ -84,15 +89,16 @@ class Copying {
     return false;
   }
   ObjectCopy* make(const char* file, const char* name);
-  bool fill(ObjectCopy& copy, bool is_program);
+  bool fill(ObjectCopy& copy, Kind kind);
   bool check(ObjectFile& object, const char* file, bool is_program);
   bool link_to_copies(ObjectFile& object, AddedSegment& added);
   ObjectCopy* known(const char* name, const char* file) const;
 
+  const ObjectCopy* program_;  // that exists already
   LoadError& error_;
   LinkedLibraries libraries_;
   const Unfinished* unfinished_ = nullptr;
-  ObjectCopy* last_ = nullptr;
+  ObjectCopy* last_;
 };
 
 void forget(ObjectCopy* copy) {
@@ -115,7 +121,7 @@ ObjectCopy* Copying::make(const char* file, const char* name) {
   return nullptr;
 }
 
-ObjectCopy* Copying::copy(const char* file, const char* name, bool is_program) {
+ObjectCopy* Copying::copy(const char* file, const char* name, Kind kind) {
   ObjectCopy* const made = make(file, name);
   if (made == nullptr) {
     std::snprintf(error_, sizeof error_, "%s cannot be copied: %s", file, std::strerror(errno));
@@ -123,7 +129,7 @@ ObjectCopy* Copying::copy(const char* file, const char* name, bool is_program) {
   }
   const Unfinished here{made, unfinished_};
   unfinished_ = &here;
-  const bool is_filled = fill(*made, is_program);
+  const bool is_filled = fill(*made, kind);
   unfinished_ = here.outer;
   if (!is_filled) {
     forget(made);
@@ -158,54 +164,6 @@ bool Copying::check(ObjectFile& object, const char* file, bool is_program) {
   return true;
 }
 
-// Takes out what the layer does in place of the dynamic linker, and what would make the copy one with others.
-void take_parts(ObjectFile& object, ProgramParts& parts) {
-  for (std::size_t i = 1, count = object.symbols(); i < count; ++i) {
-    Elf64_Sym* const symbol = object.symbol(i);
-    if (symbol == nullptr) break;
-    if (ELF64_ST_BIND(symbol->st_info) == STB_GNU_UNIQUE)
-      symbol->st_info = static_cast<unsigned char>(ELF64_ST_INFO(STB_GLOBAL, ELF64_ST_TYPE(symbol->st_info)));
-    const char* const name = object.text(symbol->st_name);
-    if (symbol->st_shndx != SHN_UNDEF && name != nullptr && std::strcmp(name, "main") == 0)
-      parts.main = symbol->st_value;
-  }
-  parts.initialise = object.take(DT_INIT);
-  parts.finish = object.take(DT_FINI);
-  parts.constructors = object.take(DT_INIT_ARRAY);
-  parts.constructors_bytes = object.take(DT_INIT_ARRAYSZ);
-  parts.destructors = object.take(DT_FINI_ARRAY);
-  parts.destructors_bytes = object.take(DT_FINI_ARRAYSZ);
-  object.take(DT_SONAME);
-  if (Elf64_Dyn* const flags = object.find(DT_FLAGS_1); flags != nullptr)
-    flags->d_un.d_val &= ~std::uint64_t{DF_1_NODELETE};
-}
-
-// One allocator serves the process: memory is passed between a program and the C library.
-bool is_allocator(const char* file) {
-  LoadError ignored;
-  const FileBytes bytes(file, ignored);
-  if (!bytes.read()) return false;
-  ObjectFile object(bytes);
-  if (!object.is_elf() || !object.find_dynamic()) return false;
-  for (std::size_t i = 1, count = object.symbols(); i < count; ++i) {
-    const Elf64_Sym* const symbol = object.symbol(i);
-    const char* const name = symbol != nullptr ? object.text(symbol->st_name) : nullptr;
-    if (name != nullptr && symbol->st_shndx != SHN_UNDEF && std::strcmp(name, "malloc") == 0) return true;
-  }
-  return false;
-}
-
-void rename_in_versions(ObjectFile& object, const char* name, std::uint64_t to) {
-  std::uint64_t at = object.value(DT_VERNEED);
-  for (std::uint64_t left = object.value(DT_VERNEEDNUM); left > 0; --left) {
-    auto* const needed = object.loaded<Elf64_Verneed>(at);
-    const char* const file = needed != nullptr ? object.text(needed->vn_file) : nullptr;
-    if (file == nullptr) return;
-    if (std::strcmp(file, name) == 0) needed->vn_file = static_cast<Elf64_Word>(to);
-    at += needed->vn_next;
-  }
-}
-
 // Libraries that programs share are loaded for all, and searched behind the program's own. A library that is not found
 // is left to the dynamic linker, which reports it.
 bool Copying::link_to_copies(ObjectFile& object, AddedSegment& added) {
@@ -224,7 +182,7 @@ bool Copying::link_to_copies(ObjectFile& object, AddedSegment& added) {
       if (!is_found) continue;
       copied = known(name, file);
     }
-    if (copied == nullptr) copied = copy(file, name, false);
+    if (copied == nullptr) copied = copy(file, name, Kind::library);
     if (copied == nullptr) return false;
     const std::uint64_t offset = added.add(copied->path.text);
     rename_in_versions(object, name, offset);
@@ -233,7 +191,8 @@ bool Copying::link_to_copies(ObjectFile& object, AddedSegment& added) {
   return true;
 }
 
-bool Copying::fill(ObjectCopy& copy, bool is_program) {
+bool Copying::fill(ObjectCopy& copy, Kind kind) {
+  const bool is_program = kind == Kind::program;
   const FileBytes bytes(copy.file, error_);
   if (!bytes.read()) return false;
   ObjectFile object(bytes);
@@ -243,6 +202,7 @@ bool Copying::fill(ObjectCopy& copy, bool is_program) {
   AddedSegment added(object, bytes, object.dynamic().size() * sizeof(CopyPath));
   if (!added.is_made()) return refuse(copy.file, "cannot be copied: there is no memory for it");
   if (!link_to_copies(object, added)) return false;
+  if (kind == Kind::opened) add_need(object, added.add(program_->path.text));
   added.finish();
   if (write_all(copy.descriptor, bytes.begin(), bytes.size(), 0) &&
       write_all(copy.descriptor, added.begin(), added.size(), added.offset()))
@@ -254,14 +214,22 @@ bool Copying::fill(ObjectCopy& copy, bool is_program) {
 }  // namespace
 
 ObjectCopy* make_copies(const char* file, LoadError& error) {
-  Copying copying(file, error);
-  ObjectCopy* const program = copying.copy(file, file, true);
+  Copying copying(file, nullptr, nullptr, error);
+  ObjectCopy* const program = copying.copy(file, file, Kind::program);
   if (program == nullptr) forget_copies(copying.last());
   return program;
 }
 
-void forget_copies(ObjectCopy* last) {
-  while (last != nullptr) {
+ObjectCopy* add_copies(ObjectCopy* last, const ObjectCopy& program, const char* file, const char* name,
+                       LoadError& error) {
+  Copying copying(file, last, &program, error);
+  ObjectCopy* const opened = copying.copy(file, name, Kind::opened);
+  if (opened == nullptr) forget_copies(copying.last(), last);
+  return opened;
+}
+
+void forget_copies(ObjectCopy* last, const ObjectCopy* end) {
+  while (last != end) {
     ObjectCopy* const copy = last;
     last = copy->before;
     forget(copy);

@@ -2,20 +2,9 @@
 // The copies of a program's file and of those of its libraries, of which the program is loaded: see program_image.hpp.
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
-
-#include "fibers/posix/members/object_file.hpp"
+#include "fibers/posix/members/object_changes.hpp"
 
 namespace waitpoint::posix {
-
-/// Removed from a copy, and called when the program begins and ends: addresses within it, 0 for none.
-struct ProgramParts {
-  std::uint64_t main = 0;
-  std::uint64_t initialise = 0, finish = 0;
-  std::uint64_t constructors = 0, constructors_bytes = 0;
-  std::uint64_t destructors = 0, destructors_bytes = 0;
-};
 
 /// The name by which the dynamic linker opens a copy.
 struct CopyPath {
@@ -29,13 +18,18 @@ struct ObjectCopy {
   CopyPath path;
   ProgramParts parts;
   char* base = nullptr;          ///< its load address
+  void* handle = nullptr;        ///< of the dynamic linker: of the program, and of libraries that it has opened
   ObjectCopy* before = nullptr;  ///< the one that is initialised before it
 };
 
 /// Copies `file` and the libraries that it is linked to, each to a file in memory; returns the program's copy, the
 /// last one of the list, or null with the reason.
 ObjectCopy* make_copies(const char* file, LoadError& error);
-/// Closes and frees the copies of a list.
-void forget_copies(ObjectCopy* last);
+/// The same for a library that the program opens while it runs, which sees the program's names, too: in front of the
+/// list whose last copy is `last`.
+ObjectCopy* add_copies(ObjectCopy* last, const ObjectCopy& program, const char* file, const char* name,
+                       LoadError& error);
+/// Closes and frees the copies of a list, up to the one before `end`.
+void forget_copies(ObjectCopy* last, const ObjectCopy* end = nullptr);
 
 }  // namespace waitpoint::posix

@@ -3,12 +3,15 @@
 
 #include <dlfcn.h>
 #include <link.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cstdio>
 #include <cstring>
 
 #include "core/error.hpp"
+#include "fibers/posix/base/interposed.hpp"
+#include "fibers/posix/members/linked_libraries.hpp"
 
 namespace waitpoint::posix {
 namespace {
@@ -47,8 +50,8 @@ Function at(const ObjectCopy& copy, std::uint64_t address) {
   return reinterpret_cast<Function>(copy.base + address);
 }
 
-void initialise(const ObjectCopy& copy, int argc, char** argv) {
-  if (copy.before != nullptr) initialise(*copy.before, argc, argv);
+void initialise(const ObjectCopy& copy, const ObjectCopy* end, int argc, char** argv) {
+  if (copy.before != end) initialise(*copy.before, end, argc, argv);
   const ProgramParts& parts = copy.parts;
   if (parts.initialise != 0) at<Constructor>(copy, parts.initialise)(argc, argv, environ);
   auto* const constructors = at<Constructor*>(copy, parts.constructors);
@@ -62,53 +65,93 @@ void finish(const ObjectCopy& copy) {
   if (parts.finish != 0) at<Destructor>(copy, parts.finish)();
 }
 
+// Loads the copies up to the one before `end`, of which the last one leads to the others.
+bool load_copies(ObjectCopy& last, const ObjectCopy* end, int mode) {
+  last.handle = dlopen(last.path.text, mode | RTLD_NOW | RTLD_DEEPBIND);
+  const link_map* map = nullptr;
+  if (last.handle == nullptr || dlinfo(last.handle, RTLD_DI_LINKMAP, &map) != 0) return false;
+  // Its libraries follow it in the dynamic linker's list.
+  for (; map != nullptr; map = map->l_next)
+    for (ObjectCopy* copy = &last; copy != end; copy = copy->before)
+      if (std::strcmp(copy->path.text, map->l_name) == 0) copy->base = reinterpret_cast<char*>(map->l_addr);
+  for (const ObjectCopy* copy = &last; copy != end; copy = copy->before)
+    WAITPOINT_CHECK(copy->base != nullptr, "a library of a program is not loaded with it");
+  return true;
+}
+
+bool are_one_file(const char* one, const char* other) {
+  struct stat first {
+  }, second{};
+  return WAITPOINT_NEXT(stat)(one, &first) == 0 && WAITPOINT_NEXT(stat)(other, &second) == 0 &&
+         first.st_dev == second.st_dev && first.st_ino == second.st_ino;
+}
+
 }  // namespace
 
 bool load(ProgramImage& image, const char* file, LoadError& error) {
-  image.program = make_copies(file, error);
+  image.program = image.last = make_copies(file, error);
   if (image.program == nullptr) return false;
-  image.handle = dlopen(image.program->path.text, RTLD_NOW | RTLD_LOCAL | RTLD_DEEPBIND);
-  const link_map* map = nullptr;
-  if (image.handle == nullptr || dlinfo(image.handle, RTLD_DI_LINKMAP, &map) != 0) {
+  if (!load_copies(*image.program, nullptr, RTLD_LOCAL)) {
     explain(*image.program, error);
     unload(image);
     return false;
   }
-  // Its libraries follow it in the dynamic linker's list.
-  for (; map != nullptr; map = map->l_next)
-    for (ObjectCopy* copy = image.program; copy != nullptr; copy = copy->before)
-      if (std::strcmp(copy->path.text, map->l_name) == 0) copy->base = reinterpret_cast<char*>(map->l_addr);
-  for (const ObjectCopy* copy = image.program; copy != nullptr; copy = copy->before)
-    WAITPOINT_CHECK(copy->base != nullptr, "a library of a program is not loaded with it");
   WAITPOINT_CHECK(image.program->parts.main != 0, "a copy was made of a program without a beginning");
   return true;
 }
 
 void unload(ProgramImage& image) {
-  if (image.handle != nullptr) dlclose(image.handle);
-  forget_copies(image.program);
+  for (const ObjectCopy* copy = image.last; copy != nullptr; copy = copy->before)
+    if (copy->handle != nullptr) dlclose(copy->handle);
+  forget_copies(image.last);
   image = {};
 }
 
 int call_main(const ProgramImage& image, int argc, char** argv) {
-  WAITPOINT_CHECK(image.handle != nullptr, "a program is called that is not loaded");
-  initialise(*image.program, argc, argv);
+  WAITPOINT_CHECK(image.program != nullptr, "a program is called that is not loaded");
+  call_constructors(image, nullptr, argc, argv);
   // An earlier program may have used getopt(): 0 makes it start again, see getopt(3) on several vectors.
   optind = 0;
   return at<Main>(*image.program, image.program->parts.main)(argc, argv, environ);
 }
 
-void call_destructors(const ProgramImage& image) {
-  for (const ObjectCopy* copy = image.program; copy != nullptr; copy = copy->before) finish(*copy);
+const ObjectCopy* find_copy(const ProgramImage& image, const char* name) {
+  if (name == nullptr) return image.program;
+  const bool is_path = std::strchr(name, '/') != nullptr;
+  for (const ObjectCopy* copy = image.last; copy != nullptr; copy = copy->before)
+    if (std::strcmp(copy->name, name) == 0 || (is_path && are_one_file(copy->file, name))) return copy;
+  return nullptr;
 }
 
-bool contains(const ProgramImage& image, const void* address) {
+const ObjectCopy* open_library(ProgramImage& image, const char* name, int mode) {
+  LinkedLibraries::Path file;
+  if (is_shared_by_programs(name)) return nullptr;
+  if (std::strchr(name, '/') == nullptr && !LinkedLibraries(image.program->file, name).find(name, file)) return nullptr;
+  LoadError ignored;
+  ObjectCopy* const before = image.last;
+  ObjectCopy* const opened =
+      add_copies(before, *image.program, std::strchr(name, '/') == nullptr ? file : name, name, ignored);
+  if (opened == nullptr) return nullptr;
+  if (load_copies(*opened, before, mode)) return image.last = opened;
+  forget_copies(opened, before);
+  return nullptr;
+}
+
+void call_constructors(const ProgramImage& image, const ObjectCopy* before, int argc, char** argv) {
+  if (image.last != before) initialise(*image.last, before, argc, argv);
+}
+
+void call_destructors(const ProgramImage& image) {
+  for (const ObjectCopy* copy = image.last; copy != nullptr; copy = copy->before) finish(*copy);
+}
+
+const ObjectCopy* copy_with(const ProgramImage& image, const void* address) {
   Dl_info known{};
   void* map = nullptr;
-  if (dladdr1(address, &known, &map, RTLD_DL_LINKMAP) == 0 || map == nullptr) return false;
-  for (const ObjectCopy* copy = image.program; copy != nullptr; copy = copy->before)
-    if (reinterpret_cast<char*>(static_cast<link_map*>(map)->l_addr) == copy->base) return true;
-  return false;
+  if (WAITPOINT_NEXT(dladdr1)(address, &known, &map, RTLD_DL_LINKMAP) == 0 || map == nullptr) return nullptr;
+  for (const ObjectCopy* copy = image.last; copy != nullptr; copy = copy->before)
+    if (reinterpret_cast<char*>(static_cast<link_map*>(map)->l_addr) == copy->base) return copy;
+  return nullptr;
 }
 
 }  // namespace waitpoint::posix

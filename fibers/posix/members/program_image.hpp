@@ -18,8 +18,8 @@ namespace waitpoint::posix {
 using Main = int (*)(int, char**, char**);
 
 struct ProgramImage {
-  void* handle = nullptr;         ///< of the dynamic linker
-  ObjectCopy* program = nullptr;  ///< behind its libraries
+  ObjectCopy* program = nullptr;
+  ObjectCopy* last = nullptr;  ///< the list of its copies: the program, or a library that it has opened since
 };
 
 /// Loads a copy of `file`; false with the reason in `error`.
@@ -29,8 +29,17 @@ void unload(ProgramImage& image);
 /// In the program's first thread, in place of the C library's start-up: calls the constructors and main(), and returns
 /// its result.
 int call_main(const ProgramImage& image, int argc, char** argv);
+
+/// The copy of the library that others are linked to by this name, or that has this file. Null: the program.
+const ObjectCopy* find_copy(const ProgramImage& image, const char* name);
+/// Loads a copy of a library that the program opens, with those that it is linked to; null if it cannot be loaded, or
+/// all programs share it. The copies that were added are those up to the one that was the last before.
+const ObjectCopy* open_library(ProgramImage& image, const char* name, int mode);
+/// Calls the constructors of copies that were added behind `before`.
+void call_constructors(const ProgramImage& image, const ObjectCopy* before, int argc, char** argv);
+
 void call_destructors(const ProgramImage& image);
-/// True if `address` is in it, or in one of its libraries.
-bool contains(const ProgramImage& image, const void* address);
+/// The copy that contains this address; null without one.
+const ObjectCopy* copy_with(const ProgramImage& image, const void* address);
 
 }  // namespace waitpoint::posix

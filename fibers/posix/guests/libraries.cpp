@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// dlopen() by a guest: of a library that it is linked to, the guest's copy; another library is copied for it. Where
+// dladdr() finds a copy, it tells the file that was copied.
+#include <dlfcn.h>
+
+#include "fibers/posix/base/interposed.hpp"
+#include "fibers/posix/members/members.hpp"
+
+// dlopen() identifies its caller by the return address, so it can be wrapped only by a tail call, not by a C++
+// function.
+asm(R"(
+  .text
+  .globl dlopen
+  .type dlopen, @function
+dlopen:
+  .cfi_startproc
+  endbr64
+  pushq %rdi
+  .cfi_adjust_cfa_offset 8
+  pushq %rsi
+  .cfi_adjust_cfa_offset 8
+  subq $8, %rsp
+  .cfi_adjust_cfa_offset 8
+  call waitpoint_open_copy
+  addq $8, %rsp
+  .cfi_adjust_cfa_offset -8
+  popq %rsi
+  .cfi_adjust_cfa_offset -8
+  popq %rdi
+  .cfi_adjust_cfa_offset -8
+  testq %rax, %rax
+  je 1f
+  ret
+1:
+  pushq %rdi
+  .cfi_adjust_cfa_offset 8
+  pushq %rsi
+  .cfi_adjust_cfa_offset 8
+  subq $8, %rsp
+  .cfi_adjust_cfa_offset 8
+  call waitpoint_own_dlopen
+  addq $8, %rsp
+  .cfi_adjust_cfa_offset -8
+  popq %rsi
+  .cfi_adjust_cfa_offset -8
+  popq %rdi
+  .cfi_adjust_cfa_offset -8
+  jmpq *%rax
+  .cfi_endproc
+  .size dlopen, .-dlopen
+)");
+
+namespace waitpoint::posix {
+namespace {
+
+// The calls meanwhile are not the guest's.
+const ObjectCopy* copy_for(Member& member, const char* name, int mode) {
+  const InKernel within;
+  if (const ObjectCopy* const copy = find_copy(member.image, name); copy != nullptr) return copy;
+  return (mode & RTLD_NOLOAD) != 0 ? nullptr : open_library(member.image, name, mode & ~RTLD_LAZY);
+}
+
+void* handle_of(const ObjectCopy& copy, int mode) {
+  const InKernel within;
+  return WAITPOINT_NEXT(dlopen)(copy.path.text, mode);
+}
+
+void tell_file(const void* address, Dl_info& information) {
+  if (const ObjectCopy* const copy = copy_with(this_member().image, address); copy != nullptr)
+    information.dli_fname = copy->file;
+}
+
+}  // namespace
+}  // namespace waitpoint::posix
+
+using namespace waitpoint::posix;
+
+extern "C" {
+
+// Null: not by the layer.
+[[gnu::visibility("hidden"), gnu::used]] void* waitpoint_open_copy(const char* name, int mode) {
+  if (!runs_in_member()) return nullptr;
+  Member& member = this_member();
+  const ObjectCopy* const before = member.image.last;
+  const ObjectCopy* const copy = copy_for(member, name, mode);
+  if (copy == nullptr) return nullptr;
+  call_constructors(member.image, before, member.argc, member.argv);
+  return handle_of(*copy, mode);
+}
+
+[[gnu::visibility("hidden"), gnu::used]] void* waitpoint_own_dlopen() {
+  return reinterpret_cast<void*>(WAITPOINT_NEXT(dlopen));
+}
+}
+
+WAITPOINT_INTERPOSED int dladdr(const void* address, Dl_info* information) noexcept {
+  const int found = WAITPOINT_NEXT(dladdr)(address, information);
+  if (found != 0 && runs_in_member()) tell_file(address, *information);
+  return found;
+}
+
+WAITPOINT_INTERPOSED int dladdr1(const void* address, Dl_info* information, void** extra, int flags) noexcept {
+  const int found = WAITPOINT_NEXT(dladdr1)(address, information, extra, flags);
+  if (found != 0 && runs_in_member()) tell_file(address, *information);
+  return found;
+}
