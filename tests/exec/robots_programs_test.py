@@ -188,6 +188,21 @@ class Robot(unittest.TestCase):
 
     DESTROYED = "program destroyed\nupper destroyed at {}\nlower destroyed at {}\n"
 
+    def test_each_has_its_handlers_and_timers(self):
+        own = subprocess.run([PROGRAMS / "handlers-program", "x", "100"], capture_output=True, text=True)
+        self.assertEqual(own.stdout, "x: 10, 1 held, 5 10 10\n")
+        programs = [program(name, "handlers.so", name, ms) for name, ms in (("a", 100), ("b", 200))]
+        programs += [program("c", "handlers.so", "c", "user"), program("d", "handlers.so", "d", "pipe")]
+        programs += [program(name, "ticks.so") for name in ("e", "f")]
+        runs = [office("run", "--until", "1.1", programs=f"[{', '.join(programs)}]") for _ in range(2)]
+        run = runs[0]
+        self.assertEqual(run.returncode, 0, run.stderr)
+        for line in "a: 10, 1 held, 5 10 10\n", "b: 20, 1 held, 10 20 20\n", "100 ticks\n100 ticks\n":
+            self.assertIn(line, run.stdout)
+        statuses = re.findall(r"program (\w) ended with exit status (\d+)", run.stdout)
+        self.assertEqual(statuses, [("a", "0"), ("b", "0"), ("c", "138"), ("d", "141"), ("e", "0"), ("f", "0")])
+        self.assertEqual(digest_of_summary(runs[0]), digest_of_summary(runs[1]))
+
     def test_what_cannot_be_loaded_is_bad_input(self):
         for file, line in ("nowhere.so", "there is no program '.*nowhere.so': No such file or directory"), \
                           (__file__, r".*robots_programs_test.py is no shared object for x86-64"), \

@@ -278,11 +278,20 @@ int wait_for(int descriptor, short events, Time deadline, Restart restart) {
   return wait_for(&one, 1, deadline, restart);
 }
 
+namespace {
+
+// At the end of the instant the top room looks outside; a host does not.
+void pause_to_look() {
+  if (!has_host) kernel::running->scheduler->pause();
+}
+
+}  // namespace
+
 WaitsOutside::WaitsOutside() {
   ++waiting_outside;
   if (!is_explored()) ++waiting_for_outsiders;
   note_waits();
-  kernel::running->scheduler->pause();
+  pause_to_look();
 }
 WaitsOutside::~WaitsOutside() {
   WAITPOINT_CHECK(waiting_outside > waiting_for_no_descriptor, "more waits for signals have ended than begun");
@@ -297,7 +306,7 @@ int wait_outside(bool (*is_ready)(const void*), const void* what, Restart restar
     task.scheduler->enter(outside_object);
     Waiter waiter{&task, nullptr, 0, true, family::of_anything, Partner::none, is_ready, what};
     add(waiter);
-    task.scheduler->pause();
+    pause_to_look();
     const Wait ended = wait_on(outside_object, Time::max());
     remove(waiter);
     if (thread_of(task).in_cancellation_point && is_to_leave(thread_of(task))) return 0;

@@ -23,6 +23,7 @@ namespace {
 
 struct SignalDescriptor {
   int descriptor;
+  const Program* program;
   SignalSet set;
   bool can_be_read;
   SignalDescriptor* next;
@@ -35,11 +36,11 @@ SignalDescriptor* find_descriptor(int descriptor) {
   return each;
 }
 
-// For any thread: a reader takes the signals pending for itself.
-SignalSet pending_anywhere() {
-  SignalSet set = signals_of_program.pending.set();
-  for (const kernel::Task* task = first_task(); task != nullptr; task = task->next)
-    if (is_thread(*task)) set |= thread_of(*task).pending.set();
+// For any thread of the program: a reader takes the signals pending for itself.
+SignalSet pending_anywhere_in(const Program& program) {
+  SignalSet set = program.signals.pending.set();
+  for (const kernel::Task* task = program.robot->scheduler->first_task(); task != nullptr; task = task->next)
+    if (is_thread(*task) && thread_of(*task).program == &program) set |= thread_of(*task).pending.set();
   return set;
 }
 
@@ -73,10 +74,9 @@ bool is_signal_descriptor(int descriptor) {
 void show_signal_descriptors() {
   if (first_descriptor == nullptr) return;
   const ErrorNumberKept kept;
-  const SignalSet pending = pending_anywhere();
   bool any = false;
   for (SignalDescriptor* each = first_descriptor; each != nullptr; each = each->next) {
-    const bool can_be_read = (each->set & pending) != 0;
+    const bool can_be_read = (each->set & pending_anywhere_in(*each->program)) != 0;
     if (can_be_read == each->can_be_read) continue;
     each->can_be_read = can_be_read;
     eventfd_t word = 1;
@@ -132,6 +132,7 @@ WAITPOINT_INTERPOSED int signalfd(int descriptor, const sigset_t* set, int flags
     }
     // Its signals may come from outside.
     note_inside(known->descriptor, false);
+    known->program = &this_program();
     known->next = first_descriptor;
     first_descriptor = known;
     after_pending_changed = show_signal_descriptors;

@@ -250,12 +250,12 @@ void run_program(int (*body)(), const char* name) {
   kernel::Scheduler& scheduler = begin_run();
   note_exit_status();
   const char* const slash = std::strrchr(name, '/');
-  static constinit Program program;
-  program.robot = &record->robot;
+  process_program.robot = &record->robot;
   begin_robot(scheduler, slash != nullptr ? slash + 1 : name);
   static constinit Thread thread;
   thread.start.posix = run_body;
-  if (!begin_main_thread(thread, program, scheduler)) refuse("there is no address space for the stacks of threads");
+  if (!begin_main_thread(thread, process_program, scheduler))
+    refuse("there is no address space for the stacks of threads");
   // No frame on this stack now ever returns.
   set_stack_guard(thread.area, draw_random());
   // All threads have ended, main()'s too: by POSIX the process ends as by exit(0).

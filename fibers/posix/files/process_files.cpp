@@ -96,7 +96,7 @@ void write_stat(const Process& process, char* system, TextFile& text) {
 SignalSet actions_with(bool (*is_meant)(const struct sigaction&)) {
   SignalSet set = 0;
   for (int signal = 1; signal < signals_end; ++signal)
-    if (is_meant(signals_of_program.actions[signal])) set |= only(signal);
+    if (is_meant(program_now().signals.actions[signal])) set |= only(signal);
   return set;
 }
 
@@ -123,7 +123,7 @@ void write_status_line(const Process& process, const char* name, const char* val
   if (is("SigQ")) return text.add("SigQ:\t0%s\n", std::strchr(value, '/') != nullptr ? std::strchr(value, '/') : "");
   if (is("SigBlk")) return add_set(is_own ? this_thread().blocked : 0);
   if (is("SigPnd")) return add_set(is_own ? this_thread().pending.set() : 0);
-  if (is("ShdPnd")) return add_set(is_own ? signals_of_program.pending.set() : 0);
+  if (is("ShdPnd")) return add_set(is_own ? program_now().signals.pending.set() : 0);
   const auto is_ignored = [](const struct sigaction& action) { return action.sa_handler == SIG_IGN; };
   const auto is_caught = [](const struct sigaction& action) {
     return action.sa_handler != SIG_IGN && action.sa_handler != SIG_DFL;

@@ -170,7 +170,7 @@ void tell_by(const sigevent& event) {
   if (event.sigev_notify == SIGEV_SIGNAL && is_signal(event.sigev_signo)) {
     siginfo_t information = from_here(event.sigev_signo, SI_ASYNCIO);
     information.si_value = event.sigev_value;
-    send(information, nullptr);
+    send(information, this_program());
   } else if (event.sigev_notify == SIGEV_THREAD) {
     start_notification(event);
   }

@@ -97,6 +97,7 @@ void close_descriptors_of(const Program& program) {
     WAITPOINT_CHECK(owner->is_member, "a program that is alone in its process owns a descriptor");
     clear_owner(descriptor);
     forget_timer_descriptor(descriptor);
+    forget_signal_descriptor(descriptor);
     close_stream_over_link(descriptor);
     close(descriptor);
   }

@@ -88,7 +88,7 @@ WAITPOINT_INTERPOSED void abort() noexcept {
   pass_exit();
   if (is_simulated()) {
     this_thread().blocked &= ~only(SIGABRT);
-    const struct sigaction& action = signals_of_program.actions[SIGABRT];
+    const struct sigaction& action = this_program().signals.actions[SIGABRT];
     if ((action.sa_flags & SA_SIGINFO) != 0 || (action.sa_handler != SIG_IGN && action.sa_handler != SIG_DFL))
       raise(SIGABRT);
     if (runs_in_member()) {

@@ -12,7 +12,9 @@
 #include "fibers/posix/input_output/descriptor_table.hpp"
 #include "fibers/posix/ipc/system_v_ends.hpp"
 #include "fibers/posix/program/program.hpp"
+#include "fibers/posix/signals/signals.hpp"
 #include "fibers/posix/threads/thread.hpp"
+#include "fibers/posix/timers/program_timers.hpp"
 
 extern "C" void __call_tls_dtors();  // of the C library
 
@@ -38,11 +40,19 @@ void call_handlers(Member& member) {
   call_destructors(member.image);
 }
 
+// As a shell reports it.
+void end_by_signal(int signal) { end_member(128 + signal); }
+
 void end_with_last_thread() {
   if (!runs_in_member() || this_member().exiting) return;
   for (const kernel::Task* task = kernel::running->scheduler->first_task(); task != nullptr; task = task->next)
     if (task != kernel::running && is_thread(*task) && thread_of(*task).program == &this_program()) return;
   exit_member(0);
+}
+
+void forget_what_is_sent_to(Member& member) {
+  forget_timers_of(member);
+  member.signals.pending.drop(~SignalSet{0});
 }
 
 }  // namespace
@@ -53,12 +63,16 @@ bool start(Member& member, kernel::Scheduler& scheduler) {
   home = getpid();
   member.is_member = true;
   member.thread_ends = end_with_last_thread;
+  member.ends_by = end_by_signal;
+  // A write without a reader ends the program that makes it.
+  for (const int signal : {SIGPIPE, SIGXFSZ}) install(signal);
   return make_main_thread(member, scheduler, run_member, &member) != nullptr;
 }
 
 void drop(Member& member, kernel::Scheduler& scheduler) {
   WAITPOINT_CHECK(kernel::running == nullptr, "a member is dropped from within a task");
   end_other_threads(member, scheduler);
+  forget_what_is_sent_to(member);
   close_descriptors_of(member);
   while (member.handlers != nullptr) {
     ExitHandler* const handler = member.handlers;
@@ -85,6 +99,7 @@ void end_member(int status) {
   Member& member = this_member();
   kernel::Scheduler& scheduler = *kernel::running->scheduler;
   end_other_threads(member, scheduler);
+  forget_what_is_sent_to(member);
   close_descriptors_of(member);
   system_v::undo_semaphores_of(member);
   member.ended = true;

@@ -27,8 +27,7 @@
 #include "fibers/posix/sync/futex_vectors.hpp"
 #include "fibers/posix/sync/robust_mutexes.hpp"
 #include "fibers/posix/threads/thread.hpp"
-#include "fibers/posix/timers/interval_timers.hpp"
-#include "fibers/posix/timers/notification_threads.hpp"
+#include "fibers/posix/timers/program_timers.hpp"
 #include "fibers/posix/traps/raw_calls.hpp"
 
 namespace waitpoint::posix {
@@ -122,9 +121,7 @@ void begin_as_child() {
   forget_vectors();
   leave_shared_mutexes();
   end_other_tasks();
-  forget_interval_timers();
-  forget_timers();
-  forget_notices();
+  forget_timers_of(this_program());
   forget_asynchronous_requests();
   forget_pending_signals();
   begin_again_as_first(this_thread());
@@ -176,7 +173,7 @@ void await_return(const family::Process& child) {
 }  // namespace
 
 void await_child_in_system() {
-  signals_of_program.ever_blocked |= only(SIGCHLD);
+  process_program.signals.ever_blocked |= only(SIGCHLD);
   install(SIGCHLD);
 }
 

@@ -7,6 +7,7 @@
 namespace waitpoint::posix {
 
 Record* record = nullptr;
+constinit Program process_program;
 constinit AllocatorCode allocator_code;
 bool is_timer_firing = false;
 std::uint64_t timers_fired = 0;

@@ -6,8 +6,13 @@
 
 #include "core/time.hpp"
 #include "fibers/kernel/task.hpp"
+#include "fibers/posix/program/program_signals.hpp"
 
 namespace waitpoint::posix {
+
+struct CreatedTimers;
+struct IntervalTimers;
+struct NotificationStarter;
 
 struct Program {
   kernel::Robot* robot = nullptr;  ///< to which its threads belong, as tasks
@@ -16,10 +21,20 @@ struct Program {
   bool is_member = false;          ///< it is one of several: a Member
   /// Called, unless null, by each thread about to end; in the last one it ends the program.
   void (*thread_ends)() = nullptr;
+  /// The default action of a signal that ends the program; null: it ends the process.
+  void (*ends_by)(int signal) = nullptr;
   std::uint32_t threads_made = 0;
   std::uint64_t numbers_drawn[2] = {};  ///< of each stream of random numbers (randomness.hpp)
   /// Its processor time: the cost of its threads' uses of primitives and clocks.
   Duration spent;
+  ProgramSignals signals{};
+  // Made when first used, and forgotten at its end: see timers/program_timers.hpp.
+  IntervalTimers* interval_timers = nullptr;
+  CreatedTimers* created_timers = nullptr;
+  NotificationStarter* notification_starter = nullptr;
 };
+
+/// The program that is alone in its process.
+extern Program process_program;
 
 }  // namespace waitpoint::posix

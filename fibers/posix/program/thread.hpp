@@ -120,6 +120,10 @@ inline Thread& thread_of(const kernel::Task& task) {
 /// The running thread.
 inline Thread& this_thread() { return thread_of(*kernel::running); }
 inline Program& this_program() { return *this_thread().program; }
+/// The same; but before main(), and where no thread of a program runs, the one that is alone in its process.
+inline Program& program_now() {
+  return kernel::running != nullptr && is_thread(*kernel::running) ? this_program() : process_program;
+}
 
 /// True if the caller is code of a simulated thread; false before main().
 inline bool is_simulated() {

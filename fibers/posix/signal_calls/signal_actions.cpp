@@ -85,16 +85,10 @@ bool is_end_of_member(const siginfo_t& information) {
   return child == nullptr || !child->is_native;
 }
 
-bool is_handled(int signal) {
-  const struct sigaction& action = signals_of_program.actions[signal];
-  return (action.sa_flags & SA_SIGINFO) != 0 || (action.sa_handler != SIG_DFL && action.sa_handler != SIG_IGN);
-}
-
-bool has_default(int signal) { return signals_of_program.actions[signal].sa_handler == SIG_DFL && !is_handled(signal); }
-
 // Its default action is to end the run: that is done by the process that watches it.
 bool ends_run(int signal) {
-  return contains(ending, signal) && record != nullptr && record->settings.reports_ending && has_default(signal);
+  return contains(ending, signal) && record != nullptr && record->settings.reports_ending &&
+         program_now().signals.has_default(signal);
 }
 
 // Of several processes a signal sent to one ends that one alone, unless it is the first; the terminal's reach all.
@@ -173,9 +167,10 @@ void handle_fault(int signal, siginfo_t* information, void* context) {
   // Only an instruction that may not be executed has no address; an address that cannot be executed is not looked at.
   const bool is_of_processor = signal == SIGSEGV && information->si_code == SI_KERNEL;
   if (is_of_processor && (emulate_processor_counter(context) || answer_processor_features(context))) return;
-  struct sigaction& known = signals_of_program.actions[signal];
-  const SignalSet blocked = is_simulated() ? this_thread().blocked : signals_of_program.blocked_before_main;
-  if (!is_handled(signal) || contains(blocked, signal)) return do_default(signal);
+  ProgramSignals& signals = program_now().signals;
+  struct sigaction& known = signals.actions[signal];
+  const SignalSet blocked = is_simulated() ? this_thread().blocked : process_program.signals.blocked_before_main;
+  if (!signals.is_handled(signal) || contains(blocked, signal)) return do_default_of_process(signal);
   const struct sigaction action = known;
   if ((action.sa_flags & static_cast<int>(SA_RESETHAND)) != 0) {
     known.sa_handler = SIG_DFL;
@@ -214,6 +209,7 @@ void catch_signal(int signal, siginfo_t* information, void* context) {
   // SIGPIPE and SIGXFSZ: this thread's own write.
   const bool from_itself = (information->si_code == SI_TKILL || signal == SIGPIPE || signal == SIGXFSZ) &&
                            information->si_pid == family::system_id();
+  if (has_host && !is_simulated() && (signal == SIGPIPE || signal == SIGXFSZ)) return;  // the host prefers errors
   if (contains(faults, signal) && information->si_code > 0) {
     handle_fault(signal, information, context);
   } else if (!from_itself && pass_to_watcher(*information)) {
@@ -221,7 +217,7 @@ void catch_signal(int signal, siginfo_t* information, void* context) {
     return;
   } else if (is_simulated() && from_itself && !waits_really.load()) {
     // By the C library, which expects it to be handled at once: by abort() within it, for one.
-    send(*information, &this_thread());
+    send(*information, this_program(), &this_thread());
     let_come();
     handle_signals();
   } else {
@@ -245,7 +241,14 @@ Handler set_handler(int signal, Handler handler, int flags) {
   return old.sa_handler;
 }
 
-SignalSet interrupting = 0;  // siginterrupt()
+// A signal from outside: of several programs, the running one if it handles it, else the first one that does.
+Program& program_for(int signal) {
+  Program& running = program_now();
+  if (!has_host || running.signals.is_handled(signal)) return running;
+  for (const kernel::Task* task = first_task(); task != nullptr; task = task->next)
+    if (is_thread(*task) && thread_of(*task).program->signals.is_handled(signal)) return *thread_of(*task).program;
+  return running;
+}
 
 }  // namespace
 
@@ -264,13 +267,13 @@ bool take_in_signals_from_outside() {
     place.is_there.store(false);
     next_taken.fetch_add(1);
     if (is_end_of_member(information)) continue;
-    if (!ring_by_signal(information)) send(information, nullptr);
+    if (!ring_by_signal(information)) send(information, program_for(information.si_signo));
     any = true;
   }
   for (int i = 0; family::own != nullptr && i < family::own->letters; ++i, any = true) {
     const family::Letter& letter = family::own->inbox[i];
     Thread* const thread = letter.thread != 0 ? thread_with_id(letter.thread) : nullptr;
-    if (letter.thread == 0 || (thread != nullptr && !thread->ended)) send(letter.information, thread);
+    if (letter.thread == 0 || (thread != nullptr && !thread->ended)) send(letter.information, process_program, thread);
   }
   if (family::own != nullptr) family::own->letters = 0;
   if (is_held_back.exchange(false)) let_come();
@@ -279,20 +282,24 @@ bool take_in_signals_from_outside() {
 
 void install(int signal) {
   WAITPOINT_CHECK(is_signal(signal), "an action is installed for a number that is no signal");
-  const struct sigaction& action = signals_of_program.actions[signal];
+  // The host's own; and those of several programs: a signal that one of them has asked for is caught from then on.
+  if (has_host && contains(ending, signal)) return;
+  const ProgramSignals& signals = program_now().signals;
+  const struct sigaction& action = signals.actions[signal];
   struct sigaction real {};
   real.sa_flags = SA_SIGINFO | SA_NODEFER | (action.sa_flags & (SA_RESTART | SA_ONSTACK | SA_NOCLDSTOP | SA_NOCLDWAIT));
   real.sa_sigaction = catch_signal;
   if (!contains(faults, signal)) real.sa_mask = to_sigset(one_by_one);
   if (signal == bell) real.sa_flags |= SA_RESTART;  // the program did not ask for it, and must not see EINTR
-  const bool is_default = !is_handled(signal);
+  const bool is_default = !signals.is_handled(signal);
   const bool is_looked_for_always =
+      has_host ||
       (signal == SIGSEGV && record != nullptr && (record->settings.trap_rdtsc || are_processor_features_trapped())) ||
       (signal == SIGSYS && (are_library_calls_trapped() || are_raw_calls_trapped())) || (signal == bell && has_bell) ||
       ends_run(signal);
   // The system's notices of ends that are events of the family come at any time: they could end a real wait.
   const bool is_left_out = signal == SIGCHLD && family::own != nullptr && !family::has_native_child();
-  const bool is_looked_for = is_looked_for_always || contains(signals_of_program.ever_blocked & ~faults, signal);
+  const bool is_looked_for = is_looked_for_always || contains(signals.ever_blocked & ~faults, signal);
   if (is_default && action.sa_handler == SIG_IGN && !is_looked_for_always) {
     real.sa_flags &= ~SA_SIGINFO;
     real.sa_handler = SIG_IGN;
@@ -311,9 +318,10 @@ bool is_question(const siginfo_t& information) {
 
 void note_caught_signals() {
   if (family::own == nullptr) return;
-  SignalSet caught = signals_of_program.ever_blocked;
+  const ProgramSignals& signals = program_now().signals;
+  SignalSet caught = signals.ever_blocked;
   for (SignalSet left = ending; left != 0; left &= left - 1)
-    if (const int signal = __builtin_ctzll(left) + 1; is_handled(signal)) caught |= only(signal);
+    if (const int signal = __builtin_ctzll(left) + 1; signals.is_handled(signal)) caught |= only(signal);
   family::own->caught = caught;
 }
 
@@ -323,6 +331,12 @@ void install_bell() {
 }
 
 void do_default(int signal) {
+  if (program_now().ends_by == nullptr) return do_default_of_process(signal);
+  // Another process cannot continue a program that is one of several.
+  if (!contains(stopping, signal)) program_now().ends_by(signal);
+}
+
+void do_default_of_process(int signal) {
   WAITPOINT_CHECK(is_signal(signal), "the default action is taken for a number that is no signal");
   if (contains(stopping, signal)) {
     if (family::has_others()) return family::stop(signal);
@@ -345,14 +359,15 @@ void inherit_signals() {
   guarded[2] = range_of_library_with(reinterpret_cast<const void*>(&_dl_allocate_tls));
   for (const LibraryRange& range : guarded)
     WAITPOINT_CHECK(range.begin < range.end, "a library in which no handler may run is not found");
+  ProgramSignals& signals = process_program.signals;
   for (int signal = 1; signal < signals_end; ++signal) {
     struct sigaction inherited {};
     if (WAITPOINT_NEXT(sigaction)(signal, nullptr, &inherited) != 0) continue;
-    signals_of_program.actions[signal].sa_handler = inherited.sa_handler == SIG_IGN ? SIG_IGN : SIG_DFL;
+    signals.actions[signal].sa_handler = inherited.sa_handler == SIG_IGN ? SIG_IGN : SIG_DFL;
   }
   sigset_t blocked;
   WAITPOINT_NEXT(pthread_sigmask)(SIG_SETMASK, nullptr, &blocked);
-  signals_of_program.blocked_before_main = signals_of_program.ever_blocked = to_set(blocked);
+  signals.blocked_before_main = signals.ever_blocked = to_set(blocked);
   const SignalSet caught = record != nullptr && record->settings.reports_ending ? ending : 0;
   for (SignalSet set = to_set(blocked) | caught; set != 0; set &= set - 1) install(__builtin_ctzll(set) + 1);
   const sigset_t none = to_sigset(0);
@@ -368,21 +383,23 @@ WAITPOINT_INTERPOSED int sigaction(int signal, const struct sigaction* action, s
   if (is_host_code()) return WAITPOINT_NEXT(sigaction)(signal, action, old);
   if (!is_signal(signal) || signal == 32 || signal == 33) return fail(EINVAL);
   if (action != nullptr && contains(unblockable, signal)) return fail(EINVAL);
-  struct sigaction& known = signals_of_program.actions[signal];
+  Program& program = program_now();
+  ProgramSignals& signals = program.signals;
+  struct sigaction& known = signals.actions[signal];
   const struct sigaction before = known;
   if (action != nullptr) {
     known = *action;
     if (signal == SIGCHLD && family::own != nullptr)
       family::own->drops_children = known.sa_handler == SIG_IGN || (known.sa_flags & SA_NOCLDWAIT) != 0;
     known.sa_mask = to_sigset(to_set(action->sa_mask) & ~unblockable);
-    if (contains(interrupting, signal) && (action->sa_flags & SA_RESTART) != 0) interrupting &= ~only(signal);
+    if (contains(signals.interrupting, signal) && (action->sa_flags & SA_RESTART) != 0)
+      signals.interrupting &= ~only(signal);
     install(signal);
     // Pending signals that are ignored from now on are dropped.
-    if (is_simulated() && !is_handled(signal) &&
-        (known.sa_handler == SIG_IGN || contains(ignored_by_default, signal))) {
-      signals_of_program.pending.drop(only(signal));
+    if (is_simulated() && signals.is_discarded(signal)) {
+      signals.pending.drop(only(signal));
       for (kernel::Task* task = first_task(); task != nullptr; task = task->next)
-        if (is_thread(*task)) thread_of(*task).pending.drop(only(signal));
+        if (is_thread(*task) && thread_of(*task).program == &program) thread_of(*task).pending.drop(only(signal));
     }
   }
   if (old != nullptr) *old = before;
@@ -402,7 +419,7 @@ WAITPOINT_INTERPOSED Handler signal(int signal, Handler handler) noexcept {
   }
   action.sa_mask = to_sigset(only(signal));
   action.sa_handler = handler;
-  action.sa_flags = contains(interrupting, signal) ? 0 : SA_RESTART;
+  action.sa_flags = contains(program_now().signals.interrupting, signal) ? 0 : SA_RESTART;
   if (handler == SIG_ERR || sigaction(signal, &action, &old) != 0) {
     errno = EINVAL;
     return SIG_ERR;
@@ -424,6 +441,7 @@ WAITPOINT_INTERPOSED int sigignore(int signal) noexcept {
 WAITPOINT_INTERPOSED int siginterrupt(int number, int flag) noexcept {
   struct sigaction action {};
   if (sigaction(number, nullptr, &action) != 0) return -1;
+  SignalSet& interrupting = program_now().signals.interrupting;
   if (flag != 0)
     interrupting |= only(number), action.sa_flags &= ~SA_RESTART;
   else

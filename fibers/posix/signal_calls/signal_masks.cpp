@@ -16,7 +16,7 @@
 namespace waitpoint::posix {
 namespace {
 
-SignalSet blocked_now() { return is_simulated() ? this_thread().blocked : signals_of_program.blocked_before_main; }
+SignalSet blocked_now() { return is_simulated() ? this_thread().blocked : process_program.signals.blocked_before_main; }
 
 void block_from_now_on(SignalSet blocked) {
   if (is_simulated()) {
@@ -24,10 +24,10 @@ void block_from_now_on(SignalSet blocked) {
     if (deliverable(this_thread()) != 0) handle_signals();
     return;
   }
-  signals_of_program.blocked_before_main = blocked & ~unblockable;
-  signals_of_program.ever_blocked |= signals_of_program.blocked_before_main;
-  for (SignalSet set = signals_of_program.blocked_before_main; set != 0; set &= set - 1)
-    install(__builtin_ctzll(set) + 1);
+  ProgramSignals& signals = process_program.signals;
+  signals.blocked_before_main = blocked & ~unblockable;
+  signals.ever_blocked |= signals.blocked_before_main;
+  for (SignalSet set = signals.blocked_before_main; set != 0; set &= set - 1) install(__builtin_ctzll(set) + 1);
 }
 
 int change_mask(int how, const sigset_t* set, sigset_t* old) {
@@ -151,7 +151,7 @@ WAITPOINT_INTERPOSED int sigpending(sigset_t* set) noexcept {
   if (!can_be_written(set)) return fail(EFAULT);
   take_in_signals_from_outside();
   const Thread& thread = this_thread();
-  *set = to_sigset((thread.pending.set() | signals_of_program.pending.set()) & thread.blocked);
+  *set = to_sigset(pending_for(thread) & thread.blocked);
   return 0;
 }
 

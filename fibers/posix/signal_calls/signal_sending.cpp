@@ -35,13 +35,15 @@ void handle_own() {
 }
 
 int send_here(const siginfo_t& information, Thread* to) {
+  WAITPOINT_CHECK(to == nullptr || to->program == &this_program(),
+                  "a signal is sent to another program as to this one");
   WAITPOINT_CHECK(is_signal(information.si_signo), "a number is sent that is no signal");
   WAITPOINT_CHECK(to == nullptr || to->task != nullptr, "a signal is sent to a thread that has ended");
   if (contains(only(SIGKILL) | only(SIGSTOP), information.si_signo)) {
     do_default(information.si_signo);
     return 0;
   }
-  if (!send(information, to)) return EAGAIN;
+  if (!send(information, this_program(), to)) return EAGAIN;
   handle_own();
   return 0;
 }
@@ -50,7 +52,7 @@ bool is_number(int signal) { return signal == 0 || is_signal(signal); }
 
 // Returns an error number.
 int send_to_thread(Thread* thread, siginfo_t information) {
-  if (thread == nullptr) return ESRCH;
+  if (thread == nullptr || thread->program != &this_program()) return ESRCH;
   if (!is_number(information.si_signo)) return EINVAL;
   if (thread->ended) return 0;
   if (information.si_signo == 0) return 0;
@@ -63,6 +65,19 @@ siginfo_t with_value(int signal, sigval value) {
   information.si_value = value;
   return information;
 }
+
+// True if it names the process in which this program is one of several: the program is meant, and no other.
+bool is_process_of_several(pid_t process) {
+  return has_host && is_simulated() && (process == getpid() || process == 0 || process == -getpgrp());
+}
+
+int send_to_program(siginfo_t information) {
+  if (!is_number(information.si_signo)) return EINVAL;
+  pass(kernel::Operation::signal, nullptr);
+  return information.si_signo == 0 ? 0 : send_here(information, nullptr);
+}
+
+int result_of(int error) { return error == 0 ? 0 : fail(error); }
 
 // To another process of the family. Returns an error number.
 int send_to_other(family::Process& process, const siginfo_t& information) {
@@ -127,11 +142,12 @@ using namespace waitpoint;
 using namespace waitpoint::posix;
 
 WAITPOINT_INTERPOSED int kill(pid_t process, int signal) noexcept {
+  if (is_process_of_several(process)) return result_of(send_to_program(from_here(signal, SI_USER)));
   if (!is_simulated() || family::own == nullptr) return WAITPOINT_NEXT(kill)(process, signal);
   if (!is_number(signal)) return fail(EINVAL);
   pass(kernel::Operation::signal, nullptr);
   const int error = send_to_processes(process, from_here(signal, SI_USER));
-  return error == 0 ? 0 : fail(error);
+  return result_of(error);
 }
 
 WAITPOINT_INTERPOSED int killpg(pid_t group, int signal) noexcept {
@@ -141,10 +157,12 @@ WAITPOINT_INTERPOSED int killpg(pid_t group, int signal) noexcept {
 WAITPOINT_INTERPOSED int raise(int signal) noexcept {
   if (!is_simulated() || !is_signal(signal)) return WAITPOINT_NEXT(raise)(signal);
   const int error = send_to_thread(&this_thread(), from_here(signal, SI_TKILL));
-  return error == 0 ? 0 : fail(error);
+  return result_of(error);
 }
 
 WAITPOINT_INTERPOSED int tgkill(pid_t process, pid_t thread, int signal) {
+  if (is_process_of_several(process))
+    return result_of(send_to_thread(thread_with_id(thread), from_here(signal, SI_TKILL)));
   if (!is_simulated() || family::own == nullptr) return WAITPOINT_NEXT(tgkill)(process, thread, signal);
   if (thread <= 0 || process <= 0) return fail(EINVAL);
   if (process != getpid()) {
@@ -154,19 +172,20 @@ WAITPOINT_INTERPOSED int tgkill(pid_t process, pid_t thread, int signal) {
     return 0;
   }
   const int error = send_to_thread(thread_with_id(thread), from_here(signal, SI_TKILL));
-  return error == 0 ? 0 : fail(error);
+  return result_of(error);
 }
 
 WAITPOINT_INTERPOSED int sigqueue(pid_t process, int signal, sigval value) noexcept {
+  if (is_process_of_several(process)) return result_of(send_to_program(with_value(signal, value)));
   if (!is_simulated() || family::own == nullptr) return WAITPOINT_NEXT(sigqueue)(process, signal, value);
   if (!is_number(signal)) return fail(EINVAL);
   if (process == getpid()) {
     const int error = send_as_told(with_value(signal, value));
-    return error == 0 ? 0 : fail(error);
+    return result_of(error);
   }
   pass(kernel::Operation::signal, nullptr);
   const int error = process > 0 ? send_to_processes(process, with_value(signal, value)) : ESRCH;
-  return error == 0 ? 0 : fail(error);
+  return result_of(error);
 }
 
 WAITPOINT_INTERPOSED int pidfd_send_signal(int process, int signal, siginfo_t* information, unsigned flags) noexcept {
@@ -177,7 +196,7 @@ WAITPOINT_INTERPOSED int pidfd_send_signal(int process, int signal, siginfo_t* i
   siginfo_t sent = information != nullptr ? *information : from_here(signal, SI_USER);
   sent.si_signo = signal;
   const int error = to == family::own ? send_as_told(sent) : send_to_processes(to->id, sent);
-  return error == 0 ? 0 : fail(error);
+  return result_of(error);
 }
 
 WAITPOINT_INTERPOSED int pthread_kill(pthread_t id, int signal) noexcept {

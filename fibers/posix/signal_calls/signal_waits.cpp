@@ -49,8 +49,7 @@ int take(SignalSet set, siginfo_t* information, Time deadline) {
     thread.awaited = 0;
     leave_if_cancelled();
     if (ended != Wait::interrupted) continue;
-    if ((set & (thread.pending.set() | signals_of_program.pending.set())) == 0 && is_interrupted(Restart::never))
-      return -EINTR;
+    if ((set & pending_for(thread)) == 0 && is_interrupted(Restart::never)) return -EINTR;
   }
 }
 

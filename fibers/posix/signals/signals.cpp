@@ -16,7 +16,6 @@
 
 namespace waitpoint::posix {
 
-constinit SignalsOfProgram signals_of_program{};
 void (*after_pending_changed)() = nullptr;
 void (*answer_question)() = nullptr;
 
@@ -26,21 +25,16 @@ void note_pending_changed() {
   if (after_pending_changed != nullptr) after_pending_changed();
 }
 
-bool is_discarded(int signal) {
-  const struct sigaction& action = signals_of_program.actions[signal];
-  if ((action.sa_flags & SA_SIGINFO) != 0) return false;
-  return action.sa_handler == SIG_IGN || (action.sa_handler == SIG_DFL && contains(ignored_by_default, signal));
-}
-
 bool wants(const Thread& thread, int signal) {
   return thread.task != nullptr && (!contains(thread.blocked, signal) || contains(thread.awaited, signal));
 }
 
-// The first thread that accepts it, as in Linux; of several programs, only threads of the sender's.
-Thread* taker_of(int signal) {
-  const Program* const of = is_simulated() ? &this_program() : nullptr;
-  for (kernel::Task* task = first_task(); task != nullptr; task = task->next)
-    if (is_thread(*task) && (of == nullptr || thread_of(*task).program == of) && wants(thread_of(*task), signal))
+// The program's first thread that accepts it, as in Linux.
+Thread* taker_of(const Program& program, int signal) {
+  const kernel::Scheduler* const scheduler = program.robot != nullptr ? program.robot->scheduler : nullptr;
+  for (kernel::Task* task = scheduler != nullptr ? scheduler->first_task() : nullptr; task != nullptr;
+       task = task->next)
+    if (is_thread(*task) && thread_of(*task).program == &program && wants(thread_of(*task), signal))
       return &thread_of(*task);
   return nullptr;
 }
@@ -57,19 +51,20 @@ void tell(Thread& thread) {
   }
 }
 
-void send_on(PendingSignal& signal, Thread* to) {
+void send_on(PendingSignal& signal, Program& program, Thread* to) {
+  WAITPOINT_CHECK(to == nullptr || to->program == &program, "a signal is sent to a thread of another program");
   const int number = signal.information.si_signo;
   WAITPOINT_CHECK(is_signal(number), "a signal without a number is sent");
   // Stop signals and SIGCONT cancel each other.
   const SignalSet opposite = number == SIGCONT ? stopping : contains(stopping, number) ? only(SIGCONT) : 0;
   if (opposite != 0) {
-    signals_of_program.pending.drop(opposite);
+    program.signals.pending.drop(opposite);
     if (to != nullptr) to->pending.drop(opposite);
   }
-  Thread* const taker = to != nullptr ? to : taker_of(number);
+  Thread* const taker = to != nullptr ? to : taker_of(program, number);
   // An ignored signal is discarded unless it is blocked, since its action may still change.
-  const bool is_kept = taker == nullptr || contains(taker->blocked, number) || !is_discarded(number);
-  PendingSignals& pending = to != nullptr ? to->pending : signals_of_program.pending;
+  const bool is_kept = taker == nullptr || contains(taker->blocked, number) || !program.signals.is_discarded(number);
+  PendingSignals& pending = to != nullptr ? to->pending : program.signals.pending;
   if (!is_kept) {
     if (signal.taken != nullptr)
       signal.taken(signal);
@@ -116,8 +111,8 @@ void run_handler(Thread& thread, const struct sigaction& action, siginfo_t& info
 void handle_all(Thread& thread, Handled& handled) {
   siginfo_t information;
   while (const int signal = take_pending(~thread.blocked, information)) {
-    struct sigaction& known = signals_of_program.actions[signal];
-    if (is_discarded(signal)) continue;
+    struct sigaction& known = thread.program->signals.actions[signal];
+    if (thread.program->signals.is_discarded(signal)) continue;
     if ((known.sa_flags & SA_SIGINFO) == 0 && known.sa_handler == SIG_DFL) {
       do_default(signal);
       continue;
@@ -154,18 +149,18 @@ siginfo_t from_here(int signal, int code) {
   return information;
 }
 
-bool send(const siginfo_t& information, Thread* to) {
+bool send(const siginfo_t& information, Program& program, Thread* to) {
   auto* const memory = static_cast<PendingSignal*>(std::malloc(sizeof(PendingSignal)));
   if (memory == nullptr) return false;
   auto* const signal = new (memory) PendingSignal();
   signal->information = information;
-  send_on(*signal, to);
+  send_on(*signal, program, to);
   return true;
 }
 
-void send(PendingSignal& signal, Thread* to) {
+void send(PendingSignal& signal, Program& program, Thread* to) {
   WAITPOINT_CHECK(signal.taken != nullptr, "a signal owned by its sender would be freed when it is taken");
-  send_on(signal, to);
+  send_on(signal, program, to);
 }
 
 Handled handle_signals() {
@@ -200,19 +195,20 @@ bool is_interrupted(Restart restart) {
 int take_pending(SignalSet set, siginfo_t& information) {
   Thread& thread = this_thread();
   // The least number; the thread's own signal first if both have it.
-  const SignalSet own = thread.pending.set() & set, all = signals_of_program.pending.set() & set;
+  PendingSignals& of_all = thread.program->signals.pending;
+  const SignalSet own = thread.pending.set() & set, all = of_all.set() & set;
   const bool from_all = own == 0 || (all != 0 && __builtin_ctzll(all) < __builtin_ctzll(own));
-  const int signal = (from_all ? signals_of_program.pending : thread.pending).take(set, information);
+  const int signal = (from_all ? of_all : thread.pending).take(set, information);
   if (signal != 0) note_pending_changed();
   return signal;
 }
 
-void find_takers() {
-  SignalSet left = signals_of_program.pending.set();
+void find_takers(Program& program) {
+  SignalSet left = program.signals.pending.set();
   while (left != 0) {
     const int signal = __builtin_ctzll(left) + 1;
     left &= left - 1;
-    if (Thread* const taker = taker_of(signal); taker != nullptr) tell(*taker);
+    if (Thread* const taker = taker_of(program, signal); taker != nullptr) tell(*taker);
   }
 }
 
@@ -221,23 +217,24 @@ void set_blocked(SignalSet blocked) {
   blocked &= ~unblockable;
   const SignalSet more = blocked & ~thread.blocked;
   thread.blocked = blocked;
-  for (SignalSet fresh = more & ~signals_of_program.ever_blocked; fresh != 0; fresh &= fresh - 1) {
+  ProgramSignals& signals = thread.program->signals;
+  for (SignalSet fresh = more & ~signals.ever_blocked; fresh != 0; fresh &= fresh - 1) {
     const int signal = __builtin_ctzll(fresh) + 1;
-    signals_of_program.ever_blocked |= only(signal);
+    signals.ever_blocked |= only(signal);
     install(signal);
   }
-  if ((more & signals_of_program.pending.set()) != 0) find_takers();
+  if ((more & signals.pending.set()) != 0) find_takers(*thread.program);
 }
 
 void drop_signals(Thread& thread) {
   WAITPOINT_CHECK(thread.ended, "the signals of a thread are dropped before its end");
   thread.pending.drop(~SignalSet{0});
   thread.awaited = 0;
-  find_takers();
+  find_takers(*thread.program);
 }
 
 void forget_pending_signals() {
-  signals_of_program.pending.drop(~SignalSet{0});
+  program_now().signals.pending.drop(~SignalSet{0});
   if (is_simulated()) this_thread().pending.drop(~SignalSet{0});
 }
 
@@ -257,8 +254,7 @@ Wait wait_on(kernel::Object& object, Time deadline) {
   kernel::Task& task = *kernel::running;
   Thread& thread = thread_of(task);
   if (has_come_from_outside()) take_in_signals_from_outside();
-  if ((deliverable(thread) | ((thread.pending.set() | signals_of_program.pending.set()) & thread.awaited)) != 0)
-    return Wait::interrupted;
+  if ((deliverable(thread) | (pending_for(thread) & thread.awaited)) != 0) return Wait::interrupted;
   WAITPOINT_CHECK(!thread.in_wait, "a thread begins to wait within a wait");
   thread.woken_early = thread.delivery_due = false;
   thread.in_wait = true;

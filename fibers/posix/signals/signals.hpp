@@ -16,14 +16,6 @@
 
 namespace waitpoint::posix {
 
-struct SignalsOfProgram {
-  struct sigaction actions[signals_end];  ///< by number
-  PendingSignals pending;                 ///< sent to the process
-  SignalSet blocked_before_main = 0;
-  SignalSet ever_blocked = 0;  ///< by any thread: caught even if not handled
-};
-extern SignalsOfProgram signals_of_program;
-
 /// How a wait ended.
 enum class Wait : std::uint8_t { came, timed_out, interrupted };
 
@@ -36,10 +28,12 @@ struct Handled {
   bool restart = true;  ///< all of them have SA_RESTART
 };
 
-/// The pending signals that `thread` does not block.
-inline SignalSet deliverable(const Thread& thread) {
-  return (thread.pending.set() | signals_of_program.pending.set()) & ~thread.blocked;
+/// The signals that are pending for `thread` or its program.
+inline SignalSet pending_for(const Thread& thread) {
+  return thread.pending.set() | thread.program->signals.pending.set();
 }
+/// Those that it does not block.
+inline SignalSet deliverable(const Thread& thread) { return pending_for(thread) & ~thread.blocked; }
 
 /// Called by the kernel in a thread with signals to be handled.
 void deliver_signals(kernel::Task& task);
@@ -47,15 +41,15 @@ void deliver_signals(kernel::Task& task);
 /// Called, unless null, after each change of the pending signals. Set by the descriptors from which signals are read.
 extern void (*after_pending_changed)();
 
-/// Sends to a thread, or to the process if `to` is null; false without memory.
-bool send(const siginfo_t& information, Thread* to);
+/// Sends to a program, or, unless it is null, to a thread of it; false without memory.
+bool send(const siginfo_t& information, Program& program, Thread* to = nullptr);
 /// The same for a signal owned by the caller, as by timers; it must not be pending.
-void send(PendingSignal& signal, Thread* to);
+void send(PendingSignal& signal, Program& program, Thread* to);
 /// The information of a signal that the program sends to itself.
 siginfo_t from_here(int signal, int code);
 
-/// Sends to the process, or to the thread with this gettid(), a signal with information provided by the program;
-/// returns an error number or 0.
+/// Sends to the running thread's program, or to its thread with this gettid(), a signal with information provided by
+/// it; returns an error number or 0.
 int send_as_told(const siginfo_t& information);
 int send_as_told(const siginfo_t& information, int id);
 
@@ -69,8 +63,8 @@ bool is_interrupted(Restart restart);
 int take_pending(SignalSet set, siginfo_t& information);
 /// Sets the mask of the running thread. Other threads are notified of the signals that it blocks now.
 void set_blocked(SignalSet blocked);
-/// Notifies a thread of each pending signal of the process.
-void find_takers();
+/// Notifies a thread of each pending signal of the program.
+void find_takers(Program& program);
 /// Drops the pending signals of a thread that ends.
 void drop_signals(Thread& thread);
 /// In a child: no signal is pending.
@@ -96,10 +90,12 @@ bool has_come_from_outside();
 /// A signal sent by the system because of a call of the program (SIGIO, a notification of mq_notify()) comes within the
 /// call; its handler must have run when the call returns. Keeps `errno`.
 void handle_what_came_with_a_call();
-/// Installs the system's action for a signal, according to `signals_of_program`.
+/// Installs the system's action for a signal, according to the program's.
 void install(int signal);
-/// Ends or stops the process by the default action.
+/// Ends or stops the program by the default action.
 void do_default(int signal);
+/// The same for the process, whichever its programs.
+void do_default_of_process(int signal);
 
 /// The signals that end the whole run by their default action. In `waitpoint exec` the process that watches the run
 /// ends it, and reports the state of all threads first.

@@ -189,7 +189,7 @@ bool begin_main_thread(Thread& thread, Program& program, kernel::Scheduler& sche
   thread.program = &program;
   thread.area = own_thread_area();
   thread.id = getpid();
-  thread.blocked = signals_of_program.blocked_before_main;
+  thread.blocked = program.signals.blocked_before_main;
   std::strncpy(thread.name, program_invocation_short_name, sizeof thread.name - 1);
   thread_of_area(thread.area) = &thread;
   return begin(thread, scheduler, "main");

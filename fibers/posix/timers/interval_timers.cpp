@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // setitimer() and alarm(): signals to the process, on virtual time or on its processor time.
-#include "fibers/posix/timers/interval_timers.hpp"
-
 #include <sys/time.h>
 #include <unistd.h>
 
 #include <cerrno>
-#include <iterator>
+#include <cstdlib>
+#include <new>
 
 #include "core/error.hpp"
 #include "fibers/posix/base/argument_memory.hpp"
@@ -16,29 +15,50 @@
 #include "fibers/posix/program/waiting.hpp"
 #include "fibers/posix/signals/signals.hpp"
 #include "fibers/posix/time/clocks.hpp"
+#include "fibers/posix/timers/program_timers.hpp"
 #include "fibers/posix/timers/signal_timer.hpp"
 
 namespace waitpoint::posix {
 namespace {
 
-constexpr int signal_of[] = {SIGALRM, SIGVTALRM, SIGPROF};
 constexpr int microsecond_ns = 1000;
 
-void expire_interval(SignalTimer& timer, std::uint64_t);
+struct IntervalTimer : SignalTimer {
+  IntervalTimer(Program& of, int by);
+  Program& program;
+  int signal;
+};
 
-// Indexed by ITIMER_REAL, ITIMER_VIRTUAL, ITIMER_PROF.
-SignalTimer interval_timers[3] = {SignalTimer(expire_interval), SignalTimer(expire_interval),
-                                  SignalTimer(expire_interval)};
-static_assert(std::size(interval_timers) == std::size(signal_of), "each timer has a signal");
+}  // namespace
+
+struct IntervalTimers {
+  explicit IntervalTimers(Program& program)
+      : at{IntervalTimer(program, SIGALRM), IntervalTimer(program, SIGVTALRM), IntervalTimer(program, SIGPROF)} {}
+  IntervalTimer at[3];
+};
 static_assert(ITIMER_REAL == 0 && ITIMER_VIRTUAL == 1 && ITIMER_PROF == 2, "the timers are indexed by these");
 
-void expire_interval(SignalTimer& timer, std::uint64_t) {
-  WAITPOINT_CHECK(&timer >= interval_timers && &timer < std::end(interval_timers),
-                  "a timer of another kind rings as setitimer()'s");
+namespace {
+
+void expire_interval(SignalTimer& expired, std::uint64_t) {
+  const auto& timer = static_cast<IntervalTimer&>(expired);
   siginfo_t information{};
-  information.si_signo = signal_of[&timer - interval_timers];
+  information.si_signo = timer.signal;
   information.si_code = SI_KERNEL;
-  send(information, nullptr);
+  send(information, timer.program);
+}
+
+IntervalTimer::IntervalTimer(Program& of, int by) : SignalTimer(expire_interval), program(of), signal(by) {}
+
+// The running program's timer of this number; null without memory.
+SignalTimer* timer_of_program(int which) {
+  Program& program = this_program();
+  if (program.interval_timers == nullptr) {
+    void* const memory = std::malloc(sizeof(IntervalTimers));
+    if (memory == nullptr) return nullptr;
+    program.interval_timers = new (memory) IntervalTimers(program);
+  }
+  return &program.interval_timers->at[which];
 }
 
 timeval to_timeval(Duration span) {
@@ -52,9 +72,8 @@ bool is_valid_time(const timeval& time) { return time.tv_sec >= 0 && time.tv_use
 
 itimerval state_of(const SignalTimer& timer) { return {to_timeval(timer.interval()), to_timeval(timer.left())}; }
 
-void start(int which, Duration first, Duration interval) {
-  WAITPOINT_CHECK(which >= 0 && which < std::ssize(interval_timers), "a timer that does not exist is started");
-  SignalTimer& timer = interval_timers[which];
+void start(SignalTimer& timer, int which, Duration first, Duration interval) {
+  WAITPOINT_CHECK(which >= ITIMER_REAL && which <= ITIMER_PROF, "a timer that does not exist is started");
   if (first == Duration())
     timer.stop();
   else if (which == ITIMER_REAL)
@@ -65,8 +84,11 @@ void start(int which, Duration first, Duration interval) {
 
 }  // namespace
 
-void forget_interval_timers() {
-  for (SignalTimer& timer : interval_timers) timer.stop();
+void forget_interval_timers(Program& program) {
+  if (program.interval_timers == nullptr) return;
+  for (SignalTimer& timer : program.interval_timers->at) timer.stop();
+  std::free(program.interval_timers);
+  program.interval_timers = nullptr;
 }
 
 }  // namespace waitpoint::posix
@@ -81,8 +103,10 @@ WAITPOINT_INTERPOSED int setitimer(__itimer_which_t which, const itimerval* to, 
   if (number < 0 || number > 2) return fail(EINVAL);
   if (to != nullptr && (!is_valid_time(to->it_value) || !is_valid_time(to->it_interval))) return fail(EINVAL);
   pass(kernel::Operation::timer_start, nullptr);
-  const itimerval before = state_of(interval_timers[number]);
-  start(number, to == nullptr ? Duration() : span_of(to->it_value),
+  SignalTimer* const timer = timer_of_program(number);
+  if (timer == nullptr) return fail(ENOMEM);
+  const itimerval before = state_of(*timer);
+  start(*timer, number, to == nullptr ? Duration() : span_of(to->it_value),
         to == nullptr ? Duration() : span_of(to->it_interval));
   if (old == nullptr) return 0;
   if (!can_be_written(old)) return fail(EFAULT);
@@ -96,7 +120,9 @@ WAITPOINT_INTERPOSED int getitimer(__itimer_which_t which, itimerval* state) noe
   if (number < 0 || number > 2) return fail(EINVAL);
   if (!can_be_written(state)) return fail(EFAULT);
   read_clock();
-  *state = state_of(interval_timers[number]);
+  const SignalTimer* const timer = timer_of_program(number);
+  if (timer == nullptr) return fail(ENOMEM);
+  *state = state_of(*timer);
   return 0;
 }
 

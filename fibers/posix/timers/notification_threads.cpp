@@ -2,6 +2,7 @@
 #include "fibers/posix/timers/notification_threads.hpp"
 
 #include <cstdlib>
+#include <new>
 #include <optional>
 
 #include "core/error.hpp"
@@ -10,10 +11,18 @@
 #include "fibers/posix/program/timer_firing.hpp"
 #include "fibers/posix/program/waiting.hpp"
 #include "fibers/posix/signals/signals.hpp"
+#include "fibers/posix/timers/program_timers.hpp"
 
 namespace waitpoint::posix {
 
-/// The list of all.
+/// The layer's thread of a program, which starts its notification threads.
+struct NotificationStarter {
+  kernel::Object object{"notification"};
+  bool is_made = false;
+  int expected_from_outside = 0;
+};
+
+/// The list of all, of all programs.
 struct Notices {
   static Notice* first;
 
@@ -31,11 +40,21 @@ struct Notices {
     return false;
   }
 
-  static Notice* next_due() {
+  static Notice* next_due(const Program& program) {
     for (Notice* each = first; each != nullptr; each = each->next_)
-      if (each->due_ > 0) return each;
+      if (each->program_ == &program && each->due_ > 0) return each;
     return nullptr;
   }
+
+  static void remove_all_of(const Program& program) {
+    for (Notice** link = &first; *link != nullptr;)
+      if ((*link)->program_ == &program)
+        *link = (*link)->next_;
+      else
+        link = &(*link)->next_;
+  }
+
+  static NotificationStarter& starter_of(const Notice& notice) { return *notice.program_->notification_starter; }
 
   static void* start_all(void*);
 };
@@ -43,10 +62,6 @@ struct Notices {
 constinit Notice* Notices::first = nullptr;
 
 namespace {
-
-kernel::Object starter_object{"notification"};
-bool has_starter = false;
-int expected_from_outside = 0;
 
 // A notification function and its argument.
 struct Told {
@@ -61,12 +76,18 @@ void* tell(void* argument) {
   return nullptr;
 }
 
-// Other threads run while it is made: they must not make another.
-bool make_starter() {
-  if (has_starter) return true;
-  has_starter = true;
-  kernel::running->scheduler->enter(starter_object);
-  return has_starter = start_blocking_signals(Notices::start_all, nullptr, nullptr);
+// False without memory. Other threads run while it is made: they must not make another.
+bool make_starter(Program& program) {
+  if (program.notification_starter == nullptr) {
+    void* const memory = std::malloc(sizeof(NotificationStarter));
+    if (memory == nullptr) return false;
+    program.notification_starter = new (memory) NotificationStarter();
+  }
+  NotificationStarter& starter = *program.notification_starter;
+  if (starter.is_made) return true;
+  starter.is_made = true;
+  kernel::running->scheduler->enter(starter.object);
+  return starter.is_made = start_blocking_signals(Notices::start_all, nullptr, nullptr);
 }
 
 }  // namespace
@@ -93,14 +114,16 @@ void start_notification(const sigevent& event) {
 }
 
 void* Notices::start_all(void*) {
+  Program& program = this_program();
+  NotificationStarter& starter = *program.notification_starter;
   for (;;) {
-    while (Notice* const notice = next_due()) {
+    while (Notice* const notice = next_due(program)) {
       --notice->due_;
       start_notification(notice->event_);
     }
     std::optional<WaitsOutside> outside;
-    if (expected_from_outside > 0) outside.emplace();
-    block(starter_object, Time::max());
+    if (starter.expected_from_outside > 0) outside.emplace();
+    block(starter.object, Time::max());
   }
   return nullptr;
 }
@@ -110,40 +133,44 @@ Notice::~Notice() { Notices::remove(*this); }
 
 bool Notice::prepare(const sigevent& event) {
   event_ = event;
+  program_ = &this_program();
   Notices::remove(*this);
   next_ = Notices::first;
   Notices::first = this;
-  return make_starter();
+  return make_starter(*program_);
 }
 
 void Notice::ring() {
   WAITPOINT_CHECK(Notices::has(this), "a notice rings that is not prepared");
-  WAITPOINT_CHECK(starter_object.robot != nullptr, "a notice rings before the thread that starts others is made");
+  kernel::Object& starter = Notices::starter_of(*this).object;
+  WAITPOINT_CHECK(starter.robot != nullptr, "a notice rings before the thread that starts others is made");
   ++due_;
-  for (kernel::Task* task = starter_object.first_waiter; task != nullptr; task = task->next_waiter)
+  for (kernel::Task* task = starter.first_waiter; task != nullptr; task = task->next_waiter)
     thread_of(*task).woken_by_timer = is_timer_firing;
-  starter_object.robot->scheduler->wake_all(starter_object);
+  starter.robot->scheduler->wake_all(starter);
 }
 
 void expect_ring_from_outside(int by) {
-  expected_from_outside += by;
-  WAITPOINT_CHECK(expected_from_outside >= 0, "more notices rang from outside than were expected");
+  NotificationStarter& starter = *this_program().notification_starter;
+  starter.expected_from_outside += by;
+  WAITPOINT_CHECK(starter.expected_from_outside >= 0, "more notices rang from outside than were expected");
   install_bell();
-  kernel::running->scheduler->wake_all(starter_object);
+  kernel::running->scheduler->wake_all(starter.object);
 }
 
 bool ring_by_signal(const siginfo_t& information) {
   if (information.si_signo != bell || information.si_code != SI_MESGQ) return false;
   if (!Notices::has(information.si_value.sival_ptr)) return false;
-  --expected_from_outside;
-  static_cast<Notice*>(information.si_value.sival_ptr)->ring();
+  auto& notice = *static_cast<Notice*>(information.si_value.sival_ptr);
+  --Notices::starter_of(notice).expected_from_outside;
+  notice.ring();
   return true;
 }
 
-void forget_notices() {
-  Notices::first = nullptr;
-  has_starter = false;
-  expected_from_outside = 0;
+void forget_notices(Program& program) {
+  Notices::remove_all_of(program);
+  std::free(program.notification_starter);
+  program.notification_starter = nullptr;
 }
 
 }  // namespace waitpoint::posix

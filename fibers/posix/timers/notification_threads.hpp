@@ -8,6 +8,8 @@
 
 namespace waitpoint::posix {
 
+struct Program;
+
 /// Starts a thread of the layer; false without memory.
 bool start_blocking_signals(void* (*start)(void*), void* argument, const pthread_attr_t* attributes);
 
@@ -30,7 +32,8 @@ class Notice {
  private:
   friend struct Notices;
   sigevent event_{};
-  unsigned due_ = 0;  ///< threads to be started
+  Program* program_ = nullptr;  ///< of its threads
+  unsigned due_ = 0;            ///< threads to be started
   Notice* next_ = nullptr;
 };
 
@@ -39,7 +42,5 @@ class Notice {
 void expect_ring_from_outside(int by);
 /// If a signal is such a ring, rings the notice and returns true.
 bool ring_by_signal(const siginfo_t& information);
-/// In a child: there are no notices.
-void forget_notices();
 
 }  // namespace waitpoint::posix

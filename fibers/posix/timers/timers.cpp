@@ -21,31 +21,37 @@
 #include "fibers/posix/program/waiting.hpp"
 #include "fibers/posix/signals/signals.hpp"
 #include "fibers/posix/time/clocks.hpp"
-#include "fibers/posix/timers/interval_timers.hpp"
 #include "fibers/posix/timers/notification_threads.hpp"
+#include "fibers/posix/timers/program_timers.hpp"
 #include "fibers/posix/timers/signal_timer.hpp"
 
 namespace waitpoint::posix {
 namespace {
 
 struct Timer : PendingSignal, SignalTimer {
-  Timer();
+  explicit Timer(Program& owner);
 
+  Program& program;
   clockid_t clock = CLOCK_REALTIME;
   // On a clock of processor time: that of a program, or of the thread with this id.
   const Program* of_program = nullptr;
   int of_thread = 0;
   sigevent notification{};
-  Notice notice;         // of SIGEV_THREAD
-  Thread* to = nullptr;  // of SIGEV_THREAD_ID
+  Notice notice;  // of SIGEV_THREAD
+  int to = 0;     // of SIGEV_THREAD_ID: the thread's gettid()
   bool pends = false;
   std::uint64_t overrun = 0;  // since it is pending
   int told = 0;               // the overrun of the signal taken last
 };
 
-// By number; grows as needed.
-Timer** timers = nullptr;
-std::size_t timers_end = 0;
+}  // namespace
+
+struct CreatedTimers {
+  Timer** at = nullptr;  ///< by number; grows as needed
+  std::size_t end = 0;
+};
+
+namespace {
 
 int capped(std::uint64_t count) { return count > INT_MAX ? INT_MAX : static_cast<int>(count); }
 
@@ -54,6 +60,15 @@ void note_taken(PendingSignal& signal) {
   WAITPOINT_CHECK(timer.pends, "the signal of a timer is taken that is not pending");
   timer.pends = false;
   timer.told = signal.information.si_overrun = capped(timer.overrun);
+}
+
+// Null if it is sent to the program, or the thread has ended.
+Thread* receiver_of(const Timer& timer) {
+  for (kernel::Task* task = timer.program.robot->scheduler->first_task(); timer.to != 0 && task != nullptr;
+       task = task->next)
+    if (is_thread(*task) && thread_of(*task).program == &timer.program && thread_of(*task).id == timer.to)
+      return &thread_of(*task);
+  return nullptr;
 }
 
 void ring(SignalTimer& expired, std::uint64_t count) {
@@ -68,17 +83,19 @@ void ring(SignalTimer& expired, std::uint64_t count) {
     timer.overrun += count;
     return;
   }
-  if (timer.to != nullptr && timer.to->task == nullptr) return;
+  Thread* const receiver = receiver_of(timer);
+  if (timer.to != 0 && receiver == nullptr) return;
   timer.overrun = count - 1;
   timer.pends = true;
-  send(timer, timer.to);
+  send(timer, timer.program, receiver);
 }
 
-Timer::Timer() : SignalTimer(ring) { taken = note_taken; }
+Timer::Timer(Program& owner) : SignalTimer(ring), program(owner) { taken = note_taken; }
 
 Timer* find_timer(timer_t id) {
   const auto number = reinterpret_cast<std::uintptr_t>(id);
-  return number < timers_end ? timers[number] : nullptr;
+  const CreatedTimers* const timers = this_program().created_timers;
+  return timers != nullptr && number < timers->end ? timers->at[number] : nullptr;
 }
 
 // Returns an error number or 0.
@@ -94,23 +111,28 @@ int prepare(Timer& timer, sigevent* event) {
     case SIGEV_SIGNAL: break;
     case SIGEV_THREAD: return timer.notice.prepare(*event) ? 0 : EAGAIN;
     case SIGEV_THREAD_ID:
-      for (kernel::Task* task = first_task(); task != nullptr; task = task->next)
-        if (is_thread(*task) && thread_of(*task).id == event->_sigev_un._tid) timer.to = &thread_of(*task);
-      if (timer.to == nullptr) return EINVAL;
+      timer.to = event->_sigev_un._tid;
+      if (receiver_of(timer) == nullptr) return EINVAL;
       break;
     default: return EINVAL;
   }
   return is_signal(event->sigev_signo) ? 0 : EINVAL;
 }
 
-int number_for_new() {
-  for (std::size_t i = 0; i < timers_end; ++i)
-    if (timers[i] == nullptr) return static_cast<int>(i);
-  auto** const more = static_cast<Timer**>(std::realloc(timers, (timers_end + 1) * sizeof(void*)));
+int number_for_new(Program& program) {
+  if (program.created_timers == nullptr) {
+    void* const memory = std::malloc(sizeof(CreatedTimers));
+    if (memory == nullptr) return -1;
+    program.created_timers = new (memory) CreatedTimers();
+  }
+  CreatedTimers& timers = *program.created_timers;
+  for (std::size_t i = 0; i < timers.end; ++i)
+    if (timers.at[i] == nullptr) return static_cast<int>(i);
+  auto** const more = static_cast<Timer**>(std::realloc(timers.at, (timers.end + 1) * sizeof(void*)));
   if (more == nullptr) return -1;
-  timers = more;
-  timers[timers_end] = nullptr;
-  return static_cast<int>(timers_end++);
+  timers.at = more;
+  timers.at[timers.end] = nullptr;
+  return static_cast<int>(timers.end++);
 }
 
 // Returns an error number.
@@ -141,22 +163,27 @@ const Duration* spent_on(const Timer& timer) {
 
 itimerspec state_of(const Timer& timer) { return {to_timespec(timer.interval().ns()), to_timespec(timer.left().ns())}; }
 
-void free_timer(std::size_t number) {
-  WAITPOINT_CHECK(number < timers_end && timers[number] != nullptr, "a timer that does not exist is freed");
-  Timer* const timer = timers[number];
+void free_timer(CreatedTimers& timers, std::size_t number) {
+  WAITPOINT_CHECK(number < timers.end && timers.at[number] != nullptr, "a timer that does not exist is freed");
+  Timer* const timer = timers.at[number];
   timer->stop();
-  signals_of_program.pending.remove(*timer);
-  if (timer->to != nullptr) timer->to->pending.remove(*timer);
+  timer->program.signals.pending.remove(*timer);
+  if (Thread* const receiver = receiver_of(*timer); receiver != nullptr) receiver->pending.remove(*timer);
   timer->~Timer();
   std::free(timer);
-  timers[number] = nullptr;
+  timers.at[number] = nullptr;
 }
 
 }  // namespace
 
-void forget_timers() {
-  for (std::size_t i = 0; i < timers_end; ++i)
-    if (timers[i] != nullptr) free_timer(i);
+void forget_created_timers(Program& program) {
+  if (program.created_timers == nullptr) return;
+  CreatedTimers& timers = *program.created_timers;
+  for (std::size_t i = 0; i < timers.end; ++i)
+    if (timers.at[i] != nullptr) free_timer(timers, i);
+  std::free(timers.at);
+  std::free(&timers);
+  program.created_timers = nullptr;
 }
 
 }  // namespace waitpoint::posix
@@ -169,11 +196,11 @@ WAITPOINT_INTERPOSED int timer_create(clockid_t clock, sigevent* event, timer_t*
   if ((event != nullptr && !can_be_read(event)) || !can_be_written(id)) return fail(EFAULT);
   void* const memory = std::malloc(sizeof(Timer));
   if (memory == nullptr) return fail(EAGAIN);
-  auto* const timer = new (memory) Timer();
+  auto* const timer = new (memory) Timer(this_program());
   int error = take_clock(*timer, clock);
   // Other threads may run meanwhile, and make timers.
   if (error == 0) error = prepare(*timer, event);
-  const int number = error == 0 ? number_for_new() : -1;
+  const int number = error == 0 ? number_for_new(this_program()) : -1;
   if (error == 0 && number < 0) error = EAGAIN;
   if (error != 0) {
     timer->~Timer();
@@ -187,8 +214,9 @@ WAITPOINT_INTERPOSED int timer_create(clockid_t clock, sigevent* event, timer_t*
     timer->information.si_value = event->sigev_value;
   else
     timer->information.si_int = number;
-  WAITPOINT_CHECK(timers[number] == nullptr, "the number of a new timer is another's");
-  timers[number] = timer;
+  Timer*& place = this_program().created_timers->at[number];
+  WAITPOINT_CHECK(place == nullptr, "the number of a new timer is another's");
+  place = timer;
   *id = reinterpret_cast<timer_t>(static_cast<std::uintptr_t>(number));
   return 0;
 }
@@ -243,6 +271,6 @@ WAITPOINT_INTERPOSED int timer_delete(timer_t id) noexcept {
   if (find_timer(id) == nullptr) return fail(EINVAL);
   pass(kernel::Operation::timer_stop, nullptr);
   if (find_timer(id) == nullptr) return fail(EINVAL);  // so has another thread meanwhile
-  free_timer(reinterpret_cast<std::uintptr_t>(id));
+  free_timer(*this_program().created_timers, reinterpret_cast<std::uintptr_t>(id));
   return 0;
 }
