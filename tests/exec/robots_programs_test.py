@@ -203,6 +203,16 @@ class Robot(unittest.TestCase):
         self.assertEqual(statuses, [("a", "0"), ("b", "0"), ("c", "138"), ("d", "141"), ("e", "0"), ("f", "0")])
         self.assertEqual(digest_of_summary(runs[0]), digest_of_summary(runs[1]))
 
+    def test_each_has_its_environment(self):
+        env = {**os.environ, "GIVEN": "yes"}
+        own = subprocess.run([PROGRAMS / "environment-program", "x"], capture_output=True, text=True, env=env)
+        self.assertIn("x: set x x, put by x by x, given none\n", own.stdout)
+        programs = ", ".join(program(name, "environment.so", name) for name in ("a", "b"))
+        run = office("run", "--until", "1", programs=f"[{programs}]", env=env)
+        for name in "a", "b":
+            said = [line for line in run.stdout.splitlines() if line.startswith(f"{name}: ")]
+            self.assertEqual(said, re.sub(r"\bx\b", name, own.stdout).splitlines(), run.stderr)
+
     def test_what_cannot_be_loaded_is_bad_input(self):
         for file, line in ("nowhere.so", "there is no program '.*nowhere.so': No such file or directory"), \
                           (__file__, r".*robots_programs_test.py is no shared object for x86-64"), \

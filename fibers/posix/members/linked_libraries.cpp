@@ -30,9 +30,9 @@ constexpr std::string_view shared[] = {
 };
 
 /// This process's environment, with one variable in front.
-class Environment {
+class EnvironmentWith {
  public:
-  explicit Environment(const char* variable) {
+  explicit EnvironmentWith(const char* variable) {
     std::size_t count = 0;
     while (environ[count] != nullptr) ++count;
     all_ = static_cast<const char**>(std::malloc((count + 2) * sizeof(char*)));
@@ -40,9 +40,9 @@ class Environment {
     all_[0] = variable;
     std::memcpy(all_ + 1, environ, (count + 1) * sizeof(char*));
   }
-  ~Environment() { std::free(all_); }
-  Environment(const Environment&) = delete;
-  Environment& operator=(const Environment&) = delete;
+  ~EnvironmentWith() { std::free(all_); }
+  EnvironmentWith(const EnvironmentWith&) = delete;
+  EnvironmentWith& operator=(const EnvironmentWith&) = delete;
   const char* const* all() const { return all_; }
 
  private:
@@ -54,7 +54,7 @@ class Environment {
 bool list_libraries(const char* program, const char* asked, int output) {
   Dl_info linker{};
   posix_spawn_file_actions_t actions;
-  const Environment environment("LD_TRACE_LOADED_OBJECTS=1");
+  const EnvironmentWith environment("LD_TRACE_LOADED_OBJECTS=1");
   if (environment.all() == nullptr || dladdr(reinterpret_cast<const void*>(&_dl_allocate_tls), &linker) == 0 ||
       posix_spawn_file_actions_init(&actions) != 0)
     return false;

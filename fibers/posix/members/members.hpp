@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Several programs in one process, each with its own name, arguments, globals and exit status. They share virtual time,
-// objects with names or keys, and the C library's state of the process: descriptors, streams, the environment, signal
-// handlers.
+// Several programs in one process, each with its own name, arguments, globals, environment, signals and exit status.
+// They share virtual time, objects with names or keys, and the C library's state of the process: descriptors, streams.
 //
 // exit(), _exit(), abort() and the end of the last thread end one program with its threads, not the process.
 #pragma once

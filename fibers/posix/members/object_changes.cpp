@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fibers/posix/members/object_changes.hpp"
 
+#include <sys/mman.h>
+
 #include <cstring>
 
 namespace waitpoint::posix {
@@ -21,6 +23,13 @@ void take_parts(ObjectFile& object, ProgramParts& parts) {
   parts.constructors_bytes = object.take(DT_INIT_ARRAYSZ);
   parts.destructors = object.take(DT_FINI_ARRAY);
   parts.destructors_bytes = object.take(DT_FINI_ARRAYSZ);
+  parts.relocations = object.value(DT_RELA);
+  parts.relocations_bytes = object.value(DT_RELASZ);
+  parts.symbols = object.value(DT_SYMTAB);
+  parts.strings = object.value(DT_STRTAB);
+  for (const Elf64_Phdr& part : object.parts())
+    if (part.p_type == PT_GNU_RELRO)
+      parts.protected_begin = part.p_vaddr, parts.protected_end = part.p_vaddr + part.p_memsz;
   object.take(DT_SONAME);
   if (Elf64_Dyn* const flags = object.find(DT_FLAGS_1); flags != nullptr)
     flags->d_un.d_val &= ~std::uint64_t{DF_1_NODELETE};
@@ -38,6 +47,35 @@ bool is_allocator(const char* file) {
     if (name != nullptr && symbol->st_shndx != SHN_UNDEF && std::strcmp(name, "malloc") == 0) return true;
   }
   return false;
+}
+
+namespace {
+
+bool is_environ(const char* name) {
+  for (const char* const each : {"environ", "__environ", "_environ"})
+    if (std::strcmp(name, each) == 0) return true;
+  return false;
+}
+
+}  // namespace
+
+void redirect_environ(char* base, const ProgramParts& parts, char*** to) {
+  const auto* const symbols = reinterpret_cast<const Elf64_Sym*>(base + parts.symbols);
+  const auto* const all = reinterpret_cast<const Elf64_Rela*>(base + parts.relocations);
+  for (const Elf64_Rela& one : std::span(all, parts.relocations_bytes / sizeof(Elf64_Rela))) {
+    const std::uint64_t type = ELF64_R_TYPE(one.r_info);
+    const Elf64_Sym& symbol = symbols[ELF64_R_SYM(one.r_info)];
+    if ((type != R_X86_64_GLOB_DAT && type != R_X86_64_64) || symbol.st_shndx != SHN_UNDEF ||
+        !is_environ(base + parts.strings + symbol.st_name))
+      continue;
+    const bool is_protected = one.r_offset >= parts.protected_begin && one.r_offset < parts.protected_end;
+    constexpr std::uintptr_t page = 4096;
+    auto* const place = base + one.r_offset;
+    auto* const begin = place - reinterpret_cast<std::uintptr_t>(place) % page;
+    if (is_protected) mprotect(begin, page, PROT_READ | PROT_WRITE);
+    std::memcpy(place, &to, sizeof to);
+    if (is_protected) mprotect(begin, page, PROT_READ);
+  }
 }
 
 void rename_in_versions(ObjectFile& object, const char* name, std::uint64_t to) {

@@ -8,17 +8,25 @@
 
 namespace waitpoint::posix {
 
-/// Removed from a copy, and called when the program begins and ends: addresses within it, 0 for none.
+/// Addresses within a copy, 0 for none.
 struct ProgramParts {
   std::uint64_t main = 0;
+  // Removed from the copy, and called when the program begins and ends.
   std::uint64_t initialise = 0, finish = 0;
   std::uint64_t constructors = 0, constructors_bytes = 0;
   std::uint64_t destructors = 0, destructors_bytes = 0;
+  // Of its references to other objects.
+  std::uint64_t relocations = 0, relocations_bytes = 0;
+  std::uint64_t symbols = 0, strings = 0;
+  std::uint64_t protected_begin = 0, protected_end = 0;  ///< read-only once it is loaded
 };
 
 /// Takes out what the layer does in place of the dynamic linker, and what would make the copy one with others: its
 /// name, and symbols that are unique to a process.
 void take_parts(ObjectFile& object, ProgramParts& parts);
+
+/// Makes the references of a loaded object to the C library's variable `environ` refer to another one.
+void redirect_environ(char* base, const ProgramParts& parts, char*** to);
 
 /// Where it asks for versions of symbols of the library `name`, it asks the one whose name has the offset `to` from the
 /// table of strings.

@@ -50,12 +50,13 @@ Function at(const ObjectCopy& copy, std::uint64_t address) {
   return reinterpret_cast<Function>(copy.base + address);
 }
 
-void initialise(const ObjectCopy& copy, const ObjectCopy* end, int argc, char** argv) {
-  if (copy.before != end) initialise(*copy.before, end, argc, argv);
+void initialise(const ObjectCopy& copy, const ObjectCopy* end, int argc, char** argv, char** const& variables) {
+  if (copy.before != end) initialise(*copy.before, end, argc, argv, variables);
   const ProgramParts& parts = copy.parts;
-  if (parts.initialise != 0) at<Constructor>(copy, parts.initialise)(argc, argv, environ);
+  if (parts.initialise != 0) at<Constructor>(copy, parts.initialise)(argc, argv, variables);
   auto* const constructors = at<Constructor*>(copy, parts.constructors);
-  for (std::size_t i = 0; i < parts.constructors_bytes / sizeof(Constructor); ++i) constructors[i](argc, argv, environ);
+  for (std::size_t i = 0; i < parts.constructors_bytes / sizeof(Constructor); ++i)
+    constructors[i](argc, argv, variables);
 }
 
 void finish(const ObjectCopy& copy) {
@@ -66,7 +67,7 @@ void finish(const ObjectCopy& copy) {
 }
 
 // Loads the copies up to the one before `end`, of which the last one leads to the others.
-bool load_copies(ObjectCopy& last, const ObjectCopy* end, int mode) {
+bool load_copies(ProgramImage& image, ObjectCopy& last, const ObjectCopy* end, int mode) {
   last.handle = dlopen(last.path.text, mode | RTLD_NOW | RTLD_DEEPBIND);
   const link_map* map = nullptr;
   if (last.handle == nullptr || dlinfo(last.handle, RTLD_DI_LINKMAP, &map) != 0) return false;
@@ -76,6 +77,8 @@ bool load_copies(ObjectCopy& last, const ObjectCopy* end, int mode) {
       if (std::strcmp(copy->path.text, map->l_name) == 0) copy->base = reinterpret_cast<char*>(map->l_addr);
   for (const ObjectCopy* copy = &last; copy != end; copy = copy->before)
     WAITPOINT_CHECK(copy->base != nullptr, "a library of a program is not loaded with it");
+  for (const ObjectCopy* copy = &last; copy != end; copy = copy->before)
+    redirect_environ(copy->base, copy->parts, &image.environment.variables);
   return true;
 }
 
@@ -91,7 +94,12 @@ bool are_one_file(const char* one, const char* other) {
 bool load(ProgramImage& image, const char* file, LoadError& error) {
   image.program = image.last = make_copies(file, error);
   if (image.program == nullptr) return false;
-  if (!load_copies(*image.program, nullptr, RTLD_LOCAL)) {
+  if (!image.environment.begin(environ)) {
+    std::snprintf(error, sizeof error, "there is no memory for it");
+    unload(image);
+    return false;
+  }
+  if (!load_copies(image, *image.program, nullptr, RTLD_LOCAL)) {
     explain(*image.program, error);
     unload(image);
     return false;
@@ -104,6 +112,7 @@ void unload(ProgramImage& image) {
   for (const ObjectCopy* copy = image.last; copy != nullptr; copy = copy->before)
     if (copy->handle != nullptr) dlclose(copy->handle);
   forget_copies(image.last);
+  image.environment.forget();
   image = {};
 }
 
@@ -112,7 +121,7 @@ int call_main(const ProgramImage& image, int argc, char** argv) {
   call_constructors(image, nullptr, argc, argv);
   // An earlier program may have used getopt(): 0 makes it start again, see getopt(3) on several vectors.
   optind = 0;
-  return at<Main>(*image.program, image.program->parts.main)(argc, argv, environ);
+  return at<Main>(*image.program, image.program->parts.main)(argc, argv, image.environment.variables);
 }
 
 const ObjectCopy* find_copy(const ProgramImage& image, const char* name) {
@@ -132,13 +141,13 @@ const ObjectCopy* open_library(ProgramImage& image, const char* name, int mode) 
   ObjectCopy* const opened =
       add_copies(before, *image.program, std::strchr(name, '/') == nullptr ? file : name, name, ignored);
   if (opened == nullptr) return nullptr;
-  if (load_copies(*opened, before, mode)) return image.last = opened;
+  if (load_copies(image, *opened, before, mode)) return image.last = opened;
   forget_copies(opened, before);
   return nullptr;
 }
 
 void call_constructors(const ProgramImage& image, const ObjectCopy* before, int argc, char** argv) {
-  if (image.last != before) initialise(*image.last, before, argc, argv);
+  if (image.last != before) initialise(*image.last, before, argc, argv, image.environment.variables);
 }
 
 void call_destructors(const ProgramImage& image) {

@@ -9,8 +9,10 @@
 //   libraries                   are needed by the names of their copies; those that all programs share are not needed
 //   its own names first         those of the program, then of its libraries, then of the process
 //   names unique to a process   (inline variables of C++) become unique to the program with its libraries
+//   environ                     is a variable of the program's
 #pragma once
 
+#include "fibers/posix/members/environment.hpp"
 #include "fibers/posix/members/program_copy.hpp"
 
 namespace waitpoint::posix {
@@ -20,9 +22,10 @@ using Main = int (*)(int, char**, char**);
 struct ProgramImage {
   ObjectCopy* program = nullptr;
   ObjectCopy* last = nullptr;  ///< the list of its copies: the program, or a library that it has opened since
+  Environment environment;
 };
 
-/// Loads a copy of `file`; false with the reason in `error`.
+/// Loads a copy of `file`, which stays where `image` is; false with the reason in `error`.
 bool load(ProgramImage& image, const char* file, LoadError& error);
 void unload(ProgramImage& image);
 
