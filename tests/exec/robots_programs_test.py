@@ -84,10 +84,10 @@ PROGRAMS_OF_ROBOT = "[" + ", ".join(
     f"{{name: {path.stem}, file: {path}, arguments: {arguments}}}" for path, *arguments in CHAIN) + "]"
 
 
-def office(command, *words, programs=PROGRAMS_OF_ROBOT, env=None):
+def office(command, *words, programs=PROGRAMS_OF_ROBOT, env=None, folder=None):
     """The office's robot with programs, for some seconds."""
     return subprocess.run([WAITPOINT, command, SCENARIO, *words, "--set", f"robots.rackham.programs={programs}",
-                           "--set", "expect={}"], capture_output=True, text=True, timeout=120, env=env)
+                           "--set", "expect={}"], capture_output=True, text=True, timeout=120, env=env, cwd=folder)
 
 
 def program(name, file, *arguments):
@@ -189,8 +189,6 @@ class Robot(unittest.TestCase):
     DESTROYED = "program destroyed\nupper destroyed at {}\nlower destroyed at {}\n"
 
     def test_each_has_its_handlers_and_timers(self):
-        own = subprocess.run([PROGRAMS / "handlers-program", "x", "100"], capture_output=True, text=True)
-        self.assertEqual(own.stdout, "x: 10, 1 held, 5 10 10\n")
         programs = [program(name, "handlers.so", name, ms) for name, ms in (("a", 100), ("b", 200))]
         programs += [program("c", "handlers.so", "c", "user"), program("d", "handlers.so", "d", "pipe")]
         programs += [program(name, "ticks.so") for name in ("e", "f")]
@@ -212,6 +210,19 @@ class Robot(unittest.TestCase):
         for name in "a", "b":
             said = [line for line in run.stdout.splitlines() if line.startswith(f"{name}: ")]
             self.assertEqual(said, re.sub(r"\bx\b", name, own.stdout).splitlines(), run.stderr)
+
+    def test_each_has_its_working_directory(self):
+        with tempfile.TemporaryDirectory() as folder:
+            for name in "a", "b":
+                os.mkdir(f"{folder}/{name}")
+            programs = ", ".join(program(name, "directory.so", name, f"{folder}/{name}") for name in ("a", "b"))
+            run = office("run", "--until", "1", "--events", "events", programs=f"[{programs}]", folder=folder)
+            self.assertEqual(run.returncode, 0, run.stderr)
+            for name in "a", "b":
+                self.assertIn(f"{name} is in {folder}/{name}\n", run.stdout)
+                self.assertIn(f"{name} is in /\n", run.stdout)
+                self.assertEqual(pathlib.Path(f"{folder}/{name}/mark").read_text(), f"{name}\n" * 6)
+            self.assertEqual(sorted(os.listdir(folder)), ["a", "b", "events"])
 
     def test_what_cannot_be_loaded_is_bad_input(self):
         for file, line in ("nowhere.so", "there is no program '.*nowhere.so': No such file or directory"), \

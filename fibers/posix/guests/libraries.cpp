@@ -4,6 +4,10 @@
 // dladdr() finds a copy, it tells the file that was copied.
 #include <dlfcn.h>
 
+#include <climits>
+#include <cstdlib>
+#include <cstring>
+
 #include "fibers/posix/base/interposed.hpp"
 #include "fibers/posix/members/members.hpp"
 
@@ -82,6 +86,10 @@ extern "C" {
 [[gnu::visibility("hidden"), gnu::used]] void* waitpoint_open_copy(const char* name, int mode) {
   if (!runs_in_member()) return nullptr;
   Member& member = this_member();
+  // The guest's working directory is another one than the layer's.
+  char whole[PATH_MAX];
+  const bool is_relative = name != nullptr && name[0] != '/' && std::strchr(name, '/') != nullptr;
+  if (is_relative && realpath(name, whole) != nullptr) name = whole;
   const ObjectCopy* const before = member.image.last;
   const ObjectCopy* const copy = copy_for(member, name, mode);
   if (copy == nullptr) return nullptr;

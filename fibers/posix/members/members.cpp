@@ -55,6 +55,11 @@ void forget_what_is_sent_to(Member& member) {
   member.signals.pending.drop(~SignalSet{0});
 }
 
+void forget_directory(Member& member) {
+  if (member.directory != directory_of_process) WAITPOINT_NEXT(close)(member.directory);
+  member.directory = directory_of_process;
+}
+
 }  // namespace
 
 bool start(Member& member, kernel::Scheduler& scheduler) {
@@ -79,6 +84,7 @@ void drop(Member& member, kernel::Scheduler& scheduler) {
     member.handlers = handler->next;
     std::free(handler);
   }
+  forget_directory(member);
   unload(member.image);
 }
 

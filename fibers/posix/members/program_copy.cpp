@@ -2,7 +2,6 @@
 #include "fibers/posix/members/program_copy.hpp"
 
 #include <dlfcn.h>
-#include <fcntl.h>
 #include <sys/mman.h>
 #include <sys/resource.h>
 #include <unistd.h>
@@ -13,6 +12,7 @@
 #include <new>
 
 #include "core/error.hpp"
+#include "fibers/posix/base/high_descriptor.hpp"
 #include "fibers/posix/base/interposed.hpp"
 #include "fibers/posix/members/added_segment.hpp"
 #include "fibers/posix/members/linked_libraries.hpp"
@@ -20,9 +20,6 @@
 
 namespace waitpoint::posix {
 namespace {
-
-// Programs expect their own descriptors to begin at 3, and rarely reach this one.
-constexpr int least_descriptor = 200;
 
 // Of the same length in every run: the dynamic linker allocates it on the program's heap.
 CopyPath path_of(int descriptor) {
@@ -46,12 +43,8 @@ bool raise_limit() {
 
 int make_file(const char* name) {
   const char* const slash = std::strrchr(name, '/');
-  const int made = memfd_create(slash != nullptr ? slash + 1 : name, MFD_CLOEXEC);
-  if (made < 0) return errno == EMFILE && raise_limit() ? make_file(name) : -1;
-  int file = fcntl(made, F_DUPFD_CLOEXEC, least_descriptor);
-  if (file < 0 && raise_limit()) file = fcntl(made, F_DUPFD_CLOEXEC, least_descriptor);
-  WAITPOINT_NEXT(close)(made);
-  return file;
+  const int file = move_up(memfd_create(slash != nullptr ? slash + 1 : name, MFD_CLOEXEC));
+  return file < 0 && (errno == EMFILE || errno == EINVAL) && raise_limit() ? make_file(name) : file;
 }
 
 bool write_all(int descriptor, const char* bytes, std::size_t size, std::uint64_t at) {

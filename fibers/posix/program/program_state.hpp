@@ -7,6 +7,7 @@
 #include "core/time.hpp"
 #include "fibers/kernel/task.hpp"
 #include "fibers/posix/program/program_signals.hpp"
+#include "fibers/posix/program/working_directory.hpp"
 
 namespace waitpoint::posix {
 
@@ -28,6 +29,7 @@ struct Program {
   /// Its processor time: the cost of its threads' uses of primitives and clocks.
   Duration spent;
   ProgramSignals signals{};
+  int directory = directory_of_process;  ///< its working directory
   // Made when first used, and forgotten at its end: see timers/program_timers.hpp.
   IntervalTimers* interval_timers = nullptr;
   CreatedTimers* created_timers = nullptr;

@@ -130,11 +130,22 @@ inline bool is_simulated() {
   return kernel::running != nullptr && is_thread(*kernel::running) && !this_thread().is_in_kernel();
 }
 
+/// From the program's code to the kernel's, and back.
+inline void enter_kernel(Thread& thread) {
+  thread.enter_kernel();
+  if (__builtin_expect(thread.program->directory != directory_of_process, 0)) return_to_directory_of_process();
+}
+inline void leave_kernel(Thread& thread) {
+  if (__builtin_expect(thread.program->directory != directory_of_process, 0))
+    enter_directory(thread.program->directory);
+  thread.leave_kernel();
+}
+
 /// Marks the running thread as within the kernel.
 class InKernel {
  public:
-  InKernel() : thread_(this_thread()) { thread_.enter_kernel(); }
-  ~InKernel() { thread_.leave_kernel(); }
+  InKernel() : thread_(this_thread()) { posix::enter_kernel(thread_); }
+  ~InKernel() { posix::leave_kernel(thread_); }
   InKernel(const InKernel&) = delete;
   InKernel& operator=(const InKernel&) = delete;
 
@@ -144,8 +155,8 @@ class InKernel {
 /// The opposite: the kernel calls code of the program.
 class OutOfKernel {
  public:
-  OutOfKernel() : thread_(this_thread()) { thread_.leave_kernel(); }
-  ~OutOfKernel() { thread_.enter_kernel(); }
+  OutOfKernel() : thread_(this_thread()) { posix::leave_kernel(thread_); }
+  ~OutOfKernel() { posix::enter_kernel(thread_); }
   OutOfKernel(const OutOfKernel&) = delete;
   OutOfKernel& operator=(const OutOfKernel&) = delete;
 

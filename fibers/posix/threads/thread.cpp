@@ -257,7 +257,7 @@ namespace {
 void call_start_routine(void* argument) {
   Thread& thread = *static_cast<Thread*>(argument);
   WAITPOINT_CHECK(own_thread_area() == thread.area, "a thread runs on another's area");
-  thread.leave_kernel();
+  leave_kernel(thread);
   __ctype_init();
   __pthread_unwind_buf_t buffer;
   if (__sigsetjmp(reinterpret_cast<__jmp_buf_tag*>(buffer.__cancel_jmp_buf), 0) == 0) {
@@ -325,6 +325,7 @@ void end_running_thread() {
   thread.end.owner = nullptr;
   thread.task = nullptr;
   scheduler.wake_all(thread.end);
+  if (thread.program->directory != directory_of_process) return_to_directory_of_process();
   if (thread.detached) let_go(thread);
   scheduler.end_running_task();
 }
