@@ -188,6 +188,11 @@ class Robot(unittest.TestCase):
 
     DESTROYED = "program destroyed\nupper destroyed at {}\nlower destroyed at {}\n"
 
+    def test_they_share_the_runtime_of_openmp(self):
+        programs = ", ".join(program(name, "sum.so", name) for name in ("a", "b"))
+        run = office("run", "--until", "0.1", programs=f"[{programs}]")
+        self.assertEqual(sorted(line for line in run.stdout.splitlines() if "sum" in line), ["a: sum 4950", "b: sum 4950"])
+
     def test_each_has_its_handlers_and_timers(self):
         programs = [program(name, "handlers.so", name, ms) for name, ms in (("a", 100), ("b", 200))]
         programs += [program("c", "handlers.so", "c", "user"), program("d", "handlers.so", "d", "pipe")]

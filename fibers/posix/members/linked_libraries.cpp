@@ -22,10 +22,13 @@ namespace waitpoint::posix {
 namespace {
 
 constexpr std::string_view shared[] = {
-    "ld-linux-x86-64.so.", "libc.so.",      "libm.so.",        "libmvec.so.",       "libdl.so.",
-    "libpthread.so.",      "librt.so.",     "libutil.so.",     "libanl.so.",        "libnsl.so.",
-    "libresolv.so.",       "libstdc++.so.", "libgcc_s.so.",    "libtsan.so.",       "libasan.so.",
-    "libubsan.so.",        "liblsan.so.",   "libwaitpoint.so", "libwaitpoint-exec", "libthread_db.so.",
+    "ld-linux-x86-64.so.", "libc.so.",          "libm.so.",
+    "libmvec.so.",         "libdl.so.",         "libpthread.so.",
+    "librt.so.",           "libutil.so.",       "libanl.so.",
+    "libnsl.so.",          "libresolv.so.",     "libstdc++.so.",
+    "libgcc_s.so.",        "libgomp.so.",       "libtsan.so.",
+    "libasan.so.",         "libubsan.so.",      "liblsan.so.",
+    "libwaitpoint.so",     "libwaitpoint-exec", "libthread_db.so.",
     "libwaitpoint-guests",
 };
 

@@ -14,7 +14,11 @@ static volatile sig_atomic_t users, alarms, timers, threads;
 static void count(int signal) {
   if (signal == SIGUSR1) ++users;
   if (signal == SIGALRM) ++alarms;
-  if (signal == SIGRTMIN) ++timers;
+}
+
+static void count_timer(int signal) {
+  (void)signal;
+  ++timers;
 }
 
 static void count_thread(union sigval value) {
@@ -42,7 +46,7 @@ int main(int argc, char** argv) {
   const int ms = atoi(argv[2]);
   signal(SIGUSR1, count);
   signal(SIGALRM, count);
-  signal(SIGRTMIN, count);
+  signal(SIGRTMIN, count_timer);
   sigset_t held, pending;
   sigemptyset(&held);
   sigaddset(&held, SIGUSR2);

@@ -31,7 +31,7 @@ int count_in_lower() {
 
 extern "C" {
 static int seven() { return 7; }
-static auto choose() { return seven; }
+[[gnu::used]] static auto choose() { return seven; }
 static int chosen() __attribute__((ifunc("choose")));
 }
 int chosen_when_loaded() { return chosen(); }
