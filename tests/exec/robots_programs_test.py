@@ -188,6 +188,16 @@ class Robot(unittest.TestCase):
 
     DESTROYED = "program destroyed\nupper destroyed at {}\nlower destroyed at {}\n"
 
+    def test_a_debugger_finds_their_symbols_and_those_of_their_libraries(self):
+        if shutil.which("gdb") is None:
+            self.skipTest("gdb is not installed")
+        words = ["-q", "-batch", "-ex", "set breakpoint pending on", "-ex", "break count_in_lower", "-ex", "run", "-ex", "bt 4"]
+        run = subprocess.run(["gdb", *words, "--args", WAITPOINT, "run", SCENARIO, "--until", "0.1", "--set",
+                              f"robots.rackham.programs=[{program('a', 'linked.so', 'a', 1)}]"],
+                             capture_output=True, text=True, timeout=60)
+        self.assertRegex(run.stdout, r"count_in_upper \(\) at \S+/upper.cpp:\d+\n(.*\n)*.* main \(.*\) at \S+/linked.cpp:\d+\n",
+                         run.stderr)
+
     def test_they_share_the_runtime_of_openmp(self):
         programs = ", ".join(program(name, "sum.so", name) for name in ("a", "b"))
         run = office("run", "--until", "0.1", programs=f"[{programs}]")

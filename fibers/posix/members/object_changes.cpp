@@ -89,6 +89,12 @@ void rename_in_versions(ObjectFile& object, const char* name, std::uint64_t to) 
   }
 }
 
+void hide_versions(ObjectFile& object) {
+  for (Elf64_Shdr& section : object.sections())
+    if (section.sh_type == SHT_GNU_verneed || section.sh_type == SHT_GNU_versym || section.sh_type == SHT_GNU_verdef)
+      section.sh_type = SHT_PROGBITS;
+}
+
 void add_need(ObjectFile& object, std::uint64_t name) {
   Elf64_Dyn* const unused = object.find(ObjectFile::no_tag);
   if (unused != nullptr) *unused = {DT_NEEDED, {name}};

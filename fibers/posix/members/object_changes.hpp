@@ -32,6 +32,9 @@ void redirect_environ(char* base, const ProgramParts& parts, char*** to);
 /// table of strings.
 void rename_in_versions(ObjectFile& object, const char* name, std::uint64_t to);
 
+/// Hides these from debuggers, which look for the names in the section of strings only, and else read no symbols.
+void hide_versions(ObjectFile& object);
+
 /// Links it to a further library, whose name has this offset, in place of something that was taken out: its names are
 /// looked for there, as natively among those of the process.
 void add_need(ObjectFile& object, std::uint64_t name);

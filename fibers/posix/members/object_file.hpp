@@ -56,6 +56,11 @@ class ObjectFile {
 
   Elf64_Ehdr& head() const { return head_; }
   std::span<const Elf64_Phdr> parts() const { return {parts_, head_.e_phnum}; }
+  /// What debuggers read; empty without it.
+  std::span<Elf64_Shdr> sections() const {
+    auto* const first = bytes_.at<Elf64_Shdr>(head_.e_shoff, head_.e_shnum);
+    return {first, first != nullptr ? head_.e_shnum : std::size_t{0}};
+  }
 
   /// Finds the dynamic section; false without one.
   bool find_dynamic() {

@@ -195,6 +195,7 @@ bool Copying::fill(ObjectCopy& copy, Kind kind) {
   AddedSegment added(object, bytes, object.dynamic().size() * sizeof(CopyPath));
   if (!added.is_made()) return refuse(copy.file, "cannot be copied: there is no memory for it");
   if (!link_to_copies(object, added)) return false;
+  hide_versions(object);
   if (kind == Kind::opened) add_need(object, added.add(program_->path.text));
   added.finish();
   if (write_all(copy.descriptor, bytes.begin(), bytes.size(), 0) &&
