@@ -142,6 +142,7 @@ struct Task {
   std::uint64_t choices = 0;    ///< number of its computing times chosen so far
   std::uint32_t children = 0;
   std::uint64_t maker = 0;        ///< the id of the task that made it; 0: from outside
+  std::uint64_t made_after = 0;   ///< number of events of its maker before
   std::uint32_t number = 0;       ///< counts the run's tasks in the order of their making, from 0
   std::uint32_t held_shared = 0;  ///< number of its entries in lists of holders
   std::uint32_t refusals = 0;     ///< number of calls refused since the run is over

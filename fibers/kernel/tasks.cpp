@@ -27,6 +27,7 @@ Task* Scheduler::spawn(Robot& robot, const SpawnOptions& options, void (*entry)(
   task.robot = &robot;
   task.id = running != nullptr ? child_id(running->id, running->children++) : child_id(robot.id, robot.children++);
   task.maker = running != nullptr ? running->id : 0;
+  task.made_after = running != nullptr ? running->sequence : 0;
   task.local_time = start;
   task.entry = entry;
   task.argument = argument;
@@ -104,6 +105,7 @@ void Scheduler::continue_as(std::uint64_t id) {
   Task& task = *running;
   WAITPOINT_CHECK(first_task() == &task && task.next == nullptr, "a child has tasks of its parent's");
   task.maker = task.id;
+  task.made_after = task.sequence;
   task.id = id;
   task.sequence = task.children = 0;
   fast_path_.close();

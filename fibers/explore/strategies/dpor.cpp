@@ -34,13 +34,24 @@ void Dpor::join(Clock& into, const Clock& other) {
   }
 }
 
+bool Dpor::State::is_ready(std::uint64_t task) const {
+  return any(ready, [&](const Event& event) { return event.task == task; });
+}
+
+bool Dpor::State::happens_before(const Clock& at) const {
+  const auto known = at.find(done.task);
+  return known != at.end() && known->second > number;
+}
+
 void Dpor::add(std::vector<std::uint64_t>& to, std::uint64_t task) {
   if (std::find(to.begin(), to.end(), task) == to.end()) to.push_back(task);
 }
 
 void Dpor::begin(std::uint64_t, const Draws&, const Profile&) {
   depth_ = 0;
+  instants_ = 0;
   last_of_task_.clear();
+  was_cut_ = false;
 }
 
 // In a new state, the first task that is not asleep; false if all are: the rest has been explored already.
@@ -57,60 +68,85 @@ bool Dpor::choose(State& state, const State* before) {
   return false;
 }
 
-// Adds backtracking points for the earlier events that race with `state`'s.
-void Dpor::find_races(const State& state) {
-  const Clock before = [&] {
-    const auto last = last_of_task_.find(state.done.task);
-    return last == last_of_task_.end() ? Clock() : path_[last->second].clock;
-  }();
+// The clock of the event of its maker after which `task` was made. Later events of the maker do not happen before it.
+Dpor::Clock Dpor::clock_of_making(const Task& task) const {
   for (std::size_t i = depth_; i-- > 0;) {
-    State& earlier = path_[i];
-    if (earlier.ready.empty() || earlier.done.task == state.done.task) continue;
-    if (!are_dependent(earlier.done, state.done)) continue;
-    const auto seen = before.find(earlier.done.task);
-    if (seen != before.end() && seen->second > earlier.number) continue;
-    const bool was_ready = any(earlier.ready, [&](const Event& event) { return event.task == state.done.task; });
-    if (was_ready) {
-      add(earlier.to_try, state.done.task);
-    } else {
-      for (const Event& event : earlier.ready) add(earlier.to_try, event.task);
-    }
-    return;
+    const State& earlier = path_[i];
+    if (earlier.is_of_task() && earlier.done.task == task.maker && earlier.sequence < task.made_after)
+      return earlier.clock;
   }
+  return {};
 }
 
-void Dpor::execute(State& state, std::uint64_t maker) {
-  find_races(state);
-  const auto last = last_of_task_.find(state.done.task);
-  state.clock.clear();
-  state.number = 0;
-  if (last != last_of_task_.end()) {
-    state.clock = path_[last->second].clock;
-    state.number = path_[last->second].number + 1;
-  } else if (const auto made_by = last_of_task_.find(maker); made_by != last_of_task_.end()) {
-    state.clock = path_[made_by->second].clock;
+// Completes the clock of `state`, so far that of its task. Returns the states whose events race with its own.
+std::vector<std::size_t> Dpor::racing_with(State& state) const {
+  std::vector<std::size_t> racing;
+  for (std::size_t i = depth_; i-- > 0;) {
+    const State& earlier = path_[i];
+    if (!earlier.is_of_task() || !are_dependent(earlier.done, state.done)) continue;
+    if (earlier.happens_before(state.clock)) continue;
+    if (earlier.instant == state.instant) racing.push_back(i);
+    join(state.clock, earlier.clock);
   }
-  for (std::size_t i = 0; i < depth_; ++i)
-    if (!path_[i].ready.empty() && are_dependent(path_[i].done, state.done)) join(state.clock, path_[i].clock);
+  return racing;
+}
+
+// The present event races with that of state `event`. To be tried there: the events since that do not depend on it,
+// then the present one. It is enough to begin with any of the tasks whose events can be the first of these.
+void Dpor::try_without(std::size_t event) {
+  State& from = path_[event];
+  std::vector<const State*> others;
+  std::uint64_t first = 0;
+  bool is_found = false;
+  for (std::size_t i = event + 1; i <= depth_; ++i) {
+    const State& state = path_[i];
+    if (!state.is_of_task() || (i < depth_ && from.happens_before(state.clock))) continue;
+    const bool can_be_first = !any(others, [&](const State* other) { return other->happens_before(state.clock); });
+    others.push_back(&state);
+    if (!can_be_first) continue;
+    if (!from.is_ready(state.done.task)) {
+      if (i == depth_) return;  // the earlier event has made it possible
+      continue;
+    }
+    if (any(from.to_try, [&](std::uint64_t task) { return task == state.done.task; })) return;
+    if (!is_found) first = state.done.task;
+    is_found = true;
+  }
+  if (is_found) return add(from.to_try, first);
+  for (const Event& ready : from.ready) add(from.to_try, ready.task);
+}
+
+void Dpor::execute(State& state, const Task& task) {
+  const auto last = last_of_task_.find(task.id);
+  state.sequence = task.sequence;
+  state.instant = instants_;
+  state.number = last != last_of_task_.end() ? path_[last->second].number + 1 : 0;
+  state.clock = last != last_of_task_.end() ? path_[last->second].clock : clock_of_making(task);
+  const std::vector<std::size_t> racing = racing_with(state);
   state.clock[state.done.task] = state.number + 1;
+  for (const std::size_t event : racing) try_without(event);
   last_of_task_[state.done.task] = depth_;
 }
 
 std::uint32_t Dpor::next(const SwitchPoint& at) {
+  instants_ += at.last == nullptr;
   const bool is_new = depth_ == path_.size();
   if (is_new) {
     State state;
     for (const Task* task : at.ready) state.ready.push_back(event_of(*task));
     const State* before = nullptr;
     for (std::size_t i = depth_; i-- > 0 && before == nullptr;)
-      if (!path_[i].ready.empty()) before = &path_[i];
-    if (!choose(state, before)) return cut;
+      if (path_[i].is_of_task()) before = &path_[i];
+    if (!choose(state, before)) {
+      was_cut_ = true;
+      return cut;
+    }
     path_.push_back(std::move(state));
   }
   State& state = path_[depth_];
   for (std::uint32_t i = 0; i < at.ready.size(); ++i) {
     if (at.ready[i]->id != state.done.task) continue;
-    execute(state, at.ready[i]->maker);
+    execute(state, *at.ready[i]);
     ++depth_;
     return i;
   }
@@ -127,11 +163,22 @@ std::uint32_t Dpor::among(Choice choice, const Task&, std::uint32_t count) {
   return choice == Choice::computing && chosen == 1 ? count - 1 : chosen;
 }
 
+// An event that ends the run, as that of a failure or of the last task that is not a service, prevents those of the
+// others that are ready: each of them must be tried before it.
+void Dpor::try_those_left_at_the_end() {
+  for (std::size_t i = path_.size(); i-- > 0;) {
+    if (!path_[i].is_of_task()) continue;
+    for (const Event& event : path_[i].ready) add(path_[i].to_try, event.task);
+    return;
+  }
+}
+
 bool Dpor::end() {
   path_.resize(depth_);
+  if (!was_cut_) try_those_left_at_the_end();
   for (; !path_.empty(); path_.pop_back()) {
     State& state = path_.back();
-    if (state.ready.empty()) {
+    if (!state.is_of_task()) {
       if (++state.chosen < state.count) return true;
       continue;
     }

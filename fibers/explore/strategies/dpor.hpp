@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Exhaustive search without equivalent schedules: dynamic partial order reduction with sleep sets (Flanagan, Godefroid,
-// POPL 2005; Godefroid, LNCS 1032). Two events commute unless they are dependent, see dependence.hpp; the reverse order
-// is tried only for dependent events that are not ordered by others.
+// Exhaustive search without equivalent schedules: dynamic partial order reduction by source sets, with sleep sets
+// (Abdulla, Aronis, Jonsson, Sagonas, "Optimal dynamic partial order reduction", POPL 2014, algorithm 1; Flanagan,
+// Godefroid, POPL 2005; Godefroid, LNCS 1032). Two events commute unless they are dependent, see dependence.hpp; the
+// reverse order is tried only for dependent events that are not ordered by others: these race.
 //
 //   ... | state: ready, tried, to try, asleep |--event of one task--> | state | ...
 //
-// Times are kept: sleeps and timeouts order events of different instants. Choices that are not between tasks are tried
-// exhaustively, except spurious wake-ups.
+// Times are kept: events of different instants do not race. An event that ends the run is tried after those of all
+// other ready tasks. Choices that are not between tasks are tried exhaustively, except spurious wake-ups.
 #pragma once
 
 #include <map>
@@ -42,21 +43,32 @@ class Dpor final : public Strategy {
     std::vector<std::uint64_t> to_try;
     std::vector<std::uint64_t> tried;
     std::vector<Event> asleep;
-    Event done;            // the event executed in this state
-    std::uint32_t number;  // its number among its task's events
-    Clock clock;           // after it
+    Event done;                 // the event executed in this state
+    std::uint64_t sequence;     // its task's events so far, as the kernel counts them
+    std::uint32_t instant = 0;  // the number of its instant
+    std::uint32_t number;       // its number among its task's events
+    Clock clock;                // after it
     std::uint32_t count = 0, chosen = 0;
+
+    bool is_of_task() const { return !ready.empty(); }
+    bool is_ready(std::uint64_t task) const;
+    bool happens_before(const Clock& at) const;
   };
 
   static Event event_of(const Task& task);
   bool choose(State& state, const State* before);
-  void execute(State& state, std::uint64_t maker);
-  void find_races(const State& state);
+  void execute(State& state, const Task& task);
+  Clock clock_of_making(const Task& task) const;
+  std::vector<std::size_t> racing_with(State& state) const;
+  void try_without(std::size_t event);
+  void try_those_left_at_the_end();
   static void add(std::vector<std::uint64_t>& to, std::uint64_t task);
 
   std::vector<State> path_;
   std::size_t depth_ = 0;
+  std::uint32_t instants_ = 0;
   std::map<std::uint64_t, std::size_t> last_of_task_;  // the state of each task's last event
+  bool was_cut_ = false;
 };
 
 }  // namespace waitpoint::exploration

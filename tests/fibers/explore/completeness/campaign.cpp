@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Compares the exhaustive strategies with the abstract machine on many random programs: ./dev test --completeness.
+//
+//   completeness [N] [--from FIRST]    programs number FIRST to FIRST + N - 1 (default: 10000 from 1)
+//   completeness --program TEXT        this one
+//
+// A program that differs is shrunk, and printed with the command that runs it again. Exit status: 0 no program differs,
+// 1 some do, 2 bad input.
+#include <unistd.h>
+
+#include <cstdio>
+#include <cstring>
+#include <string_view>
+
+#include "core/error.hpp"
+#include "core/number_text.hpp"
+#include "tests/fibers/explore/completeness/comparison.hpp"
+#include "tests/fibers/explore/completeness/random_programs.hpp"
+
+namespace waitpoint::completeness {
+namespace {
+
+constexpr std::uint64_t schedules_max = 20'000;
+
+struct Tally {
+  const char* strategy;
+  std::size_t equal = 0, different = 0, left_out = 0, unfinished = 0;
+  std::uint64_t schedules = 0;
+
+  void add(Verdict verdict) {
+    equal += verdict == Verdict::equal;
+    different += verdict == Verdict::different;
+    left_out += verdict == Verdict::left_out;
+    unfinished += verdict == Verdict::unfinished;
+  }
+};
+
+void compare_one(const Program& program, Tally& tally) {
+  const Coverage coverage = [&](const Program& one) { return cover(one, tally.strategy, schedules_max); };
+  const Covered covered = coverage(program);
+  tally.schedules += covered.schedules;
+  std::string difference;
+  const Verdict verdict = compare(program, covered, difference);
+  tally.add(verdict);
+  if (verdict != Verdict::different) return;
+  const Program least = shrink(program, coverage);
+  (void)compare(least, coverage(least), difference);
+  std::printf("\n%s differs on %s\n%sagain: ./dev test --completeness --program '%s'\n", tally.strategy,
+              to_text(program).c_str(), difference.c_str(), to_text(least).c_str());
+  std::fflush(stdout);
+}
+
+struct Asked {
+  std::uint64_t count = 10'000, first = 1;
+  std::string_view program;
+};
+
+std::uint64_t number(std::string_view option, std::string_view text) {
+  std::uint64_t value = 0;
+  if (!parse_number(text, value))
+    throw BadInput(std::string(option), "expected a whole number, found '" + std::string(text) + "'");
+  return value;
+}
+
+Asked read(int count, char** arguments) {
+  Asked asked;
+  for (int i = 1; i < count; ++i) {
+    const std::string_view argument = arguments[i];
+    const bool has_value = argument == "--from" || argument == "--program";
+    if (has_value && i + 1 == count) throw BadInput(std::string(argument), "expected a value");
+    if (argument == "--from")
+      asked.first = number(argument, arguments[++i]);
+    else if (argument == "--program")
+      asked.program = arguments[++i];
+    else
+      asked.count = number("N", argument);
+  }
+  return asked;
+}
+
+int run(const Asked& asked) {
+  Tally tallies[] = {{"dfs"}, {"bounded:1000"}, {"dpor"}};
+  const bool is_single = !asked.program.empty();
+  for (std::uint64_t i = 0; i < (is_single ? 1 : asked.count); ++i) {
+    const Program program = is_single ? read_program(asked.program) : make_program(asked.first + i);
+    for (Tally& tally : tallies) compare_one(program, tally);
+    if (i % 100 == 99 && isatty(STDERR_FILENO) != 0)
+      std::fprintf(stderr, "\r%llu of %llu programs", static_cast<unsigned long long>(i + 1),
+                   static_cast<unsigned long long>(asked.count));
+  }
+  std::size_t different = 0;
+  for (const Tally& tally : tallies) {
+    std::printf(
+        "%s: %zu equal, %zu different, %zu that leave out turns of spinning tasks, %zu unfinished; %llu schedules\n",
+        tally.strategy, tally.equal, tally.different, tally.left_out, tally.unfinished,
+        static_cast<unsigned long long>(tally.schedules));
+    different += tally.different;
+  }
+  return different == 0 ? 0 : 1;
+}
+
+}  // namespace
+}  // namespace waitpoint::completeness
+
+int main(int count, char** arguments) {
+  try {
+    return waitpoint::completeness::run(waitpoint::completeness::read(count, arguments));
+  } catch (const waitpoint::BadInput& input) {
+    std::fprintf(stderr, "completeness: %s\n", input.what());
+    return 2;
+  }
+}

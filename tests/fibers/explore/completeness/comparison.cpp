@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tests/fibers/explore/completeness/comparison.hpp"
+
+#include <algorithm>
+
+namespace waitpoint::completeness {
+namespace {
+
+constexpr std::size_t states_max = 200'000;
+
+// A line for each element of `some` that is not in `others`.
+std::string beyond(const Outcomes& some, const Outcomes& others, const char* what) {
+  std::string text;
+  for (const std::string& outcome : some)
+    if (!others.contains(outcome)) text += std::string("  ") + what + ": " + outcome + "\n";
+  return text;
+}
+
+}  // namespace
+
+Verdict compare(const Program& program, const Covered& covered, std::string& difference) {
+  const Enumerated all = enumerate(program, states_max);
+  if (!all.is_complete) return Verdict::unfinished;
+  difference = beyond(covered.outcomes, all.outcomes, "found, but impossible");
+  const bool is_whole = covered.is_finished && !covered.leaves_turns;
+  if (is_whole) difference += beyond(all.outcomes, covered.outcomes, "possible, but not found");
+  if (!difference.empty()) return Verdict::different;
+  return is_whole ? Verdict::equal : covered.is_finished ? Verdict::left_out : Verdict::unfinished;
+}
+
+Program shrink(const Program& program, const Coverage& coverage) {
+  for (const Program& less : smaller(program)) {
+    std::string difference;
+    if (compare(less, coverage(less), difference) == Verdict::different) return shrink(less, coverage);
+  }
+  return program;
+}
+
+}  // namespace waitpoint::completeness

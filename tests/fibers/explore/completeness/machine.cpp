@@ -1,0 +1,285 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tests/fibers/explore/completeness/machine.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace waitpoint::completeness {
+namespace {
+
+constexpr int nobody = -1;
+
+enum class Mode : std::uint8_t { absent, ready, relocking, locking, waiting, acquiring, joining, asleep, ended };
+
+struct Thread {
+  Mode mode = Mode::absent;
+  std::uint8_t object = 0;  // that it waits for, or relocks
+  std::uint8_t place = 0;   // of its next instruction
+  int wakes = 0;
+  int creator = nobody;  // that may join it
+  std::vector<int> reads;
+  auto operator<=>(const Thread&) const = default;
+};
+
+struct State {
+  int now = 0;
+  std::array<int, objects> owners{nobody, nobody};
+  std::array<int, objects> units{}, values{};
+  std::array<Thread, threads_max> threads;
+  auto operator<=>(const State&) const = default;
+};
+
+class Search {
+ public:
+  Search(const Program& program, std::size_t states_max) : program_(program), states_max_(states_max) {}
+
+  Enumerated run() {
+    State first;
+    for (std::size_t i = 0; i < objects; ++i) first.units[i] = program_.units[i];
+    begin(first, 0, nobody);
+    visit(first);
+    return {std::move(outcomes_), seen_.size(), seen_.size() <= states_max_};
+  }
+
+ private:
+  void visit(const State& state) {
+    if (seen_.size() > states_max_ || !seen_.insert(state).second) return;
+    bool is_idle = true;
+    for (std::size_t t = 0; t < program_.threads.size(); ++t) {
+      const Mode mode = state.threads[t].mode;
+      if (mode != Mode::ready && mode != Mode::relocking) continue;
+      is_idle = false;
+      execute(state, t);
+    }
+    if (is_idle) pass_time(state);
+  }
+
+  // No event is left at this instant: the next one is that of the first sleeper, or the run is over.
+  void pass_time(State state) {
+    int next = 0;
+    std::vector<std::size_t> stuck;
+    for (std::size_t t = 0; t < threads_max; ++t) {
+      const Thread& thread = state.threads[t];
+      if (thread.mode == Mode::asleep && (next == 0 || thread.wakes < next)) next = thread.wakes;
+      if (thread.mode != Mode::absent && thread.mode != Mode::ended) stuck.push_back(t);
+    }
+    if (next == 0) return end(stuck.empty() ? "ended" : "stuck", stuck, state);
+    state.now = next;
+    for (std::size_t t = 0; t < threads_max; ++t) {
+      if (state.threads[t].mode != Mode::asleep || state.threads[t].wakes != next) continue;
+      state.threads[t].mode = Mode::ready;
+      settle(state, t);
+    }
+    visit(state);
+  }
+
+  void end(const std::string& how, const std::vector<std::size_t>& threads, const State& state) {
+    Observed observed;
+    for (std::size_t t = 0; t < program_.threads.size(); ++t) observed.reads.push_back(state.threads[t].reads);
+    observed.values.assign(state.values.begin(), state.values.end());
+    outcomes_.insert(outcome(how, threads, observed));
+  }
+
+  // --- what belongs to the event before ---
+
+  void begin(State& state, std::size_t t, int creator) {
+    state.threads[t].mode = Mode::ready;
+    state.threads[t].creator = creator;
+    settle(state, t);
+  }
+
+  // Thread `t` has its turn up to its next event.
+  void settle(State& state, std::size_t t) {
+    Thread& thread = state.threads[t];
+    const std::vector<Instruction>& all = program_.threads[t];
+    while (thread.place < all.size() && thread.mode == Mode::ready) {
+      const Instruction& next = all[thread.place];
+      if (next.step == Step::create) {
+        begin(state, next.object, static_cast<int>(t));
+      } else if (next.step == Step::sleep) {
+        thread.mode = Mode::asleep;
+        thread.wakes = state.now + std::max<int>(next.operand, 1);
+      } else if (next.step != Step::skip) {
+        return;
+      } else if (!thread.reads.empty() && thread.reads.back() == 0) {
+        thread.place = static_cast<std::uint8_t>(std::min<std::size_t>(thread.place + next.operand, all.size() - 1));
+      }
+      ++thread.place;
+    }
+  }
+
+  void finish(State state, std::size_t t) {
+    ++state.threads[t].place;
+    settle(state, t);
+    visit(state);
+  }
+  void finish(State state, std::size_t t, int read) {
+    state.threads[t].reads.push_back(read);
+    finish(std::move(state), t);
+  }
+
+  // --- events ---
+
+  void execute(const State& state, std::size_t t) {
+    const Thread& thread = state.threads[t];
+    const std::vector<Instruction>& all = program_.threads[t];
+    if (thread.mode == Mode::relocking) return lock(state, t, thread.object);
+    if (thread.place == all.size() || all[thread.place].step == Step::exit) return end_thread(state, t);
+    const auto [step, object, operand] = all[thread.place];
+    const int own = static_cast<int>(t);
+    State next = state;
+    switch (step) {
+      case Step::join: return join(state, t, object);
+      case Step::lock: return lock(state, t, object);
+      case Step::try_lock:
+        if (state.owners[object] == own) return end("misuse", {t}, state);
+        if (state.owners[object] == nobody) next.owners[object] = own;
+        return finish(next, t, state.owners[object] == nobody);
+      case Step::unlock:
+        if (state.owners[object] != own) return end("misuse", {t}, state);
+        return hand_over(state, object, [&](const State& after) { finish(after, t); });
+      case Step::wait:
+        if (state.owners[object] != own) return end("misuse", {t}, state);
+        next.threads[t].mode = Mode::waiting;
+        next.threads[t].object = object;
+        return hand_over(next, object, [&](const State& after) { visit(after); });
+      case Step::signal:
+        return serve(next, Mode::waiting, object, [&](State& after, std::size_t waiter) {
+          if (waiter < threads_max) after.threads[waiter].mode = Mode::relocking;
+          finish(after, t);
+        });
+      case Step::broadcast:
+        for (Thread& waiter : next.threads)
+          if (waiter.mode == Mode::waiting && waiter.object == object) waiter.mode = Mode::relocking;
+        return finish(next, t);
+      case Step::acquire:
+        if (state.units[object] == 0) return block(next, t, Mode::acquiring, object);
+        --next.units[object];
+        return finish(next, t);
+      case Step::try_acquire:
+        next.units[object] -= state.units[object] > 0;
+        return finish(next, t, state.units[object] > 0);
+      case Step::release:
+        return serve(next, Mode::acquiring, object, [&](State& after, std::size_t waiter) {
+          if (waiter < threads_max)
+            resume(after, waiter);
+          else
+            ++after.units[object];
+          finish(after, t);
+        });
+      case Step::load: return finish(next, t, state.values[object]);
+      case Step::store: next.values[object] = operand; return finish(next, t);
+      case Step::add: next.values[object] += operand; return finish(next, t, state.values[object]);
+      case Step::replace:
+        if (state.values[object] == 0) next.values[object] = operand;
+        return finish(next, t, state.values[object]);
+      case Step::exit_all: return end("exit", {t}, state);
+      default: return;
+    }
+  }
+
+  void end_thread(State state, std::size_t t) {
+    if (std::find(state.owners.begin(), state.owners.end(), static_cast<int>(t)) != state.owners.end())
+      return end("misuse", {t}, state);
+    state.threads[t].mode = Mode::ended;
+    for (std::size_t other = 0; other < threads_max; ++other) {
+      const Thread& joiner = state.threads[other];
+      if (joiner.mode == Mode::joining && joiner.object == t) resume(state, other);
+    }
+    visit(state);
+  }
+
+  void lock(State state, std::size_t t, std::uint8_t mutex) {
+    if (state.owners[mutex] != nobody) return block(state, t, Mode::locking, mutex);
+    state.owners[mutex] = static_cast<int>(t);
+    state.threads[t].mode = Mode::ready;
+    finish(state, t);
+  }
+
+  void join(State state, std::size_t t, std::uint8_t other) {
+    if (state.threads[other].creator != static_cast<int>(t)) return end("misuse", {t}, state);
+    state.threads[other].creator = nobody;
+    if (state.threads[other].mode == Mode::ended) return finish(state, t);
+    block(state, t, Mode::joining, other);
+  }
+
+  // --- waiters ---
+
+  void block(State state, std::size_t t, Mode mode, std::uint8_t object) {
+    state.threads[t].mode = mode;
+    state.threads[t].object = object;
+    std::vector<std::size_t> cycle;
+    for (std::size_t member = t;;) {
+      cycle.push_back(member);
+      const Thread& waiter = state.threads[member];
+      const int next = waiter.mode == Mode::locking   ? state.owners[waiter.object]
+                       : waiter.mode == Mode::joining ? waiter.object
+                                                      : nobody;
+      if (next == nobody || cycle.size() > threads_max) return visit(state);
+      member = static_cast<std::size_t>(next);
+      if (member == t) break;
+    }
+    std::sort(cycle.begin(), cycle.end());
+    end("cycle", cycle, state);
+  }
+
+  // The waiter has what it waited for.
+  void resume(State& state, std::size_t waiter) {
+    state.threads[waiter].mode = Mode::ready;
+    ++state.threads[waiter].place;
+    settle(state, waiter);
+  }
+
+  // Goes on with each waiter of the object in turn; with threads_max if there is none.
+  template <class Continue>
+  void serve(const State& state, Mode mode, std::uint8_t object, const Continue& go_on) {
+    bool is_waited_for = false;
+    for (std::size_t t = 0; t < threads_max; ++t) {
+      if (state.threads[t].mode != mode || state.threads[t].object != object) continue;
+      is_waited_for = true;
+      State next = state;
+      go_on(next, t);
+    }
+    if (is_waited_for) return;
+    State next = state;
+    go_on(next, threads_max);
+  }
+
+  template <class Continue>
+  void hand_over(const State& state, std::uint8_t mutex, const Continue& go_on) {
+    serve(state, Mode::locking, mutex, [&](State& after, std::size_t waiter) {
+      after.owners[mutex] = waiter < threads_max ? static_cast<int>(waiter) : nobody;
+      if (waiter < threads_max) resume(after, waiter);
+      go_on(after);
+    });
+  }
+
+  const Program& program_;
+  std::size_t states_max_;
+  std::set<State> seen_;
+  Outcomes outcomes_;
+};
+
+}  // namespace
+
+std::string outcome(const std::string& end, const std::vector<std::size_t>& threads, const Observed& observed) {
+  const bool is_single = end == "exit" || end == "misuse";
+  std::string text = end + (threads.empty() || is_single ? "" : " {");
+  for (const std::size_t thread : threads) text += (text.back() == '{' ? "" : " ") + std::to_string(thread);
+  text += threads.empty() || is_single ? ":" : "}:";
+  const bool is_whole = end == "ended" || end == "stuck";
+  for (std::size_t t = 0; t < observed.reads.size(); ++t) {
+    if (!is_whole && std::find(threads.begin(), threads.end(), t) == threads.end()) continue;
+    text += " " + std::to_string(t) + "[";
+    for (const int read : observed.reads[t]) text += (text.back() == '[' ? "" : " ") + std::to_string(read);
+    text += "]";
+  }
+  if (!is_whole) return text;
+  text += " memory";
+  for (const int value : observed.values) text += " " + std::to_string(value);
+  return text;
+}
+
+Enumerated enumerate(const Program& program, std::size_t states_max) { return Search(program, states_max).run(); }
+
+}  // namespace waitpoint::completeness
