@@ -87,9 +87,17 @@ class condition_variable_any {
       const sync::IgnoredAccesses ignored_accesses;
       return requested;
     }
+    // A switch point of its own: it takes the waiter from other notifications.
     void operator()() {
+      request();
+      if (sync::before_releasing(kernel::Operation::notify_all, condition.object_)) wake();
+    }
+    void request() {
       const sync::IgnoredAccesses ignored_accesses;
       requested = true;
+    }
+    void wake() {
+      const sync::IgnoredAccesses ignored_accesses;
       if (waiter != nullptr && !waiter->notified) condition.notify(*waiter);
     }
     condition_variable_any& condition;

@@ -12,6 +12,13 @@ inline bool is_read_only(kernel::Operation operation) {
   return operation == kernel::Operation::load || operation == kernel::Operation::stop_requested;
 }
 
+/// A yielding task is not offered until another has acted; a poll looks at several objects; a signal acts at the next
+/// event of another task: the order of events around them matters, whatever their objects.
+inline bool acts_on_any(kernel::Operation operation) {
+  return operation == kernel::Operation::yield || operation == kernel::Operation::poll ||
+         operation == kernel::Operation::signal;
+}
+
 /// A condition wait releases its lock, which the kernel does not see: it may be any lock.
 inline bool releases_unseen(kernel::Operation operation) { return operation == kernel::Operation::wait; }
 inline bool is_of_lock(kernel::Operation operation) {

@@ -16,12 +16,12 @@ bool any(const Where& where, Test test) {
 }  // namespace
 
 Dpor::Event Dpor::event_of(const Task& task) {
-  return {task.id, task.operation, task.at != nullptr ? task.at->identity : 0};
+  return {task.id, task.operation, task.at != nullptr ? task.at->identity : 0, task.seat != nullptr};
 }
 
 bool Dpor::are_dependent(const Event& a, const Event& b) {
-  // A yielding task is not offered until another has acted: the order of events around a yield matters.
-  if (a.operation == kernel::Operation::yield || b.operation == kernel::Operation::yield) return true;
+  if (acts_on_any(a.operation) || acts_on_any(b.operation)) return true;
+  if (a.is_on_shared_processor && b.is_on_shared_processor) return true;
   if (releases_unseen(a.operation) && is_of_lock(b.operation)) return true;
   if (releases_unseen(b.operation) && is_of_lock(a.operation)) return true;
   return exploration::are_dependent(a.operation, a.object, b.operation, b.object);

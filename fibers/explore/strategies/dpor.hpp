@@ -30,7 +30,8 @@ class Dpor final : public Strategy {
   struct Event {
     std::uint64_t task = 0;
     kernel::Operation operation = kernel::Operation::start;
-    std::uint64_t object = 0;  // identity; 0: none
+    std::uint64_t object = 0;             // identity; 0: none
+    bool is_on_shared_processor = false;  // its turn delays the others', by an order that depends on their priorities
   };
   static bool are_dependent(const Event& a, const Event& b);
 

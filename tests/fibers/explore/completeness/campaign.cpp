@@ -3,24 +3,28 @@
 //
 //   completeness [N] [--from FIRST]    programs number FIRST to FIRST + N - 1 (default: 10000 from 1)
 //   completeness --program TEXT        this one
+//   ... --schedules MOST               of each program by each strategy (default: 20000; with --exec 1000)
+//   ... --exec                         on POSIX threads, under waitpoint explore --exec, instead of in this process
 //
 // A program that differs is shrunk, and printed with the command that runs it again. Exit status: 0 no program differs,
 // 1 some do, 2 bad input.
 #include <unistd.h>
 
 #include <cstdio>
-#include <cstring>
+#include <filesystem>
 #include <string_view>
 
 #include "core/error.hpp"
 #include "core/number_text.hpp"
 #include "tests/fibers/explore/completeness/comparison.hpp"
 #include "tests/fibers/explore/completeness/random_programs.hpp"
+#include "tests/fibers/explore/completeness/recorded_runs.hpp"
 
 namespace waitpoint::completeness {
 namespace {
 
-constexpr std::uint64_t schedules_max = 20'000;
+// How the programs are run.
+using Cover = std::function<Covered(const Program& program, const char* strategy)>;
 
 struct Tally {
   const char* strategy;
@@ -35,8 +39,8 @@ struct Tally {
   }
 };
 
-void compare_one(const Program& program, Tally& tally) {
-  const Coverage coverage = [&](const Program& one) { return cover(one, tally.strategy, schedules_max); };
+void compare_one(const Program& program, const Cover& cover_by, Tally& tally, const char* options) {
+  const Coverage coverage = [&](const Program& one) { return cover_by(one, tally.strategy); };
   const Covered covered = coverage(program);
   tally.schedules += covered.schedules;
   std::string difference;
@@ -45,14 +49,31 @@ void compare_one(const Program& program, Tally& tally) {
   if (verdict != Verdict::different) return;
   const Program least = shrink(program, coverage);
   (void)compare(least, coverage(least), difference);
-  std::printf("\n%s differs on %s\n%sagain: ./dev test --completeness --program '%s'\n", tally.strategy,
-              to_text(program).c_str(), difference.c_str(), to_text(least).c_str());
+  std::printf("\n%s differs on %s\n%sagain: ./dev test --completeness%s --program '%s'\n", tally.strategy,
+              to_text(program).c_str(), difference.c_str(), options, to_text(least).c_str());
   std::fflush(stdout);
 }
 
+// A folder of its own, for as long as it exists.
+class Folder {
+ public:
+  Folder() { WAITPOINT_CHECK(mkdtemp(path_.data()) != nullptr, "no temporary folder can be made"); }
+  ~Folder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+  const std::string& path() const { return path_; }
+
+ private:
+  std::string path_ = std::filesystem::temp_directory_path() / "completeness-XXXXXX";
+};
+
 struct Asked {
-  std::uint64_t count = 10'000, first = 1;
+  std::uint64_t count = 10'000, first = 1, schedules = 0;
   std::string_view program;
+  bool is_exec = false;
 };
 
 std::uint64_t number(std::string_view option, std::string_view text) {
@@ -66,10 +87,14 @@ Asked read(int count, char** arguments) {
   Asked asked;
   for (int i = 1; i < count; ++i) {
     const std::string_view argument = arguments[i];
-    const bool has_value = argument == "--from" || argument == "--program";
+    const bool has_value = argument == "--from" || argument == "--program" || argument == "--schedules";
     if (has_value && i + 1 == count) throw BadInput(std::string(argument), "expected a value");
-    if (argument == "--from")
+    if (argument == "--exec")
+      asked.is_exec = true;
+    else if (argument == "--from")
       asked.first = number(argument, arguments[++i]);
+    else if (argument == "--schedules")
+      asked.schedules = number(argument, arguments[++i]);
     else if (argument == "--program")
       asked.program = arguments[++i];
     else
@@ -79,12 +104,22 @@ Asked read(int count, char** arguments) {
 }
 
 int run(const Asked& asked) {
-  Tally tallies[] = {{"dfs"}, {"bounded:1000"}, {"dpor"}};
+  const std::filesystem::path build = std::filesystem::read_symlink("/proc/self/exe").parent_path().parent_path();
+  const Folder folder;
+  const ExecTools tools{build / "tools/waitpoint", build / "tests/completeness-program", folder.path()};
+  const std::uint64_t most = asked.schedules != 0 ? asked.schedules : asked.is_exec ? 1'000 : 20'000;
+  const Cover cover_by = [&](const Program& program, const char* strategy) {
+    return asked.is_exec ? cover_by_exec(tools, program, strategy, most) : cover(program, strategy, most);
+  };
+  std::vector<Tally> tallies{{"dfs"}, {"bounded:1000"}};
+  if (!asked.is_exec) tallies.push_back({"dpor"});
   const bool is_single = !asked.program.empty();
   for (std::uint64_t i = 0; i < (is_single ? 1 : asked.count); ++i) {
-    const Program program = is_single ? read_program(asked.program) : make_program(asked.first + i);
-    for (Tally& tally : tallies) compare_one(program, tally);
-    if (i % 100 == 99 && isatty(STDERR_FILENO) != 0)
+    // Threads take a process for each schedule: only small programs.
+    const std::uint64_t number = asked.is_exec ? 2 * (asked.first + i) : asked.first + i;
+    const Program program = is_single ? read_program(asked.program) : make_program(number);
+    for (Tally& tally : tallies) compare_one(program, cover_by, tally, asked.is_exec ? " --exec" : "");
+    if ((asked.is_exec || i % 100 == 99) && isatty(STDERR_FILENO) != 0)
       std::fprintf(stderr, "\r%llu of %llu programs", static_cast<unsigned long long>(i + 1),
                    static_cast<unsigned long long>(asked.count));
   }

@@ -11,6 +11,9 @@
 
 namespace waitpoint::completeness {
 
+/// The greatest number of an abstract machine's states.
+inline constexpr std::size_t states_max = 200'000;
+
 /// Finds the outcomes of a program, as cover() does.
 using Coverage = std::function<Covered(const Program& program)>;
 
@@ -21,7 +24,7 @@ enum class Verdict {
   unfinished,  ///< more states or schedules than the limits: no other outcome was found
 };
 
-/// The verdict on `covered`; in `difference`, what differs.
+/// The verdict on `covered`; in `difference`, what differs. The outcome "cycle ?" stands for all cycles.
 Verdict compare(const Program& program, const Covered& covered, std::string& difference);
 
 /// A smallest program, made from `program` by omissions, for which `coverage` still differs.
