@@ -160,6 +160,16 @@ class Exhaustive(ExecCase):
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertNotIn("exhaustive", done.stdout)
 
+    def test_that_lets_time_pass_for_a_thread_that_polls_alone_says_so(self):
+        source = self.folder / "polls.c"
+        source.write_text("#include <pthread.h>\n#include <semaphore.h>\n#include <unistd.h>\nstatic sem_t posted;\n"
+                          "static void* post(void* none) { sleep(2); sem_post(&posted); return none; }\n"
+                          "int main(void) {\n  pthread_t poster;\n  sem_init(&posted, 0, 0);\n"
+                          "  pthread_create(&poster, NULL, post, NULL);\n  sleep(1);\n"
+                          "  for (int i = 0; i < 40; ++i) sem_trywait(&posted);\n  return pthread_join(poster, NULL);\n}\n")
+        line = explore("--strategy", "bounded:0", "--", self.compile(str(source))).stdout.splitlines()[0]
+        self.assertTrue(line.endswith("exhaustive with at most 0 preemptions, except for turns of spinning tasks"), line)
+
     def test_what_it_finds_is_replayed(self):
         program = self.compile("lost_update.c")
         for options in ((), ("--no-minimize",)):

@@ -31,7 +31,8 @@ std::optional<DepthFirst> DepthFirst::of(const std::string& strategy) {
   return DepthFirst(dfs->preemptions(), dfs->scope());
 }
 
-std::optional<std::vector<Deviation>> DepthFirst::after(const std::vector<Decision>& decisions) {
+std::optional<std::vector<Deviation>> DepthFirst::after(const std::vector<Decision>& decisions, bool cuts_polls_short) {
+  left_out_turns_ = left_out_turns_ || cuts_polls_short;
   std::uint32_t preempted = 0;
   std::optional<Deviation> last;
   for (std::uint32_t at = 0; at < decisions.size(); ++at) {

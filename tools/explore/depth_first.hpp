@@ -20,7 +20,9 @@ class DepthFirst {
   static std::optional<DepthFirst> of(const std::string& strategy);
 
   /// The successor of the schedule with these decisions, as deviations from the default order; nothing after the last.
-  std::optional<std::vector<exploration::Deviation>> after(const std::vector<exploration::Decision>& decisions);
+  /// `cuts_polls_short`: as in exploration::Schedule.
+  std::optional<std::vector<exploration::Deviation>> after(const std::vector<exploration::Decision>& decisions,
+                                                           bool cuts_polls_short);
 
   /// The scope of an exhausted search: " with at most 2 preemptions, except for turns of spinning tasks".
   std::string scope() const;

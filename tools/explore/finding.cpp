@@ -32,6 +32,7 @@ void pass_fields(Pass& pass, F& finding) {
   pass(finding.switches);
   pass(finding.deviations);
   pass(finding.choices);
+  pass(finding.cuts_polls_short);
   pass(finding.parted);
   pass(finding.details);
   pass(finding.told);
@@ -57,6 +58,7 @@ std::string without_digits(std::string text) {
 
 void Finding::take(const exploration::Schedule& schedule, bool has_parted) {
   decisions = schedule.decisions.size();
+  cuts_polls_short = schedule.cuts_polls_short;
   parted = has_parted;
   if (passed()) return;
   switches = schedule.switches;

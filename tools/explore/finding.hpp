@@ -29,6 +29,7 @@ struct Finding {
   std::vector<exploration::Switch> switches;       ///< for failures
   std::vector<exploration::Deviation> deviations;  ///< the same switches
   std::vector<exploration::Decision> choices;      ///< if requested: all of them
+  bool cuts_polls_short = false;                   ///< as in exploration::Schedule
   bool parted = false;                             ///< the plan did not fit the run
   std::string details;                      ///< for failures, if places are requested: lines specific to the kind
   std::string told;                         ///< if requested: the switches, a decision or an event, in words

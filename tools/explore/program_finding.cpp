@@ -112,7 +112,7 @@ exploration::Schedule schedule_of(const posix::Record& record) {
   if (shared == nullptr) return record.explored->explorer.schedule();
   const auto decisions = shared->decisions.all();
   const auto switches = shared->switches.all();
-  return {{decisions.begin(), decisions.end()}, {switches.begin(), switches.end()}};
+  return {{decisions.begin(), decisions.end()}, {switches.begin(), switches.end()}, shared->cuts_polls_short};
 }
 
 Finding finding_of_run(const RunMemory& memory, int status, const std::string& output, const Target::Request& request,

@@ -39,6 +39,7 @@ void Explorer::begin(Strategy& strategy, const Played& played) {
   std::sort(switches_.begin(), switches_.end());
   schedule_.decisions.clear();
   schedule_.switches.clear();
+  schedule_.cuts_polls_short = false;
   habits_.clear();
   stopped_before_.clear();
   last_ = nullptr;
@@ -108,8 +109,10 @@ std::uint32_t Explorer::next(Task* const* ready, std::uint32_t count) {
 
 // Called if a schedule is played, or some tasks spin.
 std::uint32_t Explorer::next_with_care(Task* const* ready, std::uint32_t count) {
-  if (spinning_ != 0 && polls_only({ready, count}) && ++idle_turns_ > idle_yields_max && scheduler_.is_due_later())
+  if (spinning_ != 0 && polls_only({ready, count}) && ++idle_turns_ > idle_yields_max && scheduler_.is_due_later()) {
+    schedule_.cuts_polls_short = left_out_.turns = true;
     return later;
+  }
   if (++step_of_instant_ > steps_max_) scheduler_.stop_between_events(kernel::StopCause::no_progress, *ready[0]);
   const bool chooses = count > 1;
   const bool some_spin = spinning_ != 0 && chooses;

@@ -35,7 +35,7 @@ struct Played {
 
 /// The alternatives that exhaustive strategies omit.
 struct LeftOut {
-  bool turns = false;     ///< turns of spinning tasks, while others could continue
+  bool turns = false;     ///< turns of spinning tasks, while others could continue or time could pass
   bool costs = false;     ///< costs of computations between the offered values
   bool spurious = false;  ///< spurious wake-ups
 };

@@ -54,7 +54,8 @@ struct Deviation {
 
 struct Schedule {
   std::vector<Decision> decisions;
-  std::vector<Switch> switches;  ///< the decisions that are switches, in order
+  std::vector<Switch> switches;   ///< the decisions that are switches, in order
+  bool cuts_polls_short = false;  ///< time has advanced although tasks could have polled on at their instant
 
   /// The switches by decision numbers: shorter, but only valid in the unedited program.
   std::vector<Deviation> deviations() const {

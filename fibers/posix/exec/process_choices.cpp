@@ -56,6 +56,7 @@ class SharedChoice {
     SharedSchedule& all = shared_schedule();
     append(all.decisions, std::span(own.decisions).subspan(all.decisions.count));
     append(all.switches, std::span(own.switches).subspan(all.switches.count));
+    all.cuts_polls_short = all.cuts_polls_short || own.cuts_polls_short;
   }
   SharedChoice(const SharedChoice&) = delete;
   SharedChoice& operator=(const SharedChoice&) = delete;

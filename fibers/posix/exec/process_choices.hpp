@@ -24,7 +24,8 @@ struct SharedSequence {
 struct SharedSchedule {
   SharedSequence<exploration::Decision> decisions;
   SharedSequence<exploration::Switch> switches;
-  std::uint32_t last;  ///< the place in the table of the process of the last event
+  bool cuts_polls_short;  ///< as in exploration::Schedule
+  std::uint32_t last;     ///< the place in the table of the process of the last event
 };
 
 /// Sits between the kernel and the process's `decisions`, which record their choices in `explorer`. The narrator, if

@@ -55,6 +55,19 @@ TEST(Polling, ExhaustiveStrategiesSayWhatTheyNeverTried) {
   EXPECT_TRUE(spun.passed) << spun;
   EXPECT_FALSE(spun.complete);
   EXPECT_EQ(spun.scope, "all schedules, except turns of spinning tasks");
+  // Alone, until time advances: all loads could have been at the first instant, before the other's store.
+  const auto look_often_alone = [] {
+    atomic<int> page{0};
+    thread writer([&] {
+      this_thread::sleep_for(1s);
+      page.store(1);
+    });
+    for (int i = 0; i < 40; ++i) (void)page.load();
+    writer.join();
+  };
+  for (const char* strategy : {"dfs", "dpor"})
+    EXPECT_EQ(explore(look_often_alone, {.strategy = strategy, .iterations = 1'000'000}).scope,
+              "all schedules, except turns of spinning tasks");
   const auto compute_something = [] {
     thread other([] { compute(1ms, 3ms); });
     other.join();

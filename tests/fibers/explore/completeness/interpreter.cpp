@@ -110,21 +110,31 @@ class Run {
         held.mutexes[object] = mutexes_[object].try_lock();
         read(thread, held.mutexes[object]);
         break;
+      case Step::lock_for:
+        require(!held.mutexes[object], thread);
+        held.mutexes[object] = mutexes_[object].try_lock_for(std::chrono::seconds(operand));
+        read(thread, held.mutexes[object]);
+        break;
       case Step::unlock:
         require(held.mutexes[object], thread);
         held.mutexes[object] = false;
         mutexes_[object].unlock();
         break;
-      case Step::wait: {
+      case Step::wait:
+      case Step::wait_for: {
         require(held.mutexes[object], thread);
         std::unique_lock<mutex> lock(mutexes_[object], std::adopt_lock);
-        conditions_[object].wait(lock);
+        if (step == Step::wait)
+          conditions_[object].wait(lock);
+        else
+          read(thread, conditions_[object].wait_for(lock, std::chrono::seconds(operand)) == cv_status::no_timeout);
         lock.release();
         break;
       }
       case Step::signal: conditions_[object].notify_one(); break;
       case Step::broadcast: conditions_[object].notify_all(); break;
       case Step::acquire: units_[object].acquire(); break;
+      case Step::acquire_for: read(thread, units_[object].try_acquire_for(std::chrono::seconds(operand))); break;
       case Step::try_acquire: read(thread, units_[object].try_acquire()); break;
       case Step::release: units_[object].release(); break;
       case Step::load: read(thread, values_[object].load()); break;
@@ -152,7 +162,7 @@ class Run {
   }
 
   const Program& program_;
-  std::array<mutex, objects> mutexes_;
+  std::array<timed_mutex, objects> mutexes_;
   std::array<condition_variable, objects> conditions_;
   std::array<counting_semaphore<>, objects> units_;
   std::array<atomic<int>, objects> values_{};

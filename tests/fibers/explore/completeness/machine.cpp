@@ -2,32 +2,11 @@
 #include "tests/fibers/explore/completeness/machine.hpp"
 
 #include <algorithm>
-#include <array>
+
+#include "tests/fibers/explore/completeness/machine_state.hpp"
 
 namespace waitpoint::completeness {
 namespace {
-
-constexpr int nobody = -1;
-
-enum class Mode : std::uint8_t { absent, ready, relocking, locking, waiting, acquiring, joining, asleep, ended };
-
-struct Thread {
-  Mode mode = Mode::absent;
-  std::uint8_t object = 0;  // that it waits for, or relocks
-  std::uint8_t place = 0;   // of its next instruction
-  int wakes = 0;
-  int creator = nobody;  // that may join it
-  std::vector<int> reads;
-  auto operator<=>(const Thread&) const = default;
-};
-
-struct State {
-  int now = 0;
-  std::array<int, objects> owners{nobody, nobody};
-  std::array<int, objects> units{}, values{};
-  std::array<Thread, threads_max> threads;
-  auto operator<=>(const State&) const = default;
-};
 
 class Search {
  public:
@@ -46,28 +25,34 @@ class Search {
     if (seen_.size() > states_max_ || !seen_.insert(state).second) return;
     bool is_idle = true;
     for (std::size_t t = 0; t < program_.threads.size(); ++t) {
-      const Mode mode = state.threads[t].mode;
-      if (mode != Mode::ready && mode != Mode::relocking) continue;
+      const Thread& thread = state.threads[t];
+      const bool is_late = thread.wakes != 0 && thread.wakes == state.now;
+      if (thread.mode != Mode::ready && thread.mode != Mode::relocking && !is_late) continue;
       is_idle = false;
-      execute(state, t);
+      if (is_late)
+        time_out(state, t);
+      else
+        execute(state, t);
     }
     if (is_idle) pass_time(state);
   }
 
-  // No event is left at this instant: the next one is that of the first sleeper, or the run is over.
+  // No event is left at this instant: the next one is that of the first sleeper or timeout, or the run is over.
   void pass_time(State state) {
     int next = 0;
     std::vector<std::size_t> stuck;
     for (std::size_t t = 0; t < threads_max; ++t) {
       const Thread& thread = state.threads[t];
-      if (thread.mode == Mode::asleep && (next == 0 || thread.wakes < next)) next = thread.wakes;
+      if (thread.wakes != 0 && (next == 0 || thread.wakes < next)) next = thread.wakes;
       if (thread.mode != Mode::absent && thread.mode != Mode::ended) stuck.push_back(t);
     }
     if (next == 0) return end(stuck.empty() ? "ended" : "stuck", stuck, state);
     state.now = next;
     for (std::size_t t = 0; t < threads_max; ++t) {
-      if (state.threads[t].mode != Mode::asleep || state.threads[t].wakes != next) continue;
-      state.threads[t].mode = Mode::ready;
+      Thread& thread = state.threads[t];
+      if (thread.mode != Mode::asleep || thread.wakes != next) continue;
+      thread.mode = Mode::ready;
+      thread.wakes = 0;
       settle(state, t);
     }
     visit(state);
@@ -131,6 +116,9 @@ class Search {
     switch (step) {
       case Step::join: return join(state, t, object);
       case Step::lock: return lock(state, t, object);
+      case Step::lock_for:
+        if (state.owners[object] == own) return end("misuse", {t}, state);
+        return lock(state, t, object, operand);
       case Step::try_lock:
         if (state.owners[object] == own) return end("misuse", {t}, state);
         if (state.owners[object] == nobody) next.owners[object] = own;
@@ -139,23 +127,29 @@ class Search {
         if (state.owners[object] != own) return end("misuse", {t}, state);
         return hand_over(state, object, [&](const State& after) { finish(after, t); });
       case Step::wait:
+      case Step::wait_for:
         if (state.owners[object] != own) return end("misuse", {t}, state);
         next.threads[t].mode = Mode::waiting;
         next.threads[t].object = object;
+        next.threads[t].is_notified = true;
+        if (step == Step::wait_for) next.threads[t].wakes = state.now + operand;
         return hand_over(next, object, [&](const State& after) { visit(after); });
       case Step::signal:
         return serve(next, Mode::waiting, object, [&](State& after, std::size_t waiter) {
-          if (waiter < threads_max) after.threads[waiter].mode = Mode::relocking;
+          if (waiter < threads_max) notify(after.threads[waiter]);
           finish(after, t);
         });
       case Step::broadcast:
         for (Thread& waiter : next.threads)
-          if (waiter.mode == Mode::waiting && waiter.object == object) waiter.mode = Mode::relocking;
+          if (waiter.mode == Mode::waiting && waiter.object == object) notify(waiter);
         return finish(next, t);
       case Step::acquire:
-        if (state.units[object] == 0) return block(next, t, Mode::acquiring, object);
+      case Step::acquire_for:
+        if (state.units[object] == 0)
+          return block(next, t, Mode::acquiring, object, step == Step::acquire_for ? operand : 0);
         --next.units[object];
-        return finish(next, t);
+        resume(next, t);
+        return visit(next);
       case Step::try_acquire:
         next.units[object] -= state.units[object] > 0;
         return finish(next, t, state.units[object] > 0);
@@ -189,11 +183,11 @@ class Search {
     visit(state);
   }
 
-  void lock(State state, std::size_t t, std::uint8_t mutex) {
-    if (state.owners[mutex] != nobody) return block(state, t, Mode::locking, mutex);
+  void lock(State state, std::size_t t, std::uint8_t mutex, int span = 0) {
+    if (state.owners[mutex] != nobody) return block(state, t, Mode::locking, mutex, span);
     state.owners[mutex] = static_cast<int>(t);
-    state.threads[t].mode = Mode::ready;
-    finish(state, t);
+    resume(state, t);
+    visit(state);
   }
 
   void join(State state, std::size_t t, std::uint8_t other) {
@@ -205,14 +199,37 @@ class Search {
 
   // --- waiters ---
 
-  void block(State state, std::size_t t, Mode mode, std::uint8_t object) {
+  static void notify(Thread& waiter) {
+    waiter.mode = Mode::relocking;
+    waiter.wakes = 0;
+  }
+
+  void time_out(State state, std::size_t t) {
+    Thread& thread = state.threads[t];
+    thread.wakes = 0;
+    if (thread.mode == Mode::waiting) {
+      thread.mode = Mode::relocking;
+      thread.is_notified = false;
+      return visit(state);
+    }
+    thread.mode = Mode::ready;
+    finish(std::move(state), t, 0);
+  }
+
+  // With a timeout after `span` instants; 0: none.
+  void block(State state, std::size_t t, Mode mode, std::uint8_t object, int span = 0) {
     state.threads[t].mode = mode;
     state.threads[t].object = object;
+    if (span != 0) {
+      state.threads[t].wakes = state.now + span;
+      return visit(state);
+    }
     std::vector<std::size_t> cycle;
     for (std::size_t member = t;;) {
       cycle.push_back(member);
       const Thread& waiter = state.threads[member];
-      const int next = waiter.mode == Mode::locking   ? state.owners[waiter.object]
+      const int next = waiter.wakes != 0              ? nobody
+                       : waiter.mode == Mode::locking ? state.owners[waiter.object]
                        : waiter.mode == Mode::joining ? waiter.object
                                                       : nobody;
       if (next == nobody || cycle.size() > threads_max) return visit(state);
@@ -223,10 +240,15 @@ class Search {
     end("cycle", cycle, state);
   }
 
-  // The waiter has what it waited for.
+  // The thread has what it waited for; with a timeout, it reads its success.
   void resume(State& state, std::size_t waiter) {
-    state.threads[waiter].mode = Mode::ready;
-    ++state.threads[waiter].place;
+    Thread& thread = state.threads[waiter];
+    thread.mode = Mode::ready;
+    thread.wakes = 0;
+    const Step step = program_.threads[waiter][thread.place].step;
+    if (step == Step::wait_for) thread.reads.push_back(thread.is_notified);
+    if (step == Step::lock_for || step == Step::acquire_for) thread.reads.push_back(1);
+    ++thread.place;
     settle(state, waiter);
   }
 
@@ -261,24 +283,6 @@ class Search {
 };
 
 }  // namespace
-
-std::string outcome(const std::string& end, const std::vector<std::size_t>& threads, const Observed& observed) {
-  const bool is_single = end == "exit" || end == "misuse";
-  std::string text = end + (threads.empty() || is_single ? "" : " {");
-  for (const std::size_t thread : threads) text += (text.back() == '{' ? "" : " ") + std::to_string(thread);
-  text += threads.empty() || is_single ? ":" : "}:";
-  const bool is_whole = end == "ended" || end == "stuck";
-  for (std::size_t t = 0; t < observed.reads.size(); ++t) {
-    if (!is_whole && std::find(threads.begin(), threads.end(), t) == threads.end()) continue;
-    text += " " + std::to_string(t) + "[";
-    for (const int read : observed.reads[t]) text += (text.back() == '[' ? "" : " ") + std::to_string(read);
-    text += "]";
-  }
-  if (!is_whole) return text;
-  text += " memory";
-  for (const int value : observed.values) text += " " + std::to_string(value);
-  return text;
-}
 
 Enumerated enumerate(const Program& program, std::size_t states_max) { return Search(program, states_max).run(); }
 

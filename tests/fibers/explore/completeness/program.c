@@ -70,9 +70,27 @@ static void access_atomic(int self, char step, int object, int operand) {
   if (step == 'f') record->values[object] = before + operand;
 }
 
+static struct timespec after(int seconds) {
+  struct timespec time;
+  clock_gettime(CLOCK_REALTIME, &time);
+  time.tv_sec += seconds;
+  return time;
+}
+
+static int lock_before(int mutex, struct timespec deadline) {
+  return pthread_mutex_timedlock(&mutexes[mutex], &deadline) == 0;
+}
+static int wait_before(int condition, struct timespec deadline) {
+  return pthread_cond_timedwait(&conditions[condition], &mutexes[condition], &deadline) == 0;
+}
+static int acquire_before(int semaphore, struct timespec deadline) {
+  return sem_timedwait(&units[semaphore], &deadline) == 0;
+}
+
 // `held`: the mutexes of this thread.
-static void use_mutex(int self, char step, int object, int* held) {
-  if (step == 't' ? held[object] : step != 'l' && !held[object]) end_now('m', self);
+static void use_mutex(int self, char step, int object, int operand, int* held) {
+  const int is_try = step == 't' || step == 'L';
+  if (is_try ? held[object] : step != 'l' && !held[object]) end_now('m', self);
   switch (step) {
     case 'l':
       pthread_mutex_lock(&mutexes[object]);
@@ -86,6 +104,14 @@ static void use_mutex(int self, char step, int object, int* held) {
       held[object] = 0;
       pthread_mutex_unlock(&mutexes[object]);
       if (record->owners[object] == self + 1) record->owners[object] = 0;
+      break;
+    case 'L':
+      held[object] = lock_before(object, after(operand));
+      add_read(self, held[object]);
+      break;
+    case 'W':
+      record->owners[object] = 0;
+      add_read(self, wait_before(object, after(operand)));
       break;
     default: record->owners[object] = 0; pthread_cond_wait(&conditions[object], &mutexes[object]);
   }
@@ -107,6 +133,7 @@ static void execute(int self, char step, int object, int operand, int* created, 
     case 'n': pthread_cond_signal(&conditions[object]); break;
     case 'b': pthread_cond_broadcast(&conditions[object]); break;
     case 'a': sem_wait(&units[object]); break;
+    case 'A': add_read(self, acquire_before(object, after(operand))); break;
     case 'q': add_read(self, sem_trywait(&units[object]) == 0); break;
     case 'r': sem_post(&units[object]); break;
     case 'z': nanosleep(&span, NULL); break;
@@ -114,7 +141,9 @@ static void execute(int self, char step, int object, int operand, int* created, 
     case 'l':
     case 't':
     case 'u':
-    case 'w': use_mutex(self, step, object, held); break;
+    case 'w':
+    case 'L':
+    case 'W': use_mutex(self, step, object, operand, held); break;
     default: access_atomic(self, step, object, operand);
   }
 }

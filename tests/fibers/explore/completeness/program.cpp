@@ -8,7 +8,7 @@
 namespace waitpoint::completeness {
 namespace {
 
-constexpr std::string_view letters = "cjltuwnbaqrgpfxzsek";
+constexpr std::string_view letters = "cjlLtuwWnbaAqrgpfxzsek";
 
 bool is_digit(char letter) { return letter >= '0' && letter <= '9'; }
 std::uint8_t digit(char letter) { return static_cast<std::uint8_t>(letter - '0'); }
@@ -20,7 +20,9 @@ bool is_about_thread(const Instruction& instruction) {
 // True if the object exists: another thread, or one of the objects of its kind.
 bool is_valid(const Instruction& instruction, std::size_t threads) {
   if (is_about_thread(instruction)) return instruction.object > 0 && instruction.object < threads;
-  return instruction.object < objects;
+  const bool is_timed =
+      instruction.step == Step::lock_for || instruction.step == Step::wait_for || instruction.step == Step::acquire_for;
+  return instruction.object < objects && (!is_timed || instruction.operand > 0);
 }
 
 Program without_thread(const Program& program, std::size_t which) {

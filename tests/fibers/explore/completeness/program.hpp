@@ -21,12 +21,15 @@ enum class Step : char {
   create = 'c',       ///< thread `object`, which is created at one place only
   join = 'j',         ///< thread `object`; a misuse unless the thread has created it, and not joined it
   lock = 'l',         ///< mutex `object`
+  lock_for = 'L',     ///< for `operand` instants; reads its success
   try_lock = 't',     ///< reads its success
   unlock = 'u',       ///< a misuse unless the thread holds it
   wait = 'w',         ///< on condition `object`, with mutex `object`; a misuse unless the thread holds that
+  wait_for = 'W',     ///< for `operand` instants; reads 0 if they ran out
   signal = 'n',       ///< one waiter
   broadcast = 'b',    ///< all waiters
   acquire = 'a',      ///< a unit of semaphore `object`
+  acquire_for = 'A',  ///< for `operand` instants; reads its success
   try_acquire = 'q',  ///< reads its success
   release = 'r',      ///< a unit
   load = 'g',         ///< reads atomic `object`

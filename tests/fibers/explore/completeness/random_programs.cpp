@@ -18,6 +18,7 @@ class Maker {
     for (std::uint8_t& units : program_.units) units = static_cast<std::uint8_t>(below(2));
     for (std::uint8_t& most : most_objects_) most = one_in(3) ? 2 : 1;
     while (kinds_.empty()) draw_kinds();
+    has_timeouts_ = one_in(3);
     for (std::size_t i = 0; i < threads; ++i) program_.threads.push_back(make_thread(threads));
     for (std::size_t i = 1; i < threads; ++i) add_creation(i);
   }
@@ -30,6 +31,8 @@ class Maker {
 
   std::uint8_t below(std::uint64_t bound) { return static_cast<std::uint8_t>(draws_.below(bound, drawn_++)); }
   bool one_in(std::uint64_t count) { return below(count) == 0; }
+  bool times_out() { return has_timeouts_ && one_in(2); }
+  std::uint8_t span() { return static_cast<std::uint8_t>(1 + below(2)); }
   std::uint8_t object(Kind kind) { return below(most_objects_[kind]); }
 
   void draw_kinds() {
@@ -59,14 +62,16 @@ class Maker {
         break;
       case tries:
         if (held[which]) break;
-        thread.push_back({Step::try_lock, which, 0});
+        thread.push_back(times_out() ? Instruction{Step::lock_for, which, span()}
+                                     : Instruction{Step::try_lock, which, 0});
         thread.push_back({Step::skip, 0, 1});
         thread.push_back({Step::unlock, which, 0});
         break;
       case conditions: add_condition(thread, which, held); break;
       case semaphores: {
         const Step step = pick({Step::acquire, Step::release, Step::release, Step::try_acquire});
-        thread.push_back({step, which, 0});
+        thread.push_back(step == Step::acquire && times_out() ? Instruction{Step::acquire_for, which, span()}
+                                                              : Instruction{step, which, 0});
         break;
       }
       case atomics: {
@@ -74,7 +79,7 @@ class Maker {
         thread.push_back({step, which, static_cast<std::uint8_t>(1 + below(3))});
         break;
       }
-      case sleeps: thread.push_back({Step::sleep, 0, static_cast<std::uint8_t>(1 + below(2))}); break;
+      case sleeps: thread.push_back({Step::sleep, 0, span()}); break;
       case skips: thread.push_back({Step::skip, 0, static_cast<std::uint8_t>(1 + below(2))}); break;
       case exits: thread.push_back({pick({Step::exit, Step::exit_all}), 0, 0}); break;
     }
@@ -87,7 +92,7 @@ class Maker {
       return;
     }
     if (!held[which]) thread.push_back({Step::lock, which, 0});
-    thread.push_back({Step::wait, which, 0});
+    thread.push_back(times_out() ? Instruction{Step::wait_for, which, span()} : Instruction{Step::wait, which, 0});
     if (!held[which]) thread.push_back({Step::unlock, which, 0});
   }
 
@@ -106,7 +111,7 @@ class Maker {
 
   RandomStream draws_;
   std::uint64_t drawn_ = 0;
-  bool is_small_ = false;
+  bool is_small_ = false, has_timeouts_ = false;
   std::array<std::uint8_t, kinds> most_objects_{};
   std::vector<Kind> kinds_;
   Program program_;
