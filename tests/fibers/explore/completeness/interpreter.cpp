@@ -137,26 +137,33 @@ class Run {
       case Step::acquire_for: read(thread, units_[object].try_acquire_for(std::chrono::seconds(operand))); break;
       case Step::try_acquire: read(thread, units_[object].try_acquire()); break;
       case Step::release: units_[object].release(); break;
+      case Step::sleep: this_thread::sleep_for(std::chrono::seconds(std::max<int>(operand, 1))); break;
+      case Step::exit_all: end("exit", thread);
+      default: access(instruction, thread);
+    }
+  }
+
+  // An atomic.
+  void access(const Instruction& instruction, std::size_t thread) {
+    const auto [step, object, operand] = instruction;
+    int before = 0;
+    switch (step) {
       case Step::load: read(thread, values_[object].load()); break;
       case Step::store:
         values_[object].store(operand);
         write(object, operand);
         break;
-      case Step::add: {
-        const int before = values_[object].fetch_add(operand);
+      case Step::add:
+        before = values_[object].fetch_add(operand);
         read(thread, before);
         write(object, before + operand);
         break;
-      }
       case Step::replace: {
-        int before = 0;
         const bool is_replaced = values_[object].compare_exchange_strong(before, operand);
         read(thread, before);
         if (is_replaced) write(object, operand);
         break;
       }
-      case Step::sleep: this_thread::sleep_for(std::chrono::seconds(std::max<int>(operand, 1))); break;
-      case Step::exit_all: end("exit", thread);
       default: break;
     }
   }
