@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include "core/xml_text.hpp"
+
 namespace waitpoint::tools {
 namespace {
 
@@ -64,21 +66,6 @@ std::string svg_polygon(std::span<const Point> points) {
   std::string text;
   for (const Point p : points) text += (text.empty() ? "M" : "L") + point_text(p);
   return text + "z";
-}
-
-std::string xml_escaped(std::string_view text) {
-  std::string escaped;
-  for (const char c : text) {
-    switch (c) {
-      case '&': escaped += "&amp;"; break;
-      case '<': escaped += "&lt;"; break;
-      case '>': escaped += "&gt;"; break;
-      case '"': escaped += "&quot;"; break;
-      default:
-        if (static_cast<unsigned char>(c) >= 0x20) escaped += c;
-    }
-  }
-  return escaped;
 }
 
 }  // namespace waitpoint::tools

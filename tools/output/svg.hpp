@@ -43,7 +43,5 @@ class Svg {
 std::string svg_number(double value);
 /// The closed polygon through the points, as path data.
 std::string svg_polygon(std::span<const Point> points);
-/// Text with characters reserved in XML escaped, and disallowed ones removed.
-std::string xml_escaped(std::string_view text);
 
 }  // namespace waitpoint::tools

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/xml_text.hpp"
 #include "tests/tools/sample_result.hpp"
 #include "tests/tools/xml_check.hpp"
 #include "tools/output/svg.hpp"
