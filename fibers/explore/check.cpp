@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <stdexcept>
+#include "fibers/explore/check.hpp"
 
-#include "fibers/explore/explore.hpp"
+#include <stdexcept>
+#include <string>
+
 #include "fibers/sync/blocking.hpp"
+#include "fibers/sync/simulation.hpp"
 
 namespace waitpoint {
 

@@ -21,6 +21,7 @@
 #include <functional>
 
 #include "fibers/explore/body.hpp"
+#include "fibers/explore/check.hpp"
 #include "fibers/explore/explore_options.hpp"
 #include "fibers/explore/explore_report.hpp"
 #ifdef GTEST_TEST
@@ -44,9 +45,5 @@ static inline ExploreReport explore(std::function<void()> body, const ExploreOpt
   return explore_with(nullptr, std::move(body), options);
 #endif
 }
-
-/// Within a task: fails the run here if `holds` is false.
-void check(bool holds, const char* message = "a check failed", const char* file = __builtin_FILE(),
-           int line = __builtin_LINE());
 
 }  // namespace waitpoint

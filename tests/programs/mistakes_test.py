@@ -238,6 +238,21 @@ class LostLetter(Installed):
             self.assertIn(again.returncode, (-int(signal), 128 + int(signal)), again.stderr)
 
 
+class SharedQueue(Installed):
+    """A user's container is compared with a sequential model."""
+
+    def test_is_no_queue_and_the_mended_one_is(self):
+        program = self.compile("shared_queue", *flags(self.prefix, "--cflags", "--libs", "waitpoint"), "-lgtest", "-lgtest_main")
+        done = subprocess.run([program], capture_output=True, text=True, env={**os.environ, "GTEST_COLOR": "no"})
+        self.assertEqual(done.returncode, 1, done.stdout)
+        self.assertIn("[  FAILED  ] SharedQueue.IsAQueue", done.stdout)
+        self.assertIn("[       OK ] MendedQueue.IsAQueue", done.stdout)
+        table = re.search(r"(?s)\nplace .*?\^ end of the prefix\n", done.stdout)
+        self.assertIsNotNone(table, done.stdout)
+        document = (HERE.parents[1] / "docs/explore.md").read_text()
+        self.assertIn(table[0], document, "docs/explore.md shows another table")
+
+
 class SharedCounter(Installed):
     """The installed library is not instrumented; a sanitizer in the user's program sees tasks as threads."""
 

@@ -3,6 +3,7 @@
 #include <mutex>
 #include <shared_mutex>
 
+#include "fibers/explore/linearizable.hpp"
 #include "fibers/io/mailbox.hpp"
 #include "fibers/sync/atomic.hpp"
 #include "fibers/sync/barrier.hpp"
@@ -17,6 +18,7 @@
 #include "fibers/sync/signals.hpp"
 #include "fibers/sync/thread.hpp"
 #include "fibers/sync/timer.hpp"
+#include "tests/fibers/explore/linearizability/models.hpp"
 #include "tests/fibers/explore/races/programs.hpp"
 
 namespace waitpoint::races {
@@ -295,6 +297,27 @@ constexpr Program programs[] = {
 };
 
 }  // namespace
+
+void write_and_read(bool records) {
+  atomic<int> value{0};
+  History<models::Register> history;
+  const auto write = [&](int written) {
+    if (records)
+      history.record({"write", written}, [&] { value.store(written); });
+    else
+      value.store(written);
+  };
+  const auto read = [&] {
+    if (records)
+      history.record({"read"}, [&] { return value.load(); });
+    else
+      (void)value.load();
+  };
+  thread one([&] { write(1), read(); }), two([&] { write(2), read(); });
+  one.join();
+  two.join();
+  check(linearizable(history, models::Register()));
+}
 
 std::span<const Program> ordered_programs() { return programs; }
 

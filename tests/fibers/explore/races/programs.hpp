@@ -17,11 +17,12 @@ std::span<const Program> ordered_programs();  ///< ordered by primitives
 std::span<const Program> atomic_programs();   ///< ordered by the standard's atomics
 
 // Used by separate tests.
-void count_twice_without_lock();  ///< check() fails if an increment is lost
-void publish_in_two_steps();      ///< check() fails if a reader runs in between
-void wait_for_nobody();           ///< spins on an atomic that is never set
-void two_heaps();                 ///< accesses new memory from two threads, in order
-extern int planted;               ///< a global
-void write_planted();             ///< written by two threads, named "ada" and "bob"
+void count_twice_without_lock();    ///< check() fails if an increment is lost
+void publish_in_two_steps();        ///< check() fails if a reader runs in between
+void wait_for_nobody();             ///< spins on an atomic that is never set
+void two_heaps();                   ///< accesses new memory from two threads, in order
+void write_and_read(bool records);  ///< two tasks, one atomic; check() fails if the recorded history is wrong
+extern int planted;                 ///< a global
+void write_planted();               ///< written by two threads, named "ada" and "bob"
 
 }  // namespace waitpoint::races

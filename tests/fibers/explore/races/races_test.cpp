@@ -117,6 +117,23 @@ TEST(MemoryAccesses, DependOnNoAddress) {
   EXPECT_EQ(first.events, second.events);
 }
 
+TEST(MemoryAccesses, OfAHistorysRecordAreNeitherSwitchPointsNorRaces) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    const auto run = [seed](bool records) {
+      SimulationOptions options;
+      options.order = kernel::Order::seeded;
+      options.seed = seed;
+      return simulate([records] { write_and_read(records); }, options);
+    };
+    const Report with = run(true);
+    EXPECT_TRUE(with.passed) << with;
+    EXPECT_FALSE(any_found()) << text_of(found());
+    const Report without = run(false);
+    EXPECT_EQ(with.events, without.events);
+    EXPECT_EQ(with.digest.value(), without.digest.value());
+  }
+}
+
 TEST(MemoryAccesses, OfATaskThatSpinsGiveOthersATurn) {
   const Report report = simulate(wait_for_nobody);
   EXPECT_EQ(report.end, RunEnd::no_progress) << report;
