@@ -65,7 +65,6 @@ Outcome Body::run(Strategy& strategy, const Played& played) {
     outcome.failure = "not finished at " + to_string(until_) + " s of virtual time";
   if (outcome.failure.empty() && sync::has_started_outside_of_virtual_time())
     outcome.failure = sync::started_outside_of_virtual_time;
-  if (fails_on_races_ && outcome.failure.empty() && races::any_found()) outcome.failure = describe_races(places_);
   outcome.digest = simulation_.digest().value();
   outcome.end_time = simulation_.global_time();
   outcome.events = simulation_.scheduler().events();
@@ -73,6 +72,8 @@ Outcome Body::run(Strategy& strategy, const Played& played) {
   outcome.abandoned = simulation_.abandoned();
   if (checks_ != nullptr)
     if (const std::string failures = checks_->end(); outcome.failure.empty()) outcome.failure = failures;
+  outcome.only_raced = fails_on_races_ && outcome.failure.empty() && races::any_found();
+  if (outcome.only_raced) outcome.failure = describe_races(places_);
   return outcome;
 }
 

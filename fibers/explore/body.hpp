@@ -31,8 +31,9 @@ void on_tests_finished();
 /// The result of a schedule.
 struct Outcome {
   RunEnd end = RunEnd::ended;
-  std::string failure;   ///< the report, whose first line is the failure; empty if it passed
-  bool was_cut = false;  ///< abandoned, since nothing new could follow; counts as passed
+  std::string failure;      ///< the report, whose first line is the failure; empty if it passed
+  bool only_raced = false;  ///< the failure is a data race: otherwise it passed
+  bool was_cut = false;     ///< abandoned, since nothing new could follow; counts as passed
   std::uint64_t digest = 0;
   Time end_time;
   std::uint64_t events = 0;

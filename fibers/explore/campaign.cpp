@@ -41,19 +41,22 @@ Campaign::Campaign(ExternalChecks* checks, std::function<void()> body, const Exp
     : checks_(checks),
       options_(options),
       call_(call),
+      command_(command_line(checks)),
       body_(std::move(body), checks, options.until, options.steps_max),
       supervisor_({.explored = -1,
                    .token = first_token(options, call),
                    .replay = "replay: WAITPOINT_REPLAY=",
-                   .after = " " + command_line(checks),
+                   .after = " " + command_,
                    .run = [this](const Token& token) { return number_of(play(token)); },
                    .limit_s = options.schedule_limit_s}) {
-  if (!options.races) body_.ignore_races();
+  if (options.races == Races::ignore) body_.ignore_races();
 }
 
 ExploreReport Campaign::run() {
   const Clock::time_point start = Clock::now();
   if (begins_well()) search();
+  if (report_.text.empty() && first_race_) tell(*first_race_);
+  report_.races = races_.texts();
   report_.passed = report_.text.empty();
   report_.distinct = seen_.size();
   report_.seconds = std::chrono::duration<double>(Clock::now() - start).count();
@@ -68,14 +71,30 @@ bool Campaign::begins_well() {
   seen_.insert(first.digest);
   report_.schedules = 1;
   if (!first.passed()) {
-    tell({{body_.explorer().schedule(), first}, token_of({{}, first}), "the default schedule", true});
-    return false;
+    const Failure failure{body_.explorer().schedule(), first};
+    const Found found{failure, token_of(failure), "the default schedule", true};
+    if (!goes_on_after(found)) {
+      tell(found);
+      return false;
+    }
   }
   usual_ = take_timeline(body_, {});
   report_.text = difference_to_the_first();
   look_for_leaks();
   supervisor_.pause();
   return report_.text.empty();
+}
+
+// Notes the races of the failed run. True if the campaign goes on.
+bool Campaign::goes_on_after(const Found& found) {
+  if (options_.races != Races::report) return false;
+  races_.take(found.which, replay_line(found.token));
+  if (!found.failure.outcome.only_raced) return false;
+  if (!first_race_) {
+    first_race_ = found;
+    report_.failed_at = found.token.number;
+  }
+  return true;
 }
 
 // The heap bytes that the default schedule allocates and does not free: the average of several runs, after others that
@@ -120,12 +139,13 @@ bool Campaign::fails(Strategy& strategy, std::uint64_t number) {
   ++report_.schedules;
   if (!outcome.was_cut) seen_.insert(outcome.digest);
   if (outcome.passed()) return false;
-  Failure failure{body_.explorer().schedule(), outcome};
+  const Found found{{body_.explorer().schedule(), outcome},
+                    {call_, token_digest(outcome.digest), options_.strategy, options_.seed, number, {}},
+                    "schedule " + std::to_string(number) + " of strategy " + options_.strategy + ", seed " +
+                        std::to_string(options_.seed)};
+  if (goes_on_after(found)) return false;
   report_.failed_at = number;
-  Token token{call_, token_digest(outcome.digest), options_.strategy, options_.seed, number, {}};
-  tell({std::move(failure), std::move(token),
-        "schedule " + std::to_string(number) + " of strategy " + options_.strategy + ", seed " +
-            std::to_string(options_.seed)});
+  tell(found);
   return true;
 }
 
@@ -170,6 +190,10 @@ Token Campaign::token_of(const Failure& failure) const {
   return {call_, token_digest(failure.outcome.digest), "", 0, 0, failure.schedule.deviations()};
 }
 
+std::string Campaign::replay_line(const Token& token) const {
+  return "replay: WAITPOINT_REPLAY=" + to_text(token) + " " + command_;
+}
+
 std::string Campaign::replay_by(const Token& token, const Failure& failure) {
   return to_text_with(token, take_trail(body_, failure.schedule, log_spacing_for(failure.outcome.events)));
 }
@@ -190,12 +214,16 @@ void Campaign::report_irreproducible(const Found& found) {
       "schedule into the next, or reads a clock or random numbers that are not simulated; there is no replay line";
 }
 
+// A failure of another kind is analysed without regard to races, which may be in each run. Races that are not part of
+// the failure come last.
 void Campaign::tell(const Found& found) {
+  if (!found.failure.outcome.only_raced) body_.ignore_races();
   if (!found.is_default && !is_reproducible(found.failure)) return report_irreproducible(found);
   Failure least = found.failure;
   supervisor_.begin_minimizing(found.token.number, found.failure.outcome.failure);
   if (options_.minimize) least = minimize(body_, found.failure, {runs_to_minimize});
   least = with_places(body_, least);
+  const std::vector<races::Race> told = least.outcome.only_raced ? races::found() : std::vector<races::Race>();
   // The runs in between may have leaked state, too.
   if (!found.is_default && !is_reproducible(least)) return report_irreproducible(found);
   report_.replay = replay_by(token_of(least), least);
@@ -217,7 +245,7 @@ void Campaign::tell(const Found& found) {
   if (!is_shortest && !found.token.strategy.empty() && least.schedule.switches != found.failure.schedule.switches)
     text += "too many switches for one line: the replay line repeats the run as it was found, with " +
             std::to_string(found.failure.schedule.switches.size()) + "\n";
-  text += "replay: WAITPOINT_REPLAY=" + report_.replay + " " + command_line(checks_);
+  text += "replay: WAITPOINT_REPLAY=" + report_.replay + " " + command_ + races_.besides(told);
 }
 
 // For a written-out schedule no other is run, so that a debugger stops in this one only; but shared memory must be

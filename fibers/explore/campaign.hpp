@@ -2,12 +2,14 @@
 // One call of explore(): runs schedules of one body until one fails or a limit is reached.
 #pragma once
 
+#include <optional>
 #include <unordered_set>
 
 #include "fibers/explore/body.hpp"
 #include "fibers/explore/explore_options.hpp"
 #include "fibers/explore/explore_report.hpp"
 #include "fibers/explore/minimize.hpp"
+#include "fibers/explore/race_findings.hpp"
 #include "fibers/explore/report/timeline.hpp"
 #include "fibers/explore/schedules/token.hpp"
 #include "fibers/explore/strategies/profile.hpp"
@@ -33,6 +35,7 @@ class Campaign {
   };
 
   bool begins_well();
+  bool goes_on_after(const Found& found);
   void search();
   void look_for_leaks();
   bool fails(Strategy& strategy, std::uint64_t number);
@@ -45,17 +48,21 @@ class Campaign {
   std::string event_at(const Token& token, std::uint32_t decision);
   Token token_of(const Failure& failure) const;
   bool is_reproducible(const Failure& failure);
+  std::string replay_line(const Token& token) const;
   std::string replay_by(const Token& token, const Failure& failure);
 
   ExternalChecks* checks_;
   ExploreOptions options_;
   std::uint32_t call_;
+  const std::string command_;  // that reruns this program
   Body body_;
   Profile profile_;
   Supervisor supervisor_;
   std::uint64_t usual_digest_ = 0;  // of the default schedule
   Timeline usual_;                  // its first run
   std::unordered_set<std::uint64_t> seen_;
+  RaceFindings races_;
+  std::optional<Found> first_race_;
   ExploreReport report_;
 };
 

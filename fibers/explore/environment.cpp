@@ -18,8 +18,8 @@ namespace {
 
 constexpr const char *strategy_name = "WAITPOINT_STRATEGY", *seed_name = "WAITPOINT_SEED",
                      *iterations_name = "WAITPOINT_ITERATIONS", *time_limit_name = "WAITPOINT_TIME_LIMIT",
-                     *schedule_limit_name = "WAITPOINT_SCHEDULE_LIMIT", *replay_name = "WAITPOINT_REPLAY",
-                     *trace_name = "WAITPOINT_TRACE";
+                     *schedule_limit_name = "WAITPOINT_SCHEDULE_LIMIT", *races_name = "WAITPOINT_RACES",
+                     *replay_name = "WAITPOINT_REPLAY", *trace_name = "WAITPOINT_TRACE";
 
 std::string variable(const char* name) {
   const char* value = std::getenv(name);
@@ -83,6 +83,11 @@ ExploreOptions with_environment(ExploreOptions options) {
   take(iterations_name, options.iterations, Zero::refused, "a positive whole number");
   take(time_limit_name, options.time_limit_s, Zero::refused, "a positive number of seconds, or the variable unset");
   take(schedule_limit_name, options.schedule_limit_s, Zero::allowed, "a whole number of seconds, 0 for none");
+  if (const std::string races = variable(races_name); !races.empty()) {
+    const std::optional<Races> meant = races_named(races);
+    if (!meant) throw BadInput(races_name, std::string("expected ") + races_words + ", found '" + races + "'");
+    options.races = *meant;
+  }
   check_can_be_written(trace_name);
   if (const std::string replay = variable(replay_name); !replay.empty()) {
     options.replay = replay;
@@ -92,8 +97,8 @@ ExploreOptions with_environment(ExploreOptions options) {
 }
 
 void refuse_environment(const BadInput& input) {
-  for (const char* name :
-       {strategy_name, seed_name, iterations_name, time_limit_name, schedule_limit_name, replay_name, trace_name})
+  for (const char* name : {strategy_name, seed_name, iterations_name, time_limit_name, schedule_limit_name, races_name,
+                           replay_name, trace_name})
     if (!variable(name).empty()) refuse(input.what());
 }
 

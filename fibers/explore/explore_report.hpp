@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <iosfwd>
 #include <string>
+#include <vector>
 
 #include "fibers/explore/strategies/schedule.hpp"
 
@@ -23,6 +24,8 @@ struct ExploreReport {
   std::uint64_t failed_at = 0;     ///< number of the failing schedule
   exploration::Schedule schedule;  ///< the smallest failing schedule found
   std::string replay;              ///< token of the failure
+  /// With Races::report: the distinct data races, each with its schedule; those of a failed report are in `text`, too.
+  std::vector<std::string> races;
 };
 
 std::ostream& operator<<(std::ostream& out, const ExploreReport& report);

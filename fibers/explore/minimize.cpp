@@ -120,7 +120,7 @@ class Minimizer {
 
 bool is_same_failure(const Outcome& a, const Outcome& b) {
   if (a.passed() || b.passed()) return false;
-  if (a.end != b.end) return false;
+  if (a.end != b.end || a.only_raced != b.only_raced) return false;
   // Reports of deadlocks and of no progress name places and times, which differ from schedule to schedule.
   if (a.end != RunEnd::ended) return true;
   return words_of(a.failure) == words_of(b.failure);

@@ -283,12 +283,13 @@ class SharedCounter(Installed):
 class RacyCounter(Installed):
     """Races are found in a program compiled and linked by one command, with the flags of the library's own compiler."""
 
-    def outcome(self, *arguments, package="waitpoint-races", compiler=None):
+    def outcome(self, *arguments, package="waitpoint-races", compiler=None, races="report"):
         if not list(self.prefix.rglob(f"{package}.pc")):
             self.skipTest(f"the library waitpoint-races is not built, or its compiler is that of {package}")
         needed = flags(self.prefix, "--cflags", "--libs", package)
         program = self.compile("racy_counter", *needed, program=f"racy_counter-{package}", compiler=compiler)
-        done = subprocess.run([program, *arguments], capture_output=True, text=True, timeout=60)
+        done = subprocess.run([program, *arguments], capture_output=True, text=True, timeout=60,
+                              env={**os.environ, "WAITPOINT_RACES": races})
         return done.returncode, done.stdout + done.stderr
 
     def test_a_race_is_two_accesses_with_their_calls(self):
@@ -296,6 +297,14 @@ class RacyCounter(Installed):
         self.assertEqual(status, 1, output)
         self.assertRegex(output, r"data race at 0x\w+")
         self.assertRegex(output, r"(?s)first: .* by task one#1.*racy_counter\.cpp:\d+.*second: .* by task two#2.*racy_counter\.cpp:\d+")
+        self.assertRegex(output, r"waitpoint: the default schedule: data race of the write at .*racy_counter\.cpp:\d+ and the ")
+        self.assertRegex(output, "schedule \\d+ of .* failed: a check failed in task main of .*: an increment is lost\n")
+        self.assertIn("also found, by the default schedule: data race at", output)
+        self.assertEqual(output.count("data race at"), 1, output)
+
+    def test_the_first_one_may_end_the_campaign(self):
+        status, output = self.outcome("unlocked", races="fail")
+        self.assertEqual(status, 1, output)
         self.assertIn("the default schedule failed: a data race\n", output)
         self.assertEqual(output.count("data race at"), 1, output)
 

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <ostream>
 #include <set>
-#include <tuple>
 
 #include "fibers/explore/races/located_race.hpp"
 
@@ -13,21 +12,23 @@ namespace {
 
 const Runtime* runtime() { return &waitpoint_races_runtime == nullptr ? nullptr : waitpoint_races_runtime(); }
 
+// The source line of an access, independent of the function; its address if no line is known.
+std::string line_of(const Side& side, const std::vector<std::string>& calls) {
+  const std::string before = " at ";
+  const std::size_t line = calls.empty() ? std::string::npos : calls.front().rfind(before);
+  return line != std::string::npos ? calls.front().substr(line + before.size()) : std::to_string(side.access.place);
+}
+
 Access access_of(const Side& side, std::vector<std::string> calls) {
   std::optional<std::uint32_t> number;
   if (side.record != 0) number = side.record - 1;
-  return {side.task,        number,          side.access.event, side.access.writes(), side.access.is_atomic(),
-          side.access.size, std::move(calls)};
+  std::string line = line_of(side, calls);
+  return {side.task,        number,           side.access.event, side.access.writes(), side.access.is_atomic(),
+          side.access.size, std::move(calls), std::move(line)};
 }
 
-// The identity of a race in reports: a variable and two lines. `++n` is a read and a write.
-using Told = std::tuple<std::uint64_t, std::string, std::string>;
-
-// The source line of an access, independent of the function; its address if no line is known.
-std::string line_of(const Side& side, const std::vector<std::string>& calls) {
-  const std::size_t line = calls.empty() ? std::string::npos : calls.front().rfind(" at ");
-  return line != std::string::npos ? calls.front().substr(line) : std::to_string(side.access.place);
-}
+// The identity of a race in the report of a run: a variable and two lines. `++n` is a read and a write.
+using Told = std::pair<const void*, Lines>;
 
 void write(std::ostream& out, const char* which, const Access& access) {
   out << "  " << which << ": " << (access.atomic ? "atomic " : "") << (access.writes ? "write" : "read") << " of "
@@ -76,11 +77,9 @@ std::vector<Race> in_words(std::span<const LocatedRace> races) {
   std::set<Told> known;
   for (std::size_t i = 0; i < races.size(); ++i) {
     const FoundRace& found = races[i].found;
-    const std::string first = line_of(found.first, calls[2 * i]), second = line_of(found.second, calls[2 * i + 1]);
-    if (!known.insert({found.address, std::min(first, second), std::max(first, second)}).second) continue;
-    told.push_back({access_of(found.first, std::move(calls[2 * i])),
-                    access_of(found.second, std::move(calls[2 * i + 1])), reinterpret_cast<const void*>(found.address),
-                    races[i].memory});
+    Race race{access_of(found.first, std::move(calls[2 * i])), access_of(found.second, std::move(calls[2 * i + 1])),
+              reinterpret_cast<const void*>(found.address), races[i].memory};
+    if (known.insert({race.address, race.lines()}).second) told.push_back(std::move(race));
   }
   return told;
 }
@@ -91,6 +90,14 @@ void learn(bool on) {
 
 void forget_learned() {
   if (present()) runtime()->forget_learned();
+}
+
+std::string headline(const Race& race) {
+  const auto words = [](const Access& access) {
+    return std::string(access.atomic ? "atomic " : "") + (access.writes ? "write" : "read") + " at " + access.line;
+  };
+  std::string text = "data race of the " + words(race.first) + " and the " + words(race.second);
+  return race.memory.empty() ? text : text + " (" + race.memory + ")";
 }
 
 std::ostream& operator<<(std::ostream& out, const Race& race) {

@@ -10,11 +10,13 @@
 // points, like the primitives.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <iosfwd>
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace waitpoint::races {
@@ -30,14 +32,23 @@ struct Access {
   bool atomic = false;
   std::size_t size = 0;            ///< bytes; 63 is "63 or more"
   std::vector<std::string> calls;  ///< "function at file:line", innermost first; of the user's code
+  std::string line;                ///< "file:line" of the innermost one; else the address of the code
 };
+
+/// The lines of a race's accesses, the lesser one first.
+using Lines = std::pair<std::string, std::string>;
 
 struct Race {
   Access first;  ///< in the order of the run
   Access second;
   const void* address = nullptr;  ///< the lowest byte common to both
   std::string memory;             ///< its location: "global", "the stack of task NAME"; empty if unknown
+
+  Lines lines() const { return std::minmax(first.line, second.line); }
 };
+
+/// "data race of the write at a.cpp:12 and the read at b.cpp:7 (global)".
+std::string headline(const Race& race);
 
 std::ostream& operator<<(std::ostream& out, const Race& race);
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "fibers/explore/explore.hpp"
+#include "fibers/sync/atomic.hpp"
 #include "fibers/sync/mutex.hpp"
 #include "fibers/sync/thread.hpp"
 #include "tests/fibers/explore/races/programs.hpp"
@@ -279,6 +280,19 @@ void two_heaps() {
 }
 
 int planted = 0;
+void race_and_lose() {
+  auto begun = std::make_unique<int>(0), done = std::make_unique<int>(0);
+  atomic<int> value{0};
+  const auto increment = [&] {
+    *begun = 1;
+    const int read = value.load();
+    value.store(read + 1);
+    *done = 1;
+  };
+  together(increment, increment);
+  check(value.load() == 2, "an update is lost");
+}
+
 void write_planted() {
   thread ada({.name = "ada"}, [] { planted = 1; }), bob({.name = "bob"}, [] { planted = 2; });
   ada.join();

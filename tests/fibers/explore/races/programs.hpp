@@ -22,6 +22,7 @@ void publish_in_two_steps();        ///< check() fails if a reader runs in betwe
 void wait_for_nobody();             ///< spins on an atomic that is never set
 void two_heaps();                   ///< accesses new memory from two threads, in order
 void write_and_read(bool records);  ///< two tasks, one atomic; check() fails if the recorded history is wrong
+void race_and_lose();               ///< two races in each order; check() fails if an update of an atomic is lost
 extern int planted;                 ///< a global
 void write_planted();               ///< written by two threads, named "ada" and "bob"
 

@@ -89,7 +89,7 @@ ExploreReport explored(void (*body)(), std::uint64_t iterations) {
   ExploreOptions options;
   options.strategy = "random";
   options.iterations = iterations;
-  options.races = false;  // only their consequences
+  options.races = Races::ignore;  // only their consequences
   return explore_with(nullptr, body, options);
 }
 
