@@ -13,15 +13,15 @@ namespace {
 
 using namespace std::chrono_literals;
 
-struct Outcome {
+struct Result {
   std::string digest;
   std::uint64_t events = 0;
   Time end_time;
-  friend bool operator==(const Outcome&, const Outcome&) = default;
+  friend bool operator==(const Result&, const Result&) = default;
 };
 
 // In windows of `width`; 0: in one window.
-Outcome run(SimulationOptions options, const MixedProgram& program, bool fast_paths, Duration width = {}) {
+Result run(SimulationOptions options, const MixedProgram& program, bool fast_paths, Duration width = {}) {
   options.fast_paths = fast_paths;
   Simulation simulation(options);
   spawn_mixed_program(simulation, program);
@@ -35,7 +35,7 @@ TEST(FastPaths, RandomProgramsRunAsOnThePlainPath) {
   for (std::uint64_t number = 0; number <= 8; ++number)
     for (std::uint64_t seed = 1; seed <= 40; ++seed) {
       const MixedProgram program{.seed = seed, .robots = 1 + static_cast<int>(seed % 4), .with_timers = seed % 3 != 0};
-      const Outcome plain = run(order_number(number), program, false);
+      const Result plain = run(order_number(number), program, false);
       EXPECT_GT(plain.events, 100u);
       EXPECT_EQ(run(order_number(number), program, true), plain) << "order " << number << ", program " << seed;
     }
@@ -44,13 +44,13 @@ TEST(FastPaths, RandomProgramsRunAsOnThePlainPath) {
 TEST(FastPaths, WindowsMakeNoDifferenceBetweenThem) {
   for (std::uint64_t number = 0; number <= 2; ++number)
     for (const auto width : {10us, 77us, 3333us}) {
-      const Outcome plain = run(order_number(number), {}, false, width);
+      const Result plain = run(order_number(number), {}, false, width);
       EXPECT_EQ(run(order_number(number), {}, true, width), plain) << "order " << number << ", " << width.count();
     }
 }
 
 // A task that spins at an instant, with others at the same instant: the bound on turns is the same.
-Outcome run_spinning(bool fast_paths) {
+Result run_spinning(bool fast_paths) {
   SimulationOptions options;
   options.fast_paths = fast_paths;
   const Report report = simulate(
