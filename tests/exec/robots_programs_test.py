@@ -198,6 +198,11 @@ class Robot(unittest.TestCase):
         self.assertRegex(run.stdout, r"count_in_upper \(\) at \S+/upper.cpp:\d+\n(.*\n)*.* main \(.*\) at \S+/linked.cpp:\d+\n",
                          run.stderr)
 
+    def test_each_run_of_a_process_has_fresh_copies(self):
+        run = office("run", "--until", "0.1", "--check", programs=f"[{program('a', 'again.so')}]")
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertEqual(run.stdout.count("begun 1 and 1 times\n"), 3, run.stdout)
+
     def test_they_share_the_runtime_of_openmp(self):
         programs = ", ".join(program(name, "sum.so", name) for name in ("a", "b"))
         run = office("run", "--until", "0.1", programs=f"[{programs}]")

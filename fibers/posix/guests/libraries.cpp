@@ -59,15 +59,20 @@ namespace waitpoint::posix {
 namespace {
 
 // The calls meanwhile are not the guest's.
-const ObjectCopy* copy_for(Member& member, const char* name, int mode) {
+ObjectCopy* copy_for(Member& member, const char* name, int mode) {
   const InKernel within;
-  if (const ObjectCopy* const copy = find_copy(member.image, name); copy != nullptr) return copy;
+  if (ObjectCopy* const copy = find_copy(member.image, name); copy != nullptr) return copy;
   return (mode & RTLD_NOLOAD) != 0 ? nullptr : open_library(member.image, name, mode & ~RTLD_LAZY);
 }
 
-void* handle_of(const ObjectCopy& copy, int mode) {
+void* handle_of(ObjectCopy& copy, int mode) {
   const InKernel within;
-  return WAITPOINT_NEXT(dlopen)(copy.path.text, mode);
+  return open_copy(copy, mode);
+}
+
+bool closes_copy(void* handle) {
+  const InKernel within;
+  return close_copy(this_member().image, handle);
 }
 
 void tell_file(const void* address, Dl_info& information) {
@@ -91,7 +96,7 @@ extern "C" {
   const bool is_relative = name != nullptr && name[0] != '/' && std::strchr(name, '/') != nullptr;
   if (is_relative && realpath(name, whole) != nullptr) name = whole;
   const ObjectCopy* const before = member.image.last;
-  const ObjectCopy* const copy = copy_for(member, name, mode);
+  ObjectCopy* const copy = copy_for(member, name, mode);
   if (copy == nullptr) return nullptr;
   call_constructors(member.image, before, member.argc, member.argv);
   return handle_of(*copy, mode);
@@ -100,6 +105,10 @@ extern "C" {
 [[gnu::visibility("hidden"), gnu::used]] void* waitpoint_own_dlopen() {
   return reinterpret_cast<void*>(WAITPOINT_NEXT(dlopen));
 }
+}
+
+WAITPOINT_INTERPOSED int dlclose(void* handle) noexcept {
+  return runs_in_member() && closes_copy(handle) ? 0 : WAITPOINT_NEXT(dlclose)(handle);
 }
 
 WAITPOINT_INTERPOSED int dladdr(const void* address, Dl_info* information) noexcept {

@@ -14,9 +14,8 @@
 #include "fibers/posix/program/program.hpp"
 #include "fibers/posix/signals/signals.hpp"
 #include "fibers/posix/threads/thread.hpp"
+#include "fibers/posix/threads/variables.hpp"
 #include "fibers/posix/timers/program_timers.hpp"
-
-extern "C" void __call_tls_dtors();  // of the C library
 
 namespace waitpoint::posix {
 
@@ -95,7 +94,7 @@ void exit_member(int status) {
   // Only the first thread that exits calls the handlers; no thread waits for the others.
   if (member.exiting) end_running_thread();
   member.exiting = true;
-  __call_tls_dtors();
+  destroy_variables();
   call_handlers(member);
   std::fflush(nullptr);
   end_member(status);

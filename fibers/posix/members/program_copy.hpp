@@ -19,6 +19,7 @@ struct ObjectCopy {
   ProgramParts parts;
   char* base = nullptr;          ///< its load address
   void* handle = nullptr;        ///< of the dynamic linker: of the program, and of libraries that it has opened
+  unsigned opens = 0;            ///< references by that handle
   ObjectCopy* before = nullptr;  ///< the one that is initialised before it
 };
 

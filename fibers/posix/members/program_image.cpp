@@ -69,6 +69,7 @@ void finish(const ObjectCopy& copy) {
 // Loads the copies up to the one before `end`, of which the last one leads to the others.
 bool load_copies(ProgramImage& image, ObjectCopy& last, const ObjectCopy* end, int mode) {
   last.handle = dlopen(last.path.text, mode | RTLD_NOW | RTLD_DEEPBIND);
+  if (last.handle != nullptr) last.opens = 1;
   const link_map* map = nullptr;
   if (last.handle == nullptr || dlinfo(last.handle, RTLD_DI_LINKMAP, &map) != 0) return false;
   // Its libraries follow it in the dynamic linker's list.
@@ -80,6 +81,15 @@ bool load_copies(ProgramImage& image, ObjectCopy& last, const ObjectCopy* end, i
   for (const ObjectCopy* copy = &last; copy != end; copy = copy->before)
     redirect_environ(copy->base, copy->parts, &image.environment.variables);
   return true;
+}
+
+// One that stays loaded keeps its descriptor: its path must not become another's.
+void close_for_ever(ObjectCopy& copy) {
+  for (; copy.opens > 0; --copy.opens) dlclose(copy.handle);
+  void* const handle = dlopen(copy.path.text, RTLD_LAZY | RTLD_NOLOAD);
+  if (handle == nullptr) return;
+  dlclose(handle);
+  copy.descriptor = -1;
 }
 
 bool are_one_file(const char* one, const char* other) {
@@ -109,8 +119,7 @@ bool load(ProgramImage& image, const char* file, LoadError& error) {
 }
 
 void unload(ProgramImage& image) {
-  for (const ObjectCopy* copy = image.last; copy != nullptr; copy = copy->before)
-    if (copy->handle != nullptr) dlclose(copy->handle);
+  for (ObjectCopy* copy = image.last; copy != nullptr; copy = copy->before) close_for_ever(*copy);
   forget_copies(image.last);
   image.environment.forget();
   image = {};
@@ -124,15 +133,15 @@ int call_main(const ProgramImage& image, int argc, char** argv) {
   return at<Main>(*image.program, image.program->parts.main)(argc, argv, image.environment.variables);
 }
 
-const ObjectCopy* find_copy(const ProgramImage& image, const char* name) {
+ObjectCopy* find_copy(const ProgramImage& image, const char* name) {
   if (name == nullptr) return image.program;
   const bool is_path = std::strchr(name, '/') != nullptr;
-  for (const ObjectCopy* copy = image.last; copy != nullptr; copy = copy->before)
+  for (ObjectCopy* copy = image.last; copy != nullptr; copy = copy->before)
     if (std::strcmp(copy->name, name) == 0 || (is_path && are_one_file(copy->file, name))) return copy;
   return nullptr;
 }
 
-const ObjectCopy* open_library(ProgramImage& image, const char* name, int mode) {
+ObjectCopy* open_library(ProgramImage& image, const char* name, int mode) {
   LinkedLibraries::Path file;
   if (is_shared_by_programs(name)) return nullptr;
   if (std::strchr(name, '/') == nullptr && !LinkedLibraries(image.program->file, name).find(name, file)) return nullptr;
@@ -141,9 +150,29 @@ const ObjectCopy* open_library(ProgramImage& image, const char* name, int mode) 
   ObjectCopy* const opened =
       add_copies(before, *image.program, std::strchr(name, '/') == nullptr ? file : name, name, ignored);
   if (opened == nullptr) return nullptr;
-  if (load_copies(image, *opened, before, mode)) return image.last = opened;
+  if (load_copies(image, *opened, before, mode & ~RTLD_NODELETE)) return image.last = opened;
   forget_copies(opened, before);
   return nullptr;
+}
+
+void* open_copy(ObjectCopy& copy, int mode) {
+  // One reference more than the program's.
+  if (copy.opens == 0) {
+    copy.handle = dlopen(copy.path.text, RTLD_LAZY);
+    if (copy.handle == nullptr) return nullptr;
+    copy.opens = 1;
+  }
+  void* const handle = dlopen(copy.path.text, mode & ~RTLD_NODELETE);
+  if (handle != nullptr) ++copy.opens;
+  return handle;
+}
+
+bool close_copy(const ProgramImage& image, void* handle) {
+  ObjectCopy* copy = image.last;
+  while (copy != nullptr && (copy->opens == 0 || copy->handle != handle)) copy = copy->before;
+  if (copy == nullptr) return false;
+  if (copy->opens > 1 && dlclose(handle) == 0) --copy->opens;
+  return true;
 }
 
 void call_constructors(const ProgramImage& image, const ObjectCopy* before, int argc, char** argv) {

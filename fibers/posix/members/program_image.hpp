@@ -34,10 +34,14 @@ void unload(ProgramImage& image);
 int call_main(const ProgramImage& image, int argc, char** argv);
 
 /// The copy of the library that others are linked to by this name, or that has this file. Null: the program.
-const ObjectCopy* find_copy(const ProgramImage& image, const char* name);
+ObjectCopy* find_copy(const ProgramImage& image, const char* name);
 /// Loads a copy of a library that the program opens, with those that it is linked to; null if it cannot be loaded, or
 /// all programs share it. The copies that were added are those up to the one that was the last before.
-const ObjectCopy* open_library(ProgramImage& image, const char* name, int mode);
+ObjectCopy* open_library(ProgramImage& image, const char* name, int mode);
+/// As dlopen() of a copy.
+void* open_copy(ObjectCopy& copy, int mode);
+/// As dlclose(), if the handle is a copy's, else false. What the program has opened once is loaded to its end.
+bool close_copy(const ProgramImage& image, void* handle);
 /// Calls the constructors of copies that were added behind `before`.
 void call_constructors(const ProgramImage& image, const ObjectCopy* before, int argc, char** argv);
 

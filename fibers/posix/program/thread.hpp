@@ -20,6 +20,7 @@ union StartRoutine {
 };
 
 struct SharedFutex;
+struct ThreadDestructor;
 
 struct Thread {
   static constexpr std::uint32_t in_kernel = 1U << 31;
@@ -100,8 +101,9 @@ struct Thread {
   std::uint32_t clock_readings = 0;  ///< since other tasks had a turn
   std::uint32_t spins = 0;           ///< batches of accesses to memory without a call, at the instant `spins_at`
   Time spins_at;
-  std::uint32_t futex_mask = 0;         ///< of a wait on a futex: the wake-ups that end it
-  SharedFutex* shared_futex = nullptr;  ///< on which it waits, if other processes may wake it
+  std::uint32_t futex_mask = 0;                 ///< of a wait on a futex: the wake-ups that end it
+  SharedFutex* shared_futex = nullptr;          ///< on which it waits, if other processes may wake it
+  ThreadDestructor* last_destructor = nullptr;  ///< see threads/variables.hpp
 };
 
 /// True if `thread` was cancelled, has cancellation enabled, and is not exiting already.

@@ -29,12 +29,12 @@
 #include "fibers/posix/sync/futex_vectors.hpp"
 #include "fibers/posix/sync/robust_mutexes.hpp"
 #include "fibers/posix/threads/keys.hpp"
+#include "fibers/posix/threads/variables.hpp"
 #include "fibers/posix/traps/library_calls.hpp"
 
 extern "C" {
 // Of the C library, for its own thread library.
 void __ctype_init();
-void __call_tls_dtors();
 int __sigsetjmp(__jmp_buf_tag* buffer, int save_mask) noexcept;
 void __pthread_register_cancel(__pthread_unwind_buf_t* buffer);
 }
@@ -57,6 +57,7 @@ static_assert(sizeof(__pthread_unwind_buf_t) >= offsetof(__jmp_buf_tag, __saved_
 
 void free_thread(Thread& thread) {
   unset_processor_timers_of(thread.spent);
+  forget_destructors(thread);
   if (thread.owns_stack) munmap(thread.stack, thread.stack_size);
   std::free(thread.clock);
   free_thread_area(thread.area);
@@ -285,7 +286,7 @@ void execute(Thread& thread) {
 
 void end_thread(Thread& thread) {
   thread.exiting = true;
-  __call_tls_dtors();
+  destroy_variables();
   destroy_values_of_keys();
   let_robust_mutexes_go();
   if (thread.program->thread_ends != nullptr) thread.program->thread_ends();
