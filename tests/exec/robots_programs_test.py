@@ -170,7 +170,8 @@ class Robot(unittest.TestCase):
     def test_each_has_the_libraries_that_it_is_linked_to_for_itself(self):
         own = subprocess.run([PROGRAMS / "linked-program", "x", "3"], capture_output=True, text=True)
         self.assertEqual(own.stdout, "x: lower upper program, 3 4 7 7 1, 7\n" + self.DESTROYED.format(3, 4))
-        run = office("run", "--until", "1", programs=f"[{program('a', 'linked.so', 'a', 3)}, {program('b', 'linked.so', 'b', 5)}]")
+        run = office("run", "--until", "1", programs=f"[{program('a', 'linked.so', 'a', 3)}, {{name: b, file: linked.so, arguments: [b, 5]}}]",
+                     folder=PROGRAMS)
         self.assertEqual(run.returncode, 0, run.stderr)
         self.assertIn("a: lower upper program, 3 4 7 7 1, 7\n" + self.DESTROYED.format(3, 4), run.stdout)
         self.assertIn("b: lower upper program, 5 6 11 11 1, 7\n" + self.DESTROYED.format(5, 6), run.stdout)

@@ -9,6 +9,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <string_view>
@@ -63,8 +64,11 @@ bool list_libraries(const char* program, const char* asked, int output) {
     return false;
   posix_spawn_file_actions_adddup2(&actions, output, STDOUT_FILENO);
   posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
-  const char* const of_program[] = {linker.dli_fname, program, nullptr};
-  const char* const with_asked[] = {linker.dli_fname, "--preload", asked, program, nullptr};
+  // Without a slash it would be looked for among the libraries.
+  LinkedLibraries::Path path;
+  std::snprintf(path, sizeof path, "%s%s", std::strchr(program, '/') == nullptr ? "./" : "", program);
+  const char* const of_program[] = {linker.dli_fname, path, nullptr};
+  const char* const with_asked[] = {linker.dli_fname, "--preload", asked, path, nullptr};
   const char* const* const words = asked == nullptr ? of_program : with_asked;
   pid_t process = 0;
   const int error = WAITPOINT_NEXT(posix_spawn)(&process, words[0], &actions, nullptr, const_cast<char* const*>(words),
