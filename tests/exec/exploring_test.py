@@ -166,7 +166,7 @@ class Exhaustive(ExecCase):
                           "static void* post(void* none) { sleep(2); sem_post(&posted); return none; }\n"
                           "int main(void) {\n  pthread_t poster;\n  sem_init(&posted, 0, 0);\n"
                           "  pthread_create(&poster, NULL, post, NULL);\n  sleep(1);\n"
-                          "  for (int i = 0; i < 40; ++i) sem_trywait(&posted);\n  return pthread_join(poster, NULL);\n}\n")
+                          "  for (int i = 0; i < 30; ++i) sem_trywait(&posted);\n  return pthread_join(poster, NULL);\n}\n")
         line = explore("--strategy", "bounded:0", "--", self.compile(str(source))).stdout.splitlines()[0]
         self.assertTrue(line.endswith("exhaustive with at most 0 preemptions, except for turns of spinning tasks"), line)
 

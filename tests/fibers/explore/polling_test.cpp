@@ -63,7 +63,7 @@ TEST(Polling, ExhaustiveStrategiesSayWhatTheyNeverTried) {
       page.store(1);
     });
     this_thread::sleep_for(500ms);
-    for (int i = 0; i < 40; ++i) (void)page.load();
+    for (int i = 0; i < 30; ++i) (void)page.load();
     writer.join();
   };
   for (const char* strategy : {"dfs", "dpor"})
