@@ -69,10 +69,12 @@ STATUS taskDelay(int ticks) {
 }
 
 STATUS taskSuspend(long tid) {
-  TaskControlBlock& self = Tasks::here().self();
-  if (Tasks::here().find(tid) == nullptr) return fail(S_portLib_INVALID_TASKID);
+  Tasks& tasks = Tasks::here();
+  TaskControlBlock& self = tasks.self();
+  if (tasks.find(tid) == nullptr) return fail(S_portLib_INVALID_TASKID);
   if (tid != 0 && tid != self.id) return fail(S_portLib_NOT_IMPLEMENTED);
-  if (sync::before_blocking(kernel::Operation::wait, self.suspended)) sync::block(self.suspended);
+  sync::running_task().scheduler->enter(self.suspended);
+  if (sync::before_blocking(kernel::Operation::wait, tasks.object())) sync::block(self.suspended);
   return OK;
 }
 

@@ -12,11 +12,35 @@ inline bool is_read_only(kernel::Operation operation) {
   return operation == kernel::Operation::load || operation == kernel::Operation::stop_requested;
 }
 
-/// A yielding task is not offered until another has acted; a poll looks at several objects; a signal acts at the next
-/// event of another task: the order of events around them matters, whatever their objects.
+/// A yielding task is not offered until another has acted; a signal acts at the next event of another task: the order
+/// of events around them matters, whatever their objects.
 inline bool acts_on_any(kernel::Operation operation) {
-  return operation == kernel::Operation::yield || operation == kernel::Operation::poll ||
-         operation == kernel::Operation::signal;
+  return operation == kernel::Operation::yield || operation == kernel::Operation::signal;
+}
+
+/// The two sides of a channel are two objects, its name is in a table, and a poll looks at several.
+inline bool is_of_channel(kernel::Operation operation) {
+  switch (operation) {
+    case kernel::Operation::open:
+    case kernel::Operation::close:
+    case kernel::Operation::connect:
+    case kernel::Operation::accept:
+    case kernel::Operation::send:
+    case kernel::Operation::receive:
+    case kernel::Operation::poll: return true;
+    default: return false;
+  }
+}
+
+/// A tick acts on all timers that it drives.
+inline bool is_of_timer(kernel::Operation operation) {
+  switch (operation) {
+    case kernel::Operation::timer_start:
+    case kernel::Operation::timer_stop:
+    case kernel::Operation::timer_wait:
+    case kernel::Operation::timer_tick: return true;
+    default: return false;
+  }
 }
 
 /// A condition wait releases its lock, which the kernel does not see: it may be any lock.

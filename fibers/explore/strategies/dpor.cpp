@@ -21,6 +21,8 @@ Dpor::Event Dpor::event_of(const Task& task) {
 
 bool Dpor::are_dependent(const Event& a, const Event& b) {
   if (acts_on_any(a.operation) || acts_on_any(b.operation)) return true;
+  if (is_of_channel(a.operation) && is_of_channel(b.operation)) return true;
+  if (is_of_timer(a.operation) && is_of_timer(b.operation)) return true;
   if (a.is_on_shared_processor && b.is_on_shared_processor) return true;
   if (releases_unseen(a.operation) && is_of_lock(b.operation)) return true;
   if (releases_unseen(b.operation) && is_of_lock(a.operation)) return true;

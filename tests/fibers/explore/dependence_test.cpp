@@ -7,8 +7,10 @@
 #include "fibers/explore/body.hpp"
 #include "fibers/explore/explore.hpp"
 #include "fibers/explore/strategies/factory.hpp"
+#include "fibers/io/datagram_socket.hpp"
 #include "fibers/io/pipe.hpp"
 #include "fibers/io/poll.hpp"
+#include "fibers/laas/taskLib.hpp"
 #include "fibers/sync/atomic.hpp"
 #include "fibers/sync/condition_variable_any.hpp"
 #include "fibers/sync/mutex.hpp"
@@ -73,6 +75,42 @@ TEST(Dependence, APollLooksAtEveryChannel) {
               b.join();
             }),
             Results({"x-", "-x", "xx"}));
+}
+
+TEST(Dependence, AChannelHasTwoSides) {
+  EXPECT_EQ(results([](std::string& result) {
+              auto pipe = io::make_pipe();
+              std::byte letter{1};
+              thread writer([&] { (void)pipe.writer.write({&letter, 1}); });
+              result = pipe.reader.read({&letter, 1}, io::no_wait) ? "read" : "empty";
+              writer.join();
+            }),
+            Results({"read", "empty"}));
+}
+
+TEST(Dependence, ANameIsBoundOnce) {
+  EXPECT_EQ(results([](std::string& result) {
+              io::Network network;
+              io::datagram_socket first(network), second(network);
+              const auto bind = [&](io::datagram_socket& socket, const char* name) {
+                if (socket.bind("port") == io::Status::ok) result += name;
+              };
+              thread other([&] { bind(first, "first"); });
+              bind(second, "second");
+              other.join();
+            }),
+            Results({"first", "second"}));
+}
+
+TEST(Dependence, AResumptionActsOnASuspendedTask) {
+  EXPECT_EQ(results([](std::string& result) {
+              const long task = laas::taskSpawn("suspended", 100, 0, 20'000, [&] {
+                laas::taskSuspend(0);
+                result = "resumed";
+              });
+              laas::taskResume(task);
+            }),
+            Results({"resumed", ""}));
 }
 
 TEST(Dependence, ThreadsOnOneProcessorDelayEachOther) {

@@ -3,7 +3,7 @@
 //
 //   completeness [N] [--from FIRST]    programs number FIRST to FIRST + N - 1 (default: 10000 from 1)
 //   completeness --program TEXT        this one
-//   ... --schedules MOST               of each program by each strategy (default: 20000; with --exec 1000)
+//   ... --schedules MOST               of each program by each strategy (default: some thousand)
 //   ... --exec                         on POSIX threads, under waitpoint explore --exec, instead of in this process
 //
 // A program that differs is shrunk, and printed with the command that runs it again. Exit status: 0 no program differs,
@@ -24,10 +24,11 @@ namespace waitpoint::completeness {
 namespace {
 
 // How the programs are run.
-using Cover = std::function<Covered(const Program& program, const char* strategy)>;
+using Cover = std::function<Covered(const Program& program, const char* strategy, std::uint64_t schedules_max)>;
 
 struct Tally {
   const char* strategy;
+  std::uint64_t schedules_max;
   std::size_t equal = 0, different = 0, left_out = 0, unfinished = 0;
   std::uint64_t schedules = 0;
 
@@ -40,7 +41,7 @@ struct Tally {
 };
 
 void compare_one(const Program& program, const Cover& cover_by, Tally& tally, const char* options) {
-  const Coverage coverage = [&](const Program& one) { return cover_by(one, tally.strategy); };
+  const Coverage coverage = [&](const Program& one) { return cover_by(one, tally.strategy, tally.schedules_max); };
   const Covered covered = coverage(program);
   tally.schedules += covered.schedules;
   std::string difference;
@@ -107,12 +108,14 @@ int run(const Asked& asked) {
   const std::filesystem::path build = std::filesystem::read_symlink("/proc/self/exe").parent_path().parent_path();
   const Folder folder;
   const ExecTools tools{build / "tools/waitpoint", build / "tests/completeness-program", folder.path()};
-  const std::uint64_t most = asked.schedules != 0 ? asked.schedules : asked.is_exec ? 1'000 : 20'000;
-  const Cover cover_by = [&](const Program& program, const char* strategy) {
+  const Cover cover_by = [&](const Program& program, const char* strategy, std::uint64_t most) {
     return asked.is_exec ? cover_by_exec(tools, program, strategy, most) : cover(program, strategy, most);
   };
-  std::vector<Tally> tallies{{"dfs"}, {"bounded:1000"}};
-  if (!asked.is_exec) tallies.push_back({"dpor"});
+  std::vector<Tally> tallies = asked.is_exec
+                                   ? std::vector<Tally>{{"dfs", 1'000}, {"bounded:1000", 500}}
+                                   : std::vector<Tally>{{"dfs", 4'000}, {"bounded:1000", 1'000}, {"dpor", 20'000}};
+  for (Tally& tally : tallies)
+    if (asked.schedules != 0) tally.schedules_max = asked.schedules;
   const bool is_single = !asked.program.empty();
   for (std::uint64_t i = 0; i < (is_single ? 1 : asked.count); ++i) {
     // Threads take a process for each schedule: only small programs.
