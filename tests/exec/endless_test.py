@@ -149,6 +149,17 @@ class Signals(ExecCase):
                 self.assertEqual(running.returncode, 130, text)
                 self.assertRegex(text + output, r"  main computes\n      at spin_until_set at \S*until\.c:\d+\n")
 
+    def test_to_its_group_end_an_exploration_without_a_failure(self):
+        program = self.compile("lost_update.c")
+        words = [str(word) for word in (WAITPOINT, "explore", "--exec", "--iterations", "1000000", "--", program, "locked")]
+        for sent in (signal.SIGTERM, signal.SIGINT, signal.SIGHUP):
+            with subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=True) as running:
+                time.sleep(0.5)
+                os.killpg(running.pid, sent)
+                output, text = running.communicate(timeout=60)
+                self.assertEqual(running.returncode, 130, output + text)
+                self.assertRegex(output, r"^lost_update: \d+ schedules, \d+ distinct, 0 failed, .*; stopped by a signal\n$")
+
 
 class Loops(ExecCase):
     """Without calls, until another thread or a signal's handler sets a flag."""

@@ -69,11 +69,11 @@ Children::~Children() {
 // In the child: skips the cleanup of the parent's objects.
 void Children::carry_out(int jobs, int errors) const {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
+  setpgid(0, 0);  // a signal to the parent's group, as by timeout(1), is the parent's only: it decides when to stop
   const int nowhere = open("/dev/null", O_RDWR | O_CLOEXEC);
   dup2(nowhere, STDIN_FILENO);
   dup2(nowhere, STDOUT_FILENO);
   dup2(errors, STDERR_FILENO);
-  // The parent decides when to stop.
   std::signal(SIGINT, SIG_IGN);
   std::signal(SIGTERM, SIG_DFL);
   try {

@@ -73,6 +73,7 @@ int await_end(pid_t run, int socket) {
 
 void serve_runs(int socket) {
   prctl(PR_SET_PDEATHSIG, 0);  // it ends the run before itself
+  setpgid(0, 0);               // a signal to the explorer's group must not end it before the explorer has reported
   answer(socket, ServerReady{});
   int descriptors[run_descriptors];
   while (receive(socket, descriptors)) {
