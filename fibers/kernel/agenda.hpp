@@ -77,8 +77,10 @@ struct Agenda {
     return first < least ? first : least;
   }
   Time next_time() const { return ready.empty() ? next_key().time : now; }
-  /// True if an event of the list is in this window.
-  bool is_due_later() const { return !events.empty() && events.least().key.time < until; }
+  /// True if the least event of the list is after this instant and in this window.
+  bool is_due_later() const {
+    return !events.empty() && now < events.least().key.time && events.least().key.time < until;
+  }
 
   /// True if the present queue's first event is the least one, and in this window.
   bool is_present_next() const {

@@ -86,6 +86,51 @@ class Exploring(ExecCase):
         self.assertEqual(done.returncode, 1, done.stdout)
         self.assertIn("the same run as in the record", explore(*replay_words(done.stdout)).stderr)
 
+    def session(self, how):
+        """A session of three programs, the last two of which start when the first has ended."""
+        program = self.compile("small_session.c")
+        return (f"init={program}", "init", "::", "after:init", f"base={program}", "serve", how, "::", "after:init",
+                f"client={program}", "ask", how)
+
+    def test_all_orders_of_a_session_of_init_server_and_client(self):
+        done = explore("--strategy", "dfs", "--", self.compile("small_session.c"), "all")
+        self.assertEqual(done.returncode, 0, done.stdout)
+        self.assertRegex(done.stdout, r"^small_session: \d\d\d schedules, [4-9] distinct, 0 failed, .*; exhaustive\n$")
+
+    def test_planted_bugs_of_a_session_are_found_and_replayed(self):
+        schedule = self.folder / "of-session"
+        for how in "hasty", "torn":
+            for strategy in "portfolio", "bounded:1":
+                session = self.session(how)
+                done = explore("--strategy", strategy, "--schedule", schedule, "--", *session)
+                self.assertEqual(done.returncode, 1, done.stdout)
+                self.assertRegex(done.stdout, r"\n  waitpoint: exit status: base 0, client 1, init 0\n[1-4] switch\w* away from "
+                                              r"the default order fails?, of \d+ that were found")
+                self.assertRegex(done.stdout, r"\n  0\.\d+ s  process \S+ goes first instead of process \S+\n")
+                for words in (replay_words(done.stdout), ("--replay", schedule, "--", *session)):
+                    self.assertIn("the same run as in the record", explore(*words).stderr)
+        done = explore("--iterations", "50", "--", *self.session("updates"))
+        self.assertEqual(done.returncode, 0, done.stdout)
+
+    def test_processes_left_behind_take_part_up_to_their_end(self):
+        program = self.compile("small_session.c")
+        reports = {explore("--", program, "all", "torn").stdout.split("\n", 1)[1] for _ in range(5)}
+        self.assertEqual(len(reports), 1)
+        done = explore("--", "sh", "-c", "(sleep 4; sleep 100) & exit 1")
+        self.assertRegex(done.stdout, r"\n  4\.000000000 +main#0 of sh#1001")
+        self.assertNotRegex(done.stdout, r"\n  1\d+\.000000000 ")
+
+    def test_processes_that_poll_let_others_go_first(self):
+        program = self.compile("polling.c")
+        for words in ("0", "0"), ("1", "0"):
+            done = explore("--strategy", "dfs", "--", program, *words)
+            self.assertEqual(done.returncode, 0, done.stdout)
+            self.assertTrue(done.stdout.splitlines()[0].endswith("; exhaustive, except for turns of spinning tasks"), done.stdout)
+        for strategy in "fifo", "random":
+            for wait_us in "0", "2000":
+                done = explore("--strategy", strategy, "--iterations", "10", "--", program, "3", wait_us)
+                self.assertEqual(done.returncode, 0, done.stdout)
+
     def test_a_correct_program_passes_under_many_schedules(self):
         done = explore("--iterations", "100", "--", self.compile("lost_update.c"), "locked")
         self.assertEqual(done.returncode, 0, done.stdout)

@@ -92,8 +92,9 @@ void end_others(const posix::Record& record, const std::function<bool()>& is_to_
   const Family& family = family_of(record);
   constexpr int look_ms = 1, looks_after_end = 2000;  // when the run is over each reports its threads, and ends
   const auto is_anybody_there = [&family] {
-    return std::ranges::any_of(entries_of(family), [](const Process& process) {
-      return process.state == Process::State::alive && !process.is_native && kill(process.real_id, 0) == 0;
+    return std::ranges::any_of(entries_of(family), [&family](const Process& process) {
+      const bool takes_turns = process.state == Process::State::alive && !process.is_native;
+      return &process != family.processes && takes_turns && kill(process.real_id, 0) == 0;
     });
   };
   for (int looks = 0; looks < looks_after_end && family.alive > 0 && is_anybody_there() && !is_to_end();

@@ -100,4 +100,11 @@ std::optional<int> ForkServer::wait(int timeout_ms) {
   return ended.status;
 }
 
+void ForkServer::end() {
+  const char byte = 0;
+  (void)send(socket_, &byte, 1, MSG_NOSIGNAL);
+  posix::RunGone gone;
+  (void)receive(socket_, gone);
+}
+
 }  // namespace waitpoint::tools

@@ -24,6 +24,8 @@ class ForkServer {
   pid_t start(int input, int output);
   /// Waits for its end, for at most `timeout_ms`; the status is as from waitpid().
   std::optional<int> wait(int timeout_ms);
+  /// After its end: kills the processes that it has left behind.
+  void end();
 
  private:
   RunMemory memory_;

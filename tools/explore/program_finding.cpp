@@ -66,6 +66,10 @@ void judge(const RunMemory& memory, int status, Finding& finding) {
   }
 }
 
+const posix::SharedSchedule* shared_schedule_of(const posix::Record& record) {
+  return static_cast<const posix::SharedSchedule*>(common_of(record, posix::family::Part::schedule));
+}
+
 }  // namespace
 
 posix::Settings settings_of(const ExploreOptions& options) {
@@ -107,13 +111,22 @@ void ask_for_run(RunMemory& memory, const ExploreOptions& options, const Plan& p
 }
 
 exploration::Schedule schedule_of(const posix::Record& record) {
-  const auto* const shared =
-      static_cast<const posix::SharedSchedule*>(common_of(record, posix::family::Part::schedule));
+  const auto* const shared = shared_schedule_of(record);
   if (shared == nullptr) return record.explored->explorer.schedule();
   const auto decisions = shared->decisions.all();
   const auto switches = shared->switches.all();
   return {{decisions.begin(), decisions.end()}, {switches.begin(), switches.end()}, shared->cuts_polls_short};
 }
+
+namespace {
+
+// In another process than the first.
+bool has_parted_elsewhere(const posix::Record& record) {
+  const auto* const shared = shared_schedule_of(record);
+  return shared != nullptr && shared->parted;
+}
+
+}  // namespace
 
 Finding finding_of_run(const RunMemory& memory, int status, const std::string& output, const Target::Request& request,
                        bool trace_too) {
@@ -137,7 +150,7 @@ Finding finding_of_run(const RunMemory& memory, int status, const std::string& o
   finding.end = time_of(record);
   finding.events = events_of(record);
   const exploration::Schedule schedule = schedule_of(record);
-  finding.take(schedule, explored.explorer.parted());
+  finding.take(schedule, explored.explorer.parted() || has_parted_elsewhere(record));
   if (request.choices) finding.choices = schedule.decisions;
   if (request.profile) {
     finding.profile = explored.profile;

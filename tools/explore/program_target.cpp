@@ -108,19 +108,27 @@ Finding ProgramTarget::run_once(const Plan& plan, const Request& request) {
   bool has_gone_on = true;  // since the last look
   std::string stalled;
   std::optional<int> status;
-  while (!(status = server_->wait(look_around_ms))) {
+  const auto is_stalled = [&] {
     const bool is_over = limit_s() > 0 && wall_clock_s() - start_s >= limit_s();
-    if (stalled.empty() && (is_to_stop != 0 || is_over)) {
+    if (is_to_stop != 0 || is_over)
       stalled = (is_over ? over_limit(limit_s()) : "stopped by a signal") + " at " +
                 to_string(time_of(memory.record())) + " s of virtual time\n" + states_of(memory.record());
-      kill(process, SIGKILL);
-    } else if (std::string words = watchdog.look(); !words.empty()) {
+    else if (std::string words = watchdog.look(); !words.empty())
       stalled = std::move(words);
-      kill(process, SIGKILL);
-    } else {
+    else
       has_gone_on = events_of(memory.record()) != std::exchange(events, events_of(memory.record()));
-    }
-  }
+    return !stalled.empty();
+  };
+  while (!(status = server_->wait(look_around_ms)))
+    if (stalled.empty() && is_stalled()) kill(process, SIGKILL);
+  // Those left behind take part in the run, up to its end.
+  double looked_s = wall_clock_s();
+  const auto is_stalled_by_now = [&] {
+    if (wall_clock_s() - looked_s < look_around_ms / 1000.0) return false;
+    looked_s = wall_clock_s();
+    return is_stalled();
+  };
+  if (stalled.empty() && !request.stop_before) end_others(memory.record(), is_stalled_by_now);
   Finding finding = finding_of_run(memory, *status, end_of(output), request, options_.trace.has_value());
   if (!stalled.empty()) {
     while (stalled.ends_with('\n')) stalled.pop_back();
@@ -128,6 +136,7 @@ Finding ProgramTarget::run_once(const Plan& plan, const Request& request) {
     finding.words = stalled;
     if (has_gone_on) finding.digest = 0;  // how far it came is the wall clock's
   }
+  server_->end();
   close(input);
   close(output);
   return finding;

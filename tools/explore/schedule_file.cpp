@@ -19,9 +19,9 @@ namespace {
 using exploration::Switch;
 using kernel::Choice;
 
-constexpr std::string_view choices[] = {"task", "waiter", "spurious", "loss", "computing"};
+constexpr std::string_view choices[] = {"task", "waiter", "spurious", "loss", "computing", "process"};
 constexpr std::size_t bytes_max = std::size_t{64} << 20;
-constexpr std::size_t words_of_task = 5, words_of_other = 4;
+constexpr std::size_t words_max = 5;  // an alternative that is not an event is one word, in choices of processes two
 constexpr std::string_view digest_prefix = "wp1:";
 constexpr std::size_t digest_digits = 16;
 
@@ -66,6 +66,8 @@ class Lines {
   int number_ = 0;
 };
 
+bool has_two_words(Choice choice) { return choice == Choice::task || choice == Choice::process; }
+
 Switch read_switch(const Lines& line) {
   const std::string form =
       "a switch such as 'task 00000000000000aa 12 00000000000000bb 7' or 'computing "
@@ -74,11 +76,11 @@ Switch read_switch(const Lines& line) {
   if (known == std::end(choices)) line.refuse(form);
   Switch change;
   change.choice = static_cast<Choice>(known - std::begin(choices));
-  if (line.words.size() != (change.choice == Choice::task ? words_of_task : words_of_other)) line.refuse(form);
+  const bool has_two = has_two_words(change.choice);
+  if (line.words.size() != (has_two ? words_max : words_max - 1)) line.refuse(form);
   change.usual = {line.number(1, 16, form), line.number(2, 10, form)};
-  change.instead = change.choice == Choice::task
-                       ? exploration::EventOf{line.number(3, 16, form), line.number(4, 10, form)}
-                       : exploration::EventOf{line.number(3, 10, form), 0};
+  change.instead.task = line.number(3, change.choice == Choice::task ? 16 : 10, form);
+  if (has_two) change.instead.sequence = line.number(4, 10, form);
   return change;
 }
 
@@ -93,8 +95,8 @@ std::string to_text(const StoredSchedule& schedule) {
   for (const Switch& change : schedule.switches) {
     text += fmt::format("{} {:016x} {} ", choices[static_cast<std::size_t>(change.choice)], change.usual.task,
                         change.usual.sequence);
-    text += change.choice == Choice::task ? fmt::format("{:016x} {}\n", change.instead.task, change.instead.sequence)
-                                          : fmt::format("{}\n", change.instead.task);
+    text += fmt::format(fmt::runtime(change.choice == Choice::task ? "{:016x}" : "{}"), change.instead.task);
+    text += has_two_words(change.choice) ? fmt::format(" {}\n", change.instead.sequence) : "\n";
   }
   return text;
 }

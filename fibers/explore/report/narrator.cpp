@@ -71,9 +71,11 @@ Duration Narrator::computing(const Task& task, Duration least, Duration greatest
   return chosen;
 }
 
-std::uint32_t Narrator::process(const Task& task, std::span<const char* const> names, bool can_continue) {
+std::uint32_t Narrator::process(const Task& task, std::span<const char* const> names, std::uint32_t spinning,
+                                bool can_continue) {
   const std::size_t before = decisions();
-  const std::uint32_t chosen = explorer_.process(task, static_cast<std::uint32_t>(names.size()), can_continue);
+  const auto count = static_cast<std::uint32_t>(names.size());
+  const std::uint32_t chosen = explorer_.process(task, count, spinning, can_continue);
   tell(before, [&](const Decision& decision) {
     const std::string one = std::string("process ") + names[decision.chosen];
     if (decision.is_switch()) return one + " goes first instead of process " + names[decision.usual];

@@ -39,7 +39,8 @@ class Narrator : public kernel::Decisions {
   std::uint32_t among(kernel::Choice choice, const kernel::Task& task, std::uint32_t count) override;
   Duration computing(const kernel::Task& task, Duration least, Duration greatest) override;
   /// As Explorer::process(); the processes have these names.
-  std::uint32_t process(const kernel::Task& task, std::span<const char* const> names, bool can_continue);
+  std::uint32_t process(const kernel::Task& task, std::span<const char* const> names, std::uint32_t spinning,
+                        bool can_continue);
 
  protected:
   virtual void keep(const Told& told, bool is_switch, bool is_answer) { narration_.add(told, is_switch, is_answer); }

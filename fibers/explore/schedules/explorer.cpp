@@ -2,6 +2,7 @@
 #include "fibers/explore/schedules/explorer.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "core/error.hpp"
 
@@ -20,15 +21,14 @@ constexpr std::uint64_t set_of(Operations... operations) {
   return (... | (std::uint64_t{1} << static_cast<unsigned>(operations)));
 }
 
-// Operations without an effect on others, as tasks repeat them when they poll.
 constexpr std::uint64_t looks =
     set_of(Operation::load, Operation::try_lock, Operation::try_lock_shared, Operation::try_acquire,
            Operation::try_wait, Operation::compare_exchange, Operation::exchange, Operation::stop_requested,
            Operation::poll, Operation::sleep, Operation::yield);
 
-bool is_look(Operation operation) { return (looks >> static_cast<unsigned>(operation) & 1) != 0; }
-
 }  // namespace
+
+bool is_look(Operation operation) { return (looks >> static_cast<unsigned>(operation) & 1) != 0; }
 
 void Explorer::begin(Strategy& strategy, const Played& played) {
   decide_by(strategy);
@@ -43,6 +43,8 @@ void Explorer::begin(Strategy& strategy, const Played& played) {
   habits_.clear();
   stopped_before_.clear();
   last_ = nullptr;
+  of_process_ = {};
+  times_ = 0;
   spinning_ = idle_turns_ = step_ = step_of_instant_ = instants_ = 0;
   instant_ = Time();
   deviated_ = 0;
@@ -230,11 +232,25 @@ void Explorer::note_look(const Task& task, RecentAccesses& habit) {
 }
 
 std::uint32_t Explorer::among(Choice choice, const Task& task, std::uint32_t count) {
-  return alternative(choice, task, count, false);
+  return alternative({count, 0, 0, choice}, task, count, 0);
 }
 
-std::uint32_t Explorer::process(const Task& task, std::uint32_t count, bool can_continue) {
-  return alternative(Choice::process, task, count, can_continue);
+std::uint32_t Explorer::process(const Task& task, std::uint32_t count, std::uint32_t spinning, bool can_continue) {
+  WAITPOINT_CHECK(spinning < count, "a choice among processes offers none");
+  std::uint64_t places = 0;
+  for (std::uint32_t place = count - spinning; place < std::min(count, 64U); ++place)
+    places |= std::uint64_t{1} << place;
+  times_ = std::exchange(of_process_, event_of(task)) == event_of(task) ? times_ + 1 : 0;
+  return alternative({count, 0, 0, Choice::process, can_continue, places}, task, count - spinning, times_);
+}
+
+bool Explorer::spin(std::span<Task* const> ready) const {
+  return spinning_ != 0 && instant_ == scheduler_.global_time() && polls_only(ready);
+}
+
+void Explorer::note_effect_elsewhere() {
+  idle_turns_ = 0;
+  if (spinning_ != 0) stop_spinning();
 }
 
 void Explorer::take_over(std::span<const Decision> decisions, std::span<const Switch> switches) {
@@ -242,19 +258,25 @@ void Explorer::take_over(std::span<const Decision> decisions, std::span<const Sw
   schedule_.switches.insert(schedule_.switches.end(), switches.begin(), switches.end());
 }
 
-std::uint32_t Explorer::alternative(Choice choice, const Task& task, std::uint32_t count, bool can_continue) {
+// Makes this decision, whose default is 0; the strategy is offered the first `offered` alternatives. `time`: of several
+// such decisions before the same event.
+std::uint32_t Explorer::alternative(Decision decision, const Task& task, std::uint32_t offered, std::uint64_t time) {
+  const Choice choice = decision.choice;
+  const std::uint32_t count = decision.count;
   left_out_.spurious |= choice == Choice::spurious;
+  left_out_.turns |= decision.spinning != 0;
   std::uint32_t chosen = count;
   if (plays_) {
-    if (const Decision* decision = of_prefix(choice, count)) chosen = decision->chosen;
+    if (const Decision* const played = of_prefix(choice, count)) chosen = played->chosen;
     if (chosen == count) chosen = of_deviations(count);
     for (std::uint32_t i = 1; i < count && !switches_.empty() && chosen == count; ++i)
-      if (is_played({choice, event_of(task), {i, 0}})) chosen = i;
+      if (is_played({choice, event_of(task), {i, time}})) chosen = i;
   }
-  if (chosen == count) chosen = strategy_->among(choice, task, count);
+  if (chosen == count) chosen = offered > 1 ? strategy_->among(choice, task, offered) : 0;
   WAITPOINT_CHECK(chosen < count, "a strategy chose an alternative that does not exist");
-  schedule_.decisions.push_back({count, chosen, 0, choice, can_continue});
-  if (chosen != 0) schedule_.switches.push_back({choice, event_of(task), {chosen, 0}});
+  decision.chosen = chosen;
+  schedule_.decisions.push_back(decision);
+  if (decision.is_switch()) schedule_.switches.push_back({choice, event_of(task), {chosen, time}});
   return chosen;
 }
 

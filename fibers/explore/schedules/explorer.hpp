@@ -40,6 +40,9 @@ struct LeftOut {
   bool spurious = false;  ///< spurious wake-ups
 };
 
+/// True if the operation has no effect on others, as those that tasks repeat when they poll.
+bool is_look(kernel::Operation operation);
+
 class Explorer final : public kernel::Decisions {
  public:
   /// Schedules of `scheduler` end with no progress after `steps_max` switch points at one instant.
@@ -71,14 +74,18 @@ class Explorer final : public kernel::Decisions {
   std::uint32_t among(Choice choice, const Task& task, std::uint32_t count) override;
   Duration computing(const Task& task, Duration least, Duration greatest) override;
 
-  /// One of `count` processes, at least 2, the default first; `task` is any of this one's. `can_continue`: the default
-  /// one executed the last event.
-  std::uint32_t process(const Task& task, std::uint32_t count, bool can_continue);
+  /// One of `count` processes, at least 2, the default first; `task` is any of this one's. The last `spinning` of them,
+  /// not all, are not offered. `can_continue`: the default one executed the last event.
+  std::uint32_t process(const Task& task, std::uint32_t count, std::uint32_t spinning, bool can_continue);
+  /// True if all of these tasks spin: another process may go first.
+  bool spin(std::span<Task* const> ready) const;
+  /// An event with an effect was executed in another process: tasks that spin may have what they wait for.
+  void note_effect_elsewhere();
   /// Appends choices that were made in another process.
   void take_over(std::span<const Decision> decisions, std::span<const Switch> switches);
 
  private:
-  std::uint32_t alternative(Choice choice, const Task& task, std::uint32_t count, bool can_continue);
+  std::uint32_t alternative(Decision decision, const Task& task, std::uint32_t offered, std::uint64_t time);
   // A task's recent accesses, by Task::number.
   struct alignas(32) RecentAccesses {
     kernel::Object* at[2] = {};
@@ -115,6 +122,8 @@ class Explorer final : public kernel::Decisions {
   std::vector<Task*> offered_;  // the ready tasks that do not spin, and their indices
   std::vector<std::uint32_t> places_;
   std::vector<Task*> stopped_before_;
+  EventOf of_process_;  // of the last choice among processes, and the number of those before the same event
+  std::uint64_t times_ = 0;
   const Task* last_ = nullptr;
   std::uint32_t spinning_ = 0;
   std::uint32_t idle_turns_ = 0;  // turns given since the last effect, while all tasks spin

@@ -25,7 +25,8 @@ struct EventOf {
 inline EventOf event_of(const kernel::Task& task) { return {task.id, task.sequence}; }
 
 /// Instead of `usual`, the next event of some task, event `instead` executes; in other choices, the task of `usual`
-/// takes alternative `instead.task`.
+/// takes alternative `instead.task`; in choices among processes for the time `instead.sequence`, from 0 on, that its
+/// process chooses before this event.
 struct Switch {
   kernel::Choice choice = kernel::Choice::task;
   EventOf usual;

@@ -83,14 +83,6 @@ bool wait_outside_together(kernel::Scheduler& scheduler) {
   return true;
 }
 
-// True if only processes are left that outlive the first one, and the next event is too late or comes from outside.
-bool is_left_over(Time next) {
-  const family::Family& all = *family::family;
-  const Process::State first = all.processes[0].state;
-  if (first != Process::State::ended && first != Process::State::none) return false;
-  return next > later(all.first_ended_at, family::left_over_at_most);
-}
-
 // True while the next event, of any process, must wait for real time.
 bool must_wait(const kernel::Scheduler& scheduler, Time next, Time now) {
   return next > now && next != Time::max() && is_paced(scheduler) && left_until(next) > Duration();
@@ -116,6 +108,13 @@ bool wait_for_pace(const kernel::Scheduler& scheduler, Time next, Time now) {
 
 }  // namespace
 
+Time end_of_left_over() {
+  const family::Family& all = *family::family;
+  const Process::State first = all.processes[0].state;
+  if (first != Process::State::ended && first != Process::State::none) return Time::max();
+  return later(later(all.first_ended_at, family::left_over_at_most), nanosecond);
+}
+
 bool step_in_family(kernel::Scheduler& scheduler, Time& until) {
   family::Family& all = *family::family;
   if (record->recorder != nullptr) record->recorder->pause();
@@ -130,7 +129,7 @@ bool step_in_family(kernel::Scheduler& scheduler, Time& until) {
     const Time now = std::max(all.now, scheduler.global_time());
     if (next > now && let_all_look(now)) break;
     if (wait_for_pace(scheduler, next, now)) break;
-    if (is_left_over(next)) {
+    if (const Time end = end_of_left_over(); end != Time::max() && next >= end) {
       all.is_over = all.is_cut_off = true;
       return false;
     }

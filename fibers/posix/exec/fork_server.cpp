@@ -55,18 +55,30 @@ void become_run(int socket, const int (&descriptors)[run_descriptors]) {
   for (const int one : descriptors) close(one);
 }
 
-// Waits for the end of the run, which is killed if nobody waits for its answer any more; returns its status.
+// Waits for the end of the run's first process, and returns its status. It remains a zombie, so that its number is its
+// group's. All are killed if nobody waits for the answer any more.
 int await_end(pid_t run, int socket) {
   pollfd all[] = {{static_cast<int>(syscall(SYS_pidfd_open, run, 0)), POLLIN, 0}, {socket, 0, 0}};
   while (poll(all, std::size(all), -1) < 0 && errno == EINTR) {
   }
   close(all[0].fd);
-  kill(-run, SIGKILL);  // with the processes that it has started
-  if ((all[1].revents & POLLHUP) != 0) kill(run, SIGKILL);
-  int status = 0;
-  while (waitpid(run, &status, 0) < 0 && errno == EINTR) {
+  if ((all[1].revents & POLLHUP) != 0)
+    for (const pid_t each : {run, -run}) kill(each, SIGKILL);
+  siginfo_t end{};
+  while (waitid(P_PID, static_cast<id_t>(run), &end, WEXITED | WNOWAIT) < 0 && errno == EINTR) {
   }
-  return status;
+  if (end.si_code == CLD_EXITED) return W_EXITCODE(end.si_status, 0);
+  return end.si_status | (end.si_code == CLD_DUMPED ? WCOREFLAG : 0);
+}
+
+// Once it is asked for, ends those that the first process has left behind.
+void end_others(pid_t run, int socket) {
+  char byte = 0;
+  while (recv(socket, &byte, 1, 0) < 0 && errno == EINTR) {
+  }
+  kill(-run, SIGKILL);
+  while (waitpid(run, nullptr, 0) < 0 && errno == EINTR) {
+  }
 }
 
 }  // namespace
@@ -81,7 +93,10 @@ void serve_runs(int socket) {
     if (run == 0) return become_run(socket, descriptors);
     for (const int one : descriptors) close(one);
     answer(socket, RunStarted{run});
-    if (run > 0) answer(socket, RunEnded{await_end(run, socket)});
+    if (run < 0) continue;
+    answer(socket, RunEnded{await_end(run, socket)});
+    end_others(run, socket);
+    answer(socket, RunGone{});
   }
   _exit(0);
 }

@@ -3,8 +3,8 @@
 //
 // The explorer requests each run by a packet over a socket, with the descriptors of its input and its output in it. The
 // record, which all runs use in turn, holds the run's settings by then. The answers are the run's process id and, at
-// its end, its status, as of waitpid(). A run is killed, and the server ends, when the other end of the socket is
-// closed. Processes of a run's group end with it.
+// its end, its status, as of waitpid(). The processes of its group that it has left behind are killed at a further
+// packet, which is answered. All are killed, and the server ends, when the other end of the socket is closed.
 #pragma once
 
 #include <sys/types.h>
@@ -23,6 +23,8 @@ struct RunStarted {
 struct RunEnded {
   int status;
 };
+/// No process of the run is left.
+struct RunGone {};
 
 /// Serves until the other end of the socket is closed, then ends the process. Returns in each run, in a process of its
 /// own.

@@ -57,6 +57,7 @@ class SharedChoice {
     append(all.decisions, std::span(own.decisions).subspan(all.decisions.count));
     append(all.switches, std::span(own.switches).subspan(all.switches.count));
     all.cuts_polls_short = all.cuts_polls_short || own.cuts_polls_short;
+    all.parted = all.parted || explorer_.parted();
   }
   SharedChoice(const SharedChoice&) = delete;
   SharedChoice& operator=(const SharedChoice&) = delete;
@@ -70,31 +71,54 @@ bool is_of_tasks(const kernel::EventKey& key) { return kernel::phase_of(key.orde
 
 }  // namespace
 
-// Among the processes with a task's event at the present instant, and this one if it can stay.
+// Notes if all these tasks of this process, ready at the present instant, spin.
+void ProcessChoices::note_spinning(std::span<kernel::Task* const> ready) {
+  SharedSchedule& shared = shared_schedule();
+  if (effects_ != shared.effects) explorer_.note_effect_elsewhere();
+  effects_ = shared.effects;
+  shared.spinning[family::index_of(*family::own)] = {scheduler_.global_time(),
+                                                     explorer_.spin(ready) ? shared.effects + 1 : 0};
+}
+
+// Among the processes with a task's event at the present instant, and this one if it can stay; those that spin last.
 Process* ProcessChoices::choose(bool can_stay) {
   Process& own = *family::own;
-  const Process& last = family::family->processes[shared_schedule().last];
+  SharedSchedule& shared = shared_schedule();
+  const Process& last = family::family->processes[shared.last];
   const Time now = can_stay ? scheduler_.global_time() : family::least_of_others().time;
-  std::vector<Process*> candidates;
+  std::vector<Process*> candidates, spinning;
   for (Process& process : family::entries()) {
     const kernel::EventKey key =
         &process == &own ? kernel::EventKey{now, kernel::make_order(kernel::Phase::tasks, 0)} : family::key_of(process);
     const bool is_due = &process == &own ? can_stay : key.time <= now && is_of_tasks(key);
     if (!is_due) continue;
+    const SharedSchedule::Spinning& mark = shared.spinning[family::index_of(process)];
+    if (mark.at == now && mark.effects == shared.effects + 1) {
+      spinning.push_back(&process);
+      continue;
+    }
     // The default comes first.
     const bool is_default = &process == &last || (&process == &own && (candidates.empty() || candidates[0] != &last));
     candidates.insert(is_default ? candidates.begin() : candidates.end(), &process);
   }
+  if (candidates.empty()) {  // all of them spin: another one gets a turn
+    std::erase(spinning, can_stay ? &own : nullptr);
+    for (const Process* const process : spinning) shared.spinning[family::index_of(*process)].effects = 0;
+    std::swap(candidates, spinning);
+    if (can_stay) (candidates.empty() ? candidates : spinning).push_back(&own);
+  }
+  const auto left = static_cast<std::uint32_t>(spinning.size());
+  candidates.insert(candidates.end(), spinning.begin(), spinning.end());
   const kernel::Task* const task = scheduler_.first_task();
   if (candidates.size() < 2 || task == nullptr) return candidates.empty() ? nullptr : candidates[0];
   const SharedChoice choice(explorer_);
   const bool can_continue = candidates[0] == &last;
   if (narrator_ == nullptr)
-    return candidates[explorer_.process(*task, static_cast<std::uint32_t>(candidates.size()), can_continue)];
+    return candidates[explorer_.process(*task, static_cast<std::uint32_t>(candidates.size()), left, can_continue)];
   std::vector<const char*> names;
   names.reserve(candidates.size());
   for (const Process* const process : candidates) names.push_back(process->name);
-  return candidates[narrator_->process(*task, names, can_continue)];
+  return candidates[narrator_->process(*task, names, left, can_continue)];
 }
 
 std::uint32_t ProcessChoices::next(kernel::Task* const* ready, std::uint32_t count) {
@@ -102,7 +126,9 @@ std::uint32_t ProcessChoices::next(kernel::Task* const* ready, std::uint32_t cou
     process_ = family::own->id;
     if (!family::is_first()) begin_in_process_();
   }
-  if (family::has_others() && !std::exchange(family::own->is_chosen, false)) {
+  const bool is_alone = !family::has_others();
+  if (!is_alone) note_spinning({ready, count});
+  if (!is_alone && !std::exchange(family::own->is_chosen, false)) {
     if (Process* const process = choose(true); process != family::own) {
       chosen_ = process;
       return elsewhere;
@@ -110,7 +136,10 @@ std::uint32_t ProcessChoices::next(kernel::Task* const* ready, std::uint32_t cou
   }
   if (family::family->made > 1) shared_schedule().last = family::index_of(*family::own);
   const SharedChoice choice(explorer_);
-  return decisions_.next(ready, count);
+  const std::uint32_t chosen = decisions_.next(ready, count);
+  if (!is_alone && chosen < count && !exploration::is_look(ready[chosen]->operation))
+    effects_ = ++shared_schedule().effects;
+  return chosen;
 }
 
 std::uint32_t ProcessChoices::among(kernel::Choice choice, const kernel::Task& task, std::uint32_t count) {

@@ -3,6 +3,9 @@
 // process that executes the next event is chosen among those with an event at this instant. By default the process of
 // the last event continues.
 //
+// As within a process, spinning tasks wait for others: a process whose tasks at this instant all spin is not offered,
+// until an event with an effect was executed or all processes spin.
+//
 // Each process has an explorer of its own; the schedule is one: in the family's memory, each adds its choices to it and
 // takes over those of the others.
 #pragma once
@@ -25,7 +28,14 @@ struct SharedSchedule {
   SharedSequence<exploration::Decision> decisions;
   SharedSequence<exploration::Switch> switches;
   bool cuts_polls_short;  ///< as in exploration::Schedule
+  bool parted;            ///< Explorer::parted() of any process
   std::uint32_t last;     ///< the place in the table of the process of the last event
+  std::uint64_t effects;  ///< events executed so far that others may wait for
+  /// All tasks that a process has at an instant spin, since its last turn.
+  struct Spinning {
+    Time at;
+    std::uint64_t effects;  ///< as many as then, plus one
+  } spinning[family::processes_max];
 };
 
 /// Sits between the kernel and the process's `decisions`, which record their choices in `explorer`. The narrator, if
@@ -50,6 +60,7 @@ class ProcessChoices final : public kernel::Decisions {
   family::Process* take_chosen();
 
  private:
+  void note_spinning(std::span<kernel::Task* const> ready);
   family::Process* choose(bool can_stay);
 
   kernel::Scheduler& scheduler_;
@@ -58,7 +69,8 @@ class ProcessChoices final : public kernel::Decisions {
   void (*begin_in_process_)();
   exploration::Narrator* narrator_;
   family::Process* chosen_ = nullptr;
-  pid_t process_ = 0;  // the one that the strategy has begun in
+  pid_t process_ = 0;          // the one that the strategy has begun in
+  std::uint64_t effects_ = 0;  // those that the explorer knows of
 };
 
 }  // namespace waitpoint::posix

@@ -158,7 +158,7 @@ Ending run_to_end(kernel::Scheduler& scheduler) {
   const Time end = record->settings.until;
   for (Time until = end;;) {
     family::limit_window(scheduler);
-    const kernel::RunState state = scheduler.run_before(std::min(until, next_idle_check()));
+    const kernel::RunState state = scheduler.run_before(std::min({until, next_idle_check(), end_of_left_over()}));
     if (state == kernel::RunState::stopped) break;
     report_if_ahead(scheduler);
     if (is_idle(scheduler)) {

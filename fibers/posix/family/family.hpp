@@ -77,7 +77,7 @@ struct Process {
   bool is_unnoted = false;      ///< it was stopped since its parent last took note
   bool drops_children = false;  ///< it ignores SIGCHLD: its children leave no status
   pid_t id = 0;
-  char name[kernel::name_size] = {};  ///< as its robot's: "sh", "sh#1003"; empty before its first program
+  char name[kernel::name_size] = {};  ///< as its robot's: "sh", "sh#1003"; first of its parent's program
   pid_t parent = no_parent;
   pid_t group = 0, session = 0;
   std::atomic<pid_t> real_id = 0;  ///< of the system; 0 until it is known

@@ -7,6 +7,7 @@
 
 #include <cerrno>
 #include <csignal>
+#include <cstdio>
 #include <ctime>
 #include <utility>
 
@@ -29,6 +30,10 @@ long futex(std::atomic<std::uint32_t>& word, int operation, std::uint32_t value,
 }
 
 void sleep_really(const timespec& span) { call_directly(SYS_nanosleep, reinterpret_cast<long>(&span)); }
+
+void note_time(const kernel::Scheduler& scheduler) {
+  if (family->now < scheduler.global_time()) family->now = scheduler.global_time();
+}
 
 void give_turn(Process& to) {
   family->holder.store(index_of(to));
@@ -103,7 +108,10 @@ bool is_joined() { return is_joined_; }
 
 Process* expect_child() {
   Process* const child = add();
-  if (child != nullptr) child->next = kernel::EventKey::never();
+  if (child == nullptr) return nullptr;
+  child->next = kernel::EventKey::never();
+  const auto number = static_cast<int>(child->id);
+  std::snprintf(child->name, sizeof child->name, "%.36s#%d", program_invocation_short_name, number);
   return child;
 }
 
@@ -131,7 +139,7 @@ void begin_as_child(Process& child) {
 
 bool hand_over_if_due(kernel::Scheduler& scheduler) {
   remove_limit(scheduler);
-  if (family->now < scheduler.global_time()) family->now = scheduler.global_time();
+  note_time(scheduler);
   own->next = scheduler.next_key();
   Process* const least = least_other();
   if (least == nullptr || key_of(*least).time == Time::max()) return false;
@@ -147,7 +155,7 @@ bool hand_over_if_due(kernel::Scheduler& scheduler) {
 
 void hand_over_to(kernel::Scheduler& scheduler, Process& process) {
   remove_limit(scheduler);
-  if (family->now < scheduler.global_time()) family->now = scheduler.global_time();
+  note_time(scheduler);
   own->next = scheduler.next_key();
   ++family->hand_overs;
   give_turn(process);
@@ -164,6 +172,7 @@ bool take_ring(kernel::Scheduler& scheduler) {
 void leave(int status) {
   if (own == nullptr || own->state == Process::State::ended) return;
   const bool is_alone = !has_others();
+  note_time(record->scheduler);
   note_end_of(*own, status);
   if (is_alone) return;
   // What the system does at a process's end must have happened when another continues: see await_turn().

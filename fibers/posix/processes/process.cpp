@@ -6,7 +6,6 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstdio>
 #include <cstring>
 #include <utility>
 
@@ -55,11 +54,7 @@ int expect_child() {
   if (room == MAP_FAILED) return ENOMEM;
   copy_of_record = room;
   expected = family::expect_child();
-  if (expected != nullptr) {
-    const auto number = static_cast<int>(expected->id);
-    std::snprintf(expected->name, sizeof expected->name, "%.36s#%d", program_invocation_short_name, number);
-    return 0;
-  }
+  if (expected != nullptr) return 0;
   drop_copy();
   return EAGAIN;
 }
