@@ -233,6 +233,11 @@ class Refusals(ExecCase):
         self.assertIn("unknown option '--sed', did you mean '--seed'?", self.refused("--sed", "1", "--", "true"))
         self.assertIn("unknown option '--sed', did you mean '--seed'?", self.refused("--sed", "1", "true"))
 
+    def test_of_a_simulation_within_a_simulation(self):
+        done = subprocess.run([WAITPOINT, "exec", "--quiet", "--", WAITPOINT, "exec", "--", "true"], capture_output=True, text=True)
+        self.assertEqual(done.returncode, 125, done.stderr)
+        self.assertIn("waitpoint: exec: a simulated program cannot start a simulation of its own\n", done.stderr)
+
     def test_of_programs_that_nothing_can_be_preloaded_into(self):
         static = self.folder / "static"
         (self.folder / "empty.c").write_text("int main(void) { return 0; }\n")

@@ -13,7 +13,11 @@
 namespace waitpoint::tools {
 namespace {
 
-[[noreturn]] void no_memory() { throw BadInput("exec", std::string("cannot share memory: ") + std::strerror(errno)); }
+[[noreturn]] void no_memory() {
+  // The memory has one address, which is in use in a simulated process.
+  if (errno == EEXIST) throw BadInput("exec", "a simulated program cannot start a simulation of its own");
+  throw BadInput("exec", std::string("cannot share memory: ") + std::strerror(errno));
+}
 
 }  // namespace
 
