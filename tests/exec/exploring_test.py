@@ -78,6 +78,13 @@ class Exploring(ExecCase):
         rows = {event["pid"] for event in json.loads(trace.read_text())["traceEvents"]}
         self.assertEqual(rows, {1000, 1001})
 
+    def test_siblings_begin_in_any_order(self):
+        file = self.folder / "late"
+        for strategy in ("bounded:1", "random"):
+            done = explore("--strategy", strategy, "--", "sh", "-c", f"rm -f {file}; (echo a > {file}) & cat {file}")
+            self.assertEqual(done.returncode, 1, done.stdout)
+            self.assertIn("No such file or directory", done.stdout)
+
     def test_programs_that_a_shell_starts_are_explored(self):
         program = self.compile("two_processes.c")
         done = explore("--iterations", "100", "--", "sh", "-c", f"{program} locked & {program}; wait")

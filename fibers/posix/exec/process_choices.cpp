@@ -154,6 +154,7 @@ Duration ProcessChoices::computing(const kernel::Task& task, Duration least, Dur
 
 Process* ProcessChoices::take_chosen() {
   if (chosen_ != nullptr) return std::exchange(chosen_, nullptr);
+  family::remove_limit(scheduler_);  // it is no event of this process
   const kernel::EventKey least = family::least_of_others();
   if (least.time == Time::max() || !is_of_tasks(least) || scheduler_.next_key().time <= least.time) return nullptr;
   if (family::family->now < least.time) family::family->now = least.time;
