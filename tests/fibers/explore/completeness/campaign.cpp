@@ -40,16 +40,17 @@ struct Tally {
   }
 };
 
-void compare_one(const Program& program, const Cover& cover_by, Tally& tally, const char* options) {
+void compare_one(const Program& program, const Enumerated& all, const Cover& cover_by, Tally& tally,
+                 const char* options) {
   const Coverage coverage = [&](const Program& one) { return cover_by(one, tally.strategy, tally.schedules_max); };
   const Covered covered = coverage(program);
   tally.schedules += covered.schedules;
   std::string difference;
-  const Verdict verdict = compare(program, covered, difference);
+  const Verdict verdict = compare(all, covered, difference);
   tally.add(verdict);
   if (verdict != Verdict::different) return;
   const Program least = shrink(program, coverage);
-  (void)compare(least, coverage(least), difference);
+  (void)compare(enumerate(least, states_max), coverage(least), difference);
   std::printf("\n%s differs on %s\n%sagain: ./dev test --completeness%s --program '%s'\n", tally.strategy,
               to_text(program).c_str(), difference.c_str(), options, to_text(least).c_str());
   std::fflush(stdout);
@@ -121,7 +122,8 @@ int run(const Asked& asked) {
     // Threads take a process for each schedule: only small programs.
     const std::uint64_t number = asked.is_exec ? 2 * (asked.first + i) : asked.first + i;
     const Program program = is_single ? read_program(asked.program) : make_program(number);
-    for (Tally& tally : tallies) compare_one(program, cover_by, tally, asked.is_exec ? " --exec" : "");
+    const Enumerated all = enumerate(program, states_max);
+    for (Tally& tally : tallies) compare_one(program, all, cover_by, tally, asked.is_exec ? " --exec" : "");
     if ((asked.is_exec || i % 100 == 99) && isatty(STDERR_FILENO) != 0)
       std::fprintf(stderr, "\r%llu of %llu programs", static_cast<unsigned long long>(i + 1),
                    static_cast<unsigned long long>(asked.count));

@@ -16,8 +16,7 @@ std::string beyond(const Outcomes& some, const Outcomes& others, const char* wha
 
 }  // namespace
 
-Verdict compare(const Program& program, const Covered& covered, std::string& difference) {
-  const Enumerated all = enumerate(program, states_max);
+Verdict compare(const Enumerated& all, const Covered& covered, std::string& difference) {
   if (!all.is_complete) return Verdict::unfinished;
   Outcomes found = covered.outcomes;
   if (found.erase("cycle ?") != 0)
@@ -33,7 +32,8 @@ Verdict compare(const Program& program, const Covered& covered, std::string& dif
 Program shrink(const Program& program, const Coverage& coverage) {
   for (const Program& less : smaller(program)) {
     std::string difference;
-    if (compare(less, coverage(less), difference) == Verdict::different) return shrink(less, coverage);
+    if (compare(enumerate(less, states_max), coverage(less), difference) == Verdict::different)
+      return shrink(less, coverage);
   }
   return program;
 }

@@ -24,8 +24,9 @@ enum class Verdict {
   unfinished,  ///< more states or schedules than the limits: no other outcome was found
 };
 
-/// The verdict on `covered`; in `difference`, what differs. The outcome "cycle ?" stands for all cycles.
-Verdict compare(const Program& program, const Covered& covered, std::string& difference);
+/// The verdict on `covered`, of a program with the outcomes `all`; in `difference`, what differs. The outcome "cycle ?"
+/// stands for all cycles.
+Verdict compare(const Enumerated& all, const Covered& covered, std::string& difference);
 
 /// A smallest program, made from `program` by omissions, for which `coverage` still differs.
 Program shrink(const Program& program, const Coverage& coverage);

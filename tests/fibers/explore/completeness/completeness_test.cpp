@@ -31,7 +31,7 @@ TEST_P(Completeness, FindsExactlyTheOutcomesOfRandomPrograms) {
   for (std::uint64_t number = 1; number <= programs; ++number) {
     const Program program = make_program(number);
     std::string difference;
-    const Verdict verdict = compare(program, coverage(program), difference);
+    const Verdict verdict = compare(enumerate(program, states_max), coverage(program), difference);
     equal += verdict == Verdict::equal;
     left_out += verdict == Verdict::left_out;
     if (verdict == Verdict::different)
@@ -52,7 +52,8 @@ class Dpor : public testing::TestWithParam<const char*> {};
 TEST_P(Dpor, FindsEveryOutcome) {
   const Program program = read_program(GetParam());
   std::string difference;
-  EXPECT_EQ(compare(program, cover(program, "dpor", 10'000), difference), Verdict::equal) << difference;
+  const Covered covered = cover(program, "dpor", 10'000);
+  EXPECT_EQ(compare(enumerate(program, states_max), covered, difference), Verdict::equal) << difference;
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -69,7 +70,7 @@ TEST(RandomPrograms, HaveOutcomesOfEveryKind) {
   std::size_t with_several = 0;
   std::map<std::string, std::size_t> ends;
   for (std::uint64_t number = 1; number <= programs; ++number) {
-    const Outcomes outcomes = enumerate(make_program(number), 100'000).outcomes;
+    const Outcomes outcomes = enumerate(make_program(number), states_max).outcomes;
     with_several += outcomes.size() > 1;
     std::set<std::string> kinds;
     for (const std::string& outcome : outcomes) kinds.insert(outcome.substr(0, outcome.find_first_of(" :")));

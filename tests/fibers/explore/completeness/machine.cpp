@@ -15,7 +15,7 @@ class Search {
   Enumerated run() {
     State first;
     for (std::size_t i = 0; i < objects; ++i) first.units[i] = program_.units[i];
-    begin(first, 0, nobody);
+    begin(program_, first, 0, nobody);
     visit(first);
     return {std::move(outcomes_), seen_.size(), seen_.size() <= states_max_};
   }
@@ -53,7 +53,7 @@ class Search {
       if (thread.mode != Mode::asleep || thread.wakes != next) continue;
       thread.mode = Mode::ready;
       thread.wakes = 0;
-      settle(state, t);
+      settle(program_, state, t);
     }
     visit(state);
   }
@@ -65,37 +65,9 @@ class Search {
     outcomes_.insert(outcome(how, threads, observed));
   }
 
-  // --- what belongs to the event before ---
-
-  void begin(State& state, std::size_t t, int creator) {
-    state.threads[t].mode = Mode::ready;
-    state.threads[t].creator = creator;
-    settle(state, t);
-  }
-
-  // Thread `t` has its turn up to its next event.
-  void settle(State& state, std::size_t t) {
-    Thread& thread = state.threads[t];
-    const std::vector<Instruction>& all = program_.threads[t];
-    while (thread.place < all.size() && thread.mode == Mode::ready) {
-      const Instruction& next = all[thread.place];
-      if (next.step == Step::create) {
-        begin(state, next.object, static_cast<int>(t));
-      } else if (next.step == Step::sleep) {
-        thread.mode = Mode::asleep;
-        thread.wakes = state.now + std::max<int>(next.operand, 1);
-      } else if (next.step != Step::skip) {
-        return;
-      } else if (!thread.reads.empty() && thread.reads.back() == 0) {
-        thread.place = static_cast<std::uint8_t>(std::min<std::size_t>(thread.place + next.operand, all.size() - 1));
-      }
-      ++thread.place;
-    }
-  }
-
   void finish(State state, std::size_t t) {
     ++state.threads[t].place;
-    settle(state, t);
+    settle(program_, state, t);
     visit(state);
   }
   void finish(State state, std::size_t t, int read) {
@@ -148,7 +120,7 @@ class Search {
         if (state.units[object] == 0)
           return block(next, t, Mode::acquiring, object, step == Step::acquire_for ? operand : 0);
         --next.units[object];
-        resume(next, t);
+        resume(program_, next, t);
         return visit(next);
       case Step::try_acquire:
         next.units[object] -= state.units[object] > 0;
@@ -156,7 +128,7 @@ class Search {
       case Step::release:
         return serve(next, Mode::acquiring, object, [&](State& after, std::size_t waiter) {
           if (waiter < threads_max)
-            resume(after, waiter);
+            resume(program_, after, waiter);
           else
             ++after.units[object];
           finish(after, t);
@@ -178,7 +150,7 @@ class Search {
     state.threads[t].mode = Mode::ended;
     for (std::size_t other = 0; other < threads_max; ++other) {
       const Thread& joiner = state.threads[other];
-      if (joiner.mode == Mode::joining && joiner.object == t) resume(state, other);
+      if (joiner.mode == Mode::joining && joiner.object == t) resume(program_, state, other);
     }
     visit(state);
   }
@@ -186,7 +158,7 @@ class Search {
   void lock(State state, std::size_t t, std::uint8_t mutex, int span = 0) {
     if (state.owners[mutex] != nobody) return block(state, t, Mode::locking, mutex, span);
     state.owners[mutex] = static_cast<int>(t);
-    resume(state, t);
+    resume(program_, state, t);
     visit(state);
   }
 
@@ -198,11 +170,6 @@ class Search {
   }
 
   // --- waiters ---
-
-  static void notify(Thread& waiter) {
-    waiter.mode = Mode::relocking;
-    waiter.wakes = 0;
-  }
 
   void time_out(State state, std::size_t t) {
     Thread& thread = state.threads[t];
@@ -224,32 +191,9 @@ class Search {
       state.threads[t].wakes = state.now + span;
       return visit(state);
     }
-    std::vector<std::size_t> cycle;
-    for (std::size_t member = t;;) {
-      cycle.push_back(member);
-      const Thread& waiter = state.threads[member];
-      const int next = waiter.wakes != 0              ? nobody
-                       : waiter.mode == Mode::locking ? state.owners[waiter.object]
-                       : waiter.mode == Mode::joining ? waiter.object
-                                                      : nobody;
-      if (next == nobody || cycle.size() > threads_max) return visit(state);
-      member = static_cast<std::size_t>(next);
-      if (member == t) break;
-    }
-    std::sort(cycle.begin(), cycle.end());
+    const std::vector<std::size_t> cycle = cycle_through(state, t);
+    if (cycle.empty()) return visit(state);
     end("cycle", cycle, state);
-  }
-
-  // The thread has what it waited for; with a timeout, it reads its success.
-  void resume(State& state, std::size_t waiter) {
-    Thread& thread = state.threads[waiter];
-    thread.mode = Mode::ready;
-    thread.wakes = 0;
-    const Step step = program_.threads[waiter][thread.place].step;
-    if (step == Step::wait_for) thread.reads.push_back(thread.is_notified);
-    if (step == Step::lock_for || step == Step::acquire_for) thread.reads.push_back(1);
-    ++thread.place;
-    settle(state, waiter);
   }
 
   // Goes on with each waiter of the object in turn; with threads_max if there is none.
@@ -271,7 +215,7 @@ class Search {
   void hand_over(const State& state, std::uint8_t mutex, const Continue& go_on) {
     serve(state, Mode::locking, mutex, [&](State& after, std::size_t waiter) {
       after.owners[mutex] = waiter < threads_max ? static_cast<int>(waiter) : nobody;
-      if (waiter < threads_max) resume(after, waiter);
+      if (waiter < threads_max) resume(program_, after, waiter);
       go_on(after);
     });
   }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A state of the abstract machine.
+// A state of the abstract machine, and the steps that belong to the event before: creations, skips, the start of a
+// sleep.
 #pragma once
 
 #include <array>
@@ -33,5 +34,17 @@ struct State {
   std::array<Thread, threads_max> threads;
   auto operator<=>(const State&) const = default;
 };
+
+/// Thread `t` exists from now on.
+void begin(const Program& program, State& state, std::size_t t, int creator);
+/// Takes the steps of thread `t` up to its next event.
+void settle(const Program& program, State& state, std::size_t t);
+/// Thread `t` has what it waited for; with a timeout, it reads its success.
+void resume(const Program& program, State& state, std::size_t t);
+/// The waiter for a condition must have its mutex again.
+void notify(Thread& waiter);
+/// The threads, in ascending order, that wait for each other without a timeout, `t` among them; empty if there are
+/// none.
+std::vector<std::size_t> cycle_through(const State& state, std::size_t t);
 
 }  // namespace waitpoint::completeness
