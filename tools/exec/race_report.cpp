@@ -39,6 +39,11 @@ bool has_races(const posix::Record& record) {
   return log != nullptr && !log->races.empty();
 }
 
+bool has_unlearned_code(const posix::Record& record) {
+  const posix::RaceLog* const log = log_of(record);
+  return log != nullptr && log->has_other_code;
+}
+
 std::span<const std::uint64_t> code_of(const posix::Record& record) {
   const posix::RaceLog* const log = log_of(record);
   return log != nullptr ? std::span<const std::uint64_t>(log->code) : std::span<const std::uint64_t>();

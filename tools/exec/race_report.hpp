@@ -14,6 +14,8 @@ namespace waitpoint::tools {
 /// Empty without races.
 std::string races_of(const posix::Record& record);
 bool has_races(const posix::Record& record);
+/// True if other code than that of an earlier run accesses shared memory, if the run notes it.
+bool has_unlearned_code(const posix::Record& record);
 /// The code that accesses shared memory, if the run recorded it.
 std::span<const std::uint64_t> code_of(const posix::Record& record);
 

@@ -31,8 +31,10 @@ std::optional<DepthFirst> DepthFirst::of(const std::string& strategy) {
   return DepthFirst(dfs->preemptions(), dfs->scope());
 }
 
-std::optional<std::vector<Deviation>> DepthFirst::after(const std::vector<Decision>& decisions, bool cuts_polls_short) {
-  left_out_turns_ = left_out_turns_ || cuts_polls_short;
+std::optional<std::vector<Deviation>> DepthFirst::after(const Finding& finding) {
+  const std::vector<Decision>& decisions = finding.choices;
+  left_out_turns_ = left_out_turns_ || finding.cuts_polls_short;
+  left_out_accesses_ = left_out_accesses_ || finding.has_unlearned_code;
   std::uint32_t preempted = 0;
   std::optional<Deviation> last;
   for (std::uint32_t at = 0; at < decisions.size(); ++at) {
@@ -60,6 +62,7 @@ std::string DepthFirst::scope() const {
   add(left_out_turns_, "turns of spinning tasks");
   add(left_out_costs_, "computing costs between minimum and maximum");
   add(left_out_spurious_, "spurious wake-ups");
+  add(left_out_accesses_, "switches at first accesses to memory that the default order does not share");
   return scope_ + but;
 }
 

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "fibers/explore/strategies/schedule.hpp"
+#include "tools/explore/finding.hpp"
 
 namespace waitpoint::tools {
 
@@ -19,10 +20,9 @@ class DepthFirst {
   /// For the name of a strategy; nothing if that is not exhaustive.
   static std::optional<DepthFirst> of(const std::string& strategy);
 
-  /// The successor of the schedule with these decisions, as deviations from the default order; nothing after the last.
-  /// `cuts_polls_short`: as in exploration::Schedule.
-  std::optional<std::vector<exploration::Deviation>> after(const std::vector<exploration::Decision>& decisions,
-                                                           bool cuts_polls_short);
+  /// The successor of the schedule of `finding`, whose choices were requested, as deviations from the default order;
+  /// nothing after the last.
+  std::optional<std::vector<exploration::Deviation>> after(const Finding& finding);
 
   /// The scope of an exhausted search: " with at most 2 preemptions, except for turns of spinning tasks".
   std::string scope() const;
@@ -32,7 +32,7 @@ class DepthFirst {
 
   std::uint32_t preemptions_;
   std::string scope_;
-  bool left_out_turns_ = false, left_out_costs_ = false, left_out_spurious_ = false;
+  bool left_out_turns_ = false, left_out_costs_ = false, left_out_spurious_ = false, left_out_accesses_ = false;
 };
 
 }  // namespace waitpoint::tools

@@ -33,6 +33,7 @@ void pass_fields(Pass& pass, F& finding) {
   pass(finding.deviations);
   pass(finding.choices);
   pass(finding.cuts_polls_short);
+  pass(finding.has_unlearned_code);
   pass(finding.parted);
   pass(finding.details);
   pass(finding.told);

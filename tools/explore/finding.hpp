@@ -30,12 +30,14 @@ struct Finding {
   std::vector<exploration::Deviation> deviations;  ///< the same switches
   std::vector<exploration::Decision> choices;      ///< if requested: all of them
   bool cuts_polls_short = false;                   ///< as in exploration::Schedule
-  bool parted = false;                             ///< the plan did not fit the run
-  std::string details;                      ///< for failures, if places are requested: lines specific to the kind
-  std::string told;                         ///< if requested: the switches, a decision or an event, in words
-  std::string system_calls;                 ///< with the profile: warnings of calls that leave virtual time
-  std::string last_events;                  ///< if requested, in words
-  std::string trace;                        ///< if requested
+  bool has_unlearned_code =
+      false;                 ///< its first accesses to shared memory were not switch points; if choices are requested
+  bool parted = false;       ///< the plan did not fit the run
+  std::string details;       ///< for failures, if places are requested: lines specific to the kind
+  std::string told;          ///< if requested: the switches, a decision or an event, in words
+  std::string system_calls;  ///< with the profile: warnings of calls that leave virtual time
+  std::string last_events;   ///< if requested, in words
+  std::string trace;         ///< if requested
   std::vector<exploration::DoneEvent> log;  ///< if requested
   std::string trail;                        ///< if requested
   exploration::Profile profile;             ///< if requested

@@ -98,6 +98,7 @@ void ask_for_run(RunMemory& memory, const ExploreOptions& options, const Plan& p
   if (plan.drawn) tell_profile(record.arena, profile, asked);
   asked.code = copied(record.arena, profile.code);
   asked.learn = request.learn;
+  asked.notes = request.choices;
   asked.profile = request.profile;
   asked.words = request.words;
   asked.events = request.events;
@@ -152,6 +153,7 @@ Finding finding_of_run(const RunMemory& memory, int status, const std::string& o
   const exploration::Schedule schedule = schedule_of(record);
   finding.take(schedule, explored.explorer.parted() || has_parted_elsewhere(record));
   if (request.choices) finding.choices = schedule.decisions;
+  finding.has_unlearned_code = has_unlearned_code(record);
   if (request.profile) {
     finding.profile = explored.profile;
     finding.profile.finish(explored.explorer.steps());

@@ -97,7 +97,7 @@ void Search::run_depth_first(DepthFirst tree, bool all) {
     std::optional<Finding> found = run_apart(target_, {.drawn = false, .deviations = *deviations}, {.choices = true});
     interrupted_ = !found;
     if (!found) return;
-    deviations = tree.after(found->choices, found->cuts_polls_short);
+    deviations = tree.after(*found);
     take(started_, std::move(*found), all);
     progress_.update(schedules_, distinct(), failures_);
   }

@@ -134,7 +134,7 @@ void Detector::unwatched(std::uint32_t weight) {
     const MemoryAccess* const more = shadow_.more(cell);
     for (unsigned i = 0; i < cell.more_count; ++i) kept |= is_kept(more[i]) << (i + 1);
   }
-  if (__builtin_expect(learning_, 0) && cell.several && cell.written) learn_from(cell, seen.place);
+  if (__builtin_expect(learning_ || noting_, 0) && cell.several && cell.written) learn_from(cell, seen.place);
   if (kept == 0) {
     cell.more_count = 0;
   } else if (cell.more_count == 0) {
@@ -190,6 +190,11 @@ void Detector::learn_from(Cell& cell, std::uint64_t place) {
 
 void Detector::learn_place(std::uint64_t place) {
   if (is_learned(place)) return;
+  if (!learning_) {
+    if (listener_ != nullptr && !unlearned_) listener_->unlearned();
+    unlearned_ = true;
+    return;
+  }
   if (listener_ != nullptr) listener_->learned(place);
   know(place);
 }

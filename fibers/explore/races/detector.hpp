@@ -114,6 +114,12 @@ class Detector {
 
   std::size_t found(const FoundRace*& races) const;
   void learn(bool on) { learning_ = on; }
+  /// Whether later runs note that code which is not learned accesses shared memory; begins with nothing noted.
+  void note_unlearned(bool on) {
+    noting_ = on;
+    unlearned_ = false;
+  }
+  bool noted_unlearned() const { return unlearned_; }
   void forget_learned();
   void know(std::uint64_t place);
   void tell(const Listener& listener) { listener_ = &listener; }
@@ -208,6 +214,7 @@ class Detector {
   std::uint32_t weight_ = 0;  // of the accesses since the last switch point
   bool watching_ = false;
   bool learning_ = false;
+  bool noting_ = false, unlearned_ = false;
   const Listener* listener_ = nullptr;
   std::size_t race_count_ = 0;
   FoundRace races_[races_kept] = {};

@@ -92,6 +92,12 @@ void forget_learned() {
   if (present()) runtime()->forget_learned();
 }
 
+void note_unlearned(bool on) {
+  if (present()) runtime()->note_unlearned(on);
+}
+
+bool noted_unlearned() { return present() && runtime()->noted_unlearned(); }
+
 std::string headline(const Race& race) {
   const auto words = [](const Access& access) {
     return std::string(access.atomic ? "atomic " : "") + (access.writes ? "write" : "read") + " at " + access.line;

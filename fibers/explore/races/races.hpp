@@ -75,4 +75,9 @@ std::vector<Race> in_words(std::span<const LocatedRace> races);
 void learn(bool on);
 void forget_learned();
 
+/// Controls whether later runs note that other code than the learned accesses shared memory: its first accesses are not
+/// switch points, so that an exhaustive search leaves schedules out.
+void note_unlearned(bool on);
+bool noted_unlearned();
+
 }  // namespace waitpoint::races

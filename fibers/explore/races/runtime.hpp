@@ -35,6 +35,7 @@ struct FoundRace {
 struct Listener {
   void (*found)(const FoundRace& race);
   void (*learned)(std::uint64_t place);  ///< a new place of code that accesses shared memory
+  void (*unlearned)();                   ///< the first such place of a run that only notes them
 };
 
 struct Runtime {
@@ -48,6 +49,8 @@ struct Runtime {
   /// all that tasks did happens before what is done outside, and that before all that tasks do later.
   void (*set_outside_apart)();
   void (*order_by_outside)();
+  void (*note_unlearned)(bool);
+  bool (*noted_unlearned)();
 };
 
 }  // namespace waitpoint::races

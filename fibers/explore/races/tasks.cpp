@@ -21,6 +21,8 @@ const waitpoint::races::Runtime runtime = {
     [](const waitpoint::races::Listener& listener) { Detector::the().tell(listener); },
     [] { Detector::the().set_outside_apart(); },
     [] { Detector::the().order_by_outside(); },
+    [](bool on) { Detector::the().note_unlearned(on); },
+    [] { return Detector::the().noted_unlearned(); },
 };
 
 }  // namespace

@@ -42,6 +42,7 @@ struct Asked {
   std::span<const std::uint64_t> code = {};
 
   bool learn = false;    ///< record the code that accesses shared memory
+  bool notes = false;    ///< log whether other code does
   bool profile = false;  ///< record the profile
   bool words = false;    ///< record choices in words
   bool events = false;   ///< record events, from `events_from` on

@@ -27,13 +27,14 @@ constexpr races::Listener listener = {
       const NewInFamily memory;
       log().code.push_back(place);
     },
+    [] { log().has_other_code = true; },
 };
 
 }  // namespace
 
 bool has_race_runtime() { return &waitpoint_races_runtime != nullptr; }
 
-void begin_race_log(bool learn, std::span<const std::uint64_t> code) {
+void begin_race_log(bool learn, bool notes, std::span<const std::uint64_t> code) {
   WAITPOINT_CHECK(has_race_runtime(), "a log of races begins without the runtime that finds them");
   if (family::common(family::Part::races, 0) == nullptr) {
     void* const memory = family::common(family::Part::races, sizeof(RaceLog));
@@ -43,6 +44,7 @@ void begin_race_log(bool learn, std::span<const std::uint64_t> code) {
   const races::Runtime& runtime = *waitpoint_races_runtime();
   for (const std::uint64_t place : code) runtime.know(place);
   runtime.learn(learn);
+  runtime.note_unlearned(notes);
   runtime.tell(listener);
   runtime.set_outside_apart();
   note_what_came = runtime.order_by_outside;

@@ -24,12 +24,14 @@ struct RaceOfProcess {
 struct RaceLog {
   std::vector<RaceOfProcess> races;
   std::vector<std::uint64_t> code;  ///< that accesses shared memory, if the run records it
+  bool has_other_code = false;      ///< other code accesses shared memory than that of the earlier run
 };
 
 /// True if this library is the one with the runtime, which instrumented programs load.
 bool has_race_runtime();
-/// From now on races of this process are logged. Called before the scheduler is made, where there is the runtime.
+/// From now on races of this process are logged; and whether other code than `code` accesses shared memory, if that is
+/// not recorded and `notes`. Called before the scheduler is made, where there is the runtime.
 /// `code` comes from an earlier run.
-void begin_race_log(bool learn, std::span<const std::uint64_t> code);
+void begin_race_log(bool learn, bool notes, std::span<const std::uint64_t> code);
 
 }  // namespace waitpoint::posix

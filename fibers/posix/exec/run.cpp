@@ -123,9 +123,9 @@ kernel::Scheduler& begin_run() {
   const Asked* const asked = record->settings.asked;
   if (has_race_runtime()) {
     if (asked == nullptr)
-      begin_race_log(false, {});
+      begin_race_log(false, false, {});
     else
-      begin_race_log(asked->learn, asked->code);
+      begin_race_log(asked->learn, asked->notes, asked->code);
   }
   begin_misuse_log();
   if (!kernel::Scheduler::has_address_space())

@@ -141,6 +141,18 @@ constexpr Program programs[] = {
 
 std::span<const Program> atomic_programs() { return programs; }
 
+void share_late() {
+  static std::atomic<std::atomic<int>*> shared;
+  shared = nullptr;
+  thread writer([&] {
+    if (std::atomic<int>* const value = shared.load(); value != nullptr) value->store(1);
+  });
+  const auto value = std::make_unique<std::atomic<int>>(0);
+  shared.store(value.get());
+  (void)value->load();
+  writer.join();
+}
+
 void wait_for_nobody() {
   thread other([] {
     std::atomic<bool> never(false);

@@ -20,6 +20,7 @@ std::span<const Program> atomic_programs();   ///< ordered by the standard's ato
 void count_twice_without_lock();    ///< check() fails if an increment is lost
 void publish_in_two_steps();        ///< check() fails if a reader runs in between
 void wait_for_nobody();             ///< spins on an atomic that is never set
+void share_late();                  ///< shares an atomic unless its first thread comes first
 void two_heaps();                   ///< accesses new memory from two threads, in order
 void write_and_read(bool records);  ///< two tasks, one atomic; check() fails if the recorded history is wrong
 void race_and_lose();               ///< two races in each order; check() fails if an update of an atomic is lost

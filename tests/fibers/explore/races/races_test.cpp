@@ -108,6 +108,14 @@ TEST(MemoryAccesses, ThatAreTheFirstAreSwitchPointsOnceTheirCodeIsKnown) {
   forget_learned();
 }
 
+TEST(MemoryAccesses, ThatAreTheFirstAreLeftOutByExhaustiveStrategies) {
+  const ExploreReport report = explore(share_late, {.strategy = "dpor"});
+  EXPECT_TRUE(report.passed) << report;
+  EXPECT_FALSE(report.complete);
+  EXPECT_EQ(report.scope,
+            "all schedules, except switches at first accesses to memory that the default order does not share");
+}
+
 TEST(MemoryAccesses, DependOnNoAddress) {
   const Report first = simulate(two_heaps);
   std::vector<std::unique_ptr<char[]>> between;
