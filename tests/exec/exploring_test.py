@@ -389,9 +389,9 @@ class Instrumented(ExecCase):
 
     def test_a_race_is_a_failure_and_is_replayed(self):
         for way in ([], ["flag"]):
-            done = explore("--", self.program, *way)
+            done = explore("--races", "fail", "--", self.program, *way)
             self.assertEqual(done.returncode, 1)
-            self.assertIn(": a data race\n", done.stdout)
+            self.assertIn("the default order failed at 0.000000000 s: a data race\n", done.stdout)
             again = explore(*replay_words(done.stdout))
             self.assertIn("the same run as in the record", again.stderr)
             self.assertIn("racing.cpp:", again.stderr)
@@ -440,6 +440,7 @@ class Refusals(ExecCase):
         early = self.compile("early.c")
         self.assertIn("did not reach main(): terminated by signal 6 (Aborted)", self.refused("--", early))
         self.assertIn("unknown strategy 'best'", self.refused("--strategy", "best", "--", "true"))
+        self.assertIn("--races: expected report, fail or ignore, found 'some'", self.refused("--races", "some", "--", "true"))
 
     def test_of_records_of_something_else(self):
         program, schedule = self.compile("lost_update.c"), self.folder / "other"

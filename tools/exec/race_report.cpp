@@ -4,9 +4,7 @@
 #include <map>
 #include <sstream>
 #include <utility>
-#include <vector>
 
-#include "fibers/explore/races/races.hpp"
 #include "fibers/posix/exec/race_log.hpp"
 #include "tools/exec/family_report.hpp"
 
@@ -20,16 +18,23 @@ const posix::RaceLog* log_of(const posix::Record& record) {
 
 }  // namespace
 
-std::string races_of(const posix::Record& record) {
-  if (!has_races(record)) return "";
+std::vector<RacesOf> races_by_process(const posix::Record& record) {
+  if (!has_races(record)) return {};
   // A process that executes several programs has several names.
   std::map<std::pair<pid_t, std::string>, std::vector<races::LocatedRace>> of_processes;
   for (const posix::RaceOfProcess& one : log_of(record)->races)
     of_processes[{one.process, one.program}].push_back(one.race);
+  std::vector<RacesOf> all;
+  for (const auto& [process, found] : of_processes)
+    all.push_back({family_of(record).made > 1 ? process.second : "", races::in_words(found)});
+  return all;
+}
+
+std::string races_of(const posix::Record& record) {
   std::ostringstream text;
-  for (const auto& [process, found] : of_processes) {
-    if (family_of(record).made > 1) text << "data races of " << process.second << ":\n";
-    for (const races::Race& race : races::in_words(found)) text << race;
+  for (const auto& [process, found] : races_by_process(record)) {
+    if (!process.empty()) text << "data races of " << process << ":\n";
+    for (const races::Race& race : found) text << race;
   }
   return text.str();
 }
@@ -42,6 +47,13 @@ bool has_races(const posix::Record& record) {
 bool has_unlearned_code(const posix::Record& record) {
   const posix::RaceLog* const log = log_of(record);
   return log != nullptr && log->has_other_code;
+}
+
+std::vector<races::LocatedRace> located_races(const posix::Record& record) {
+  std::vector<races::LocatedRace> all;
+  if (has_races(record))
+    for (const posix::RaceOfProcess& one : log_of(record)->races) all.push_back(one.race);
+  return all;
 }
 
 std::span<const std::uint64_t> code_of(const posix::Record& record) {

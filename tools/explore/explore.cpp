@@ -4,7 +4,9 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <filesystem>
 #include <optional>
+#include <vector>
 
 #include "core/error.hpp"
 #include "core/number_text.hpp"
@@ -12,11 +14,13 @@
 #include "modules/scenario/scenario_reader.hpp"
 #include "tools/command/interruption.hpp"
 #include "tools/command/program_layer.hpp"
+#include "tools/explore/discoveries.hpp"
 #include "tools/explore/failure_report.hpp"
 #include "tools/explore/program_replay.hpp"
 #include "tools/explore/program_target.hpp"
 #include "tools/explore/replay.hpp"
 #include "tools/explore/scene.hpp"
+#include "tools/explore/search.hpp"
 #include "tools/output/output_file.hpp"
 
 namespace waitpoint::tools {
@@ -31,7 +35,7 @@ class Files {
   }
 
   bool has_results() const { return results_.has_value(); }
-  /// Every shard writes the same head line, so that merged and sorted files have it once.
+  /// The results so far. Every shard writes the same head line, so that merged and sorted files have it once.
   void write_results(const Target& target, const Search& search) {
     if (!results_) return;
     const ExploreOptions& options = target.options();
@@ -39,6 +43,12 @@ class Files {
                                 options.strategy, options.seed));
     for (const auto& [number, line] : search.lines()) results_->write(line);
     results_->commit();
+  }
+  /// The same before the end of the search, for a file that can be replaced later.
+  void write_results_so_far(const Target& target, const Search& search) {
+    if (!results_ || !std::filesystem::is_regular_file(results_->written_to())) return;
+    write_results(target, search);
+    results_.emplace(*target.options().results);
   }
   void write(const FailureReport& report) {
     if (schedule_) {
@@ -62,10 +72,21 @@ void tell(const FailureReport& report, Files& files) {
 
 std::string sum(const Target& target, const Search& search, double seconds) {
   const std::string scope = search.scope() ? "; exhaustive" + *search.scope() : "";
-  return fmt::format("{}: {}, {} distinct, {} failed, in {:.1f} s ({:.1f} a second){}{}\n", target.name(),
-                     counted(search.schedules(), "schedule"), search.distinct(), search.failures(), seconds,
+  const std::string raced = search.raced() > 0 ? fmt::format(" ({} by a data race alone)", search.raced()) : "";
+  return fmt::format("{}: {}, {} distinct, {} failed{}, in {:.1f} s ({:.1f} a second){}{}\n", target.name(),
+                     counted(search.schedules(), "schedule"), search.distinct(), search.failures(), raced, seconds,
                      seconds > 0 ? static_cast<double>(search.schedules()) / seconds : 0,
                      search.interrupted() ? "; stopped by a signal" : "", scope);
+}
+
+// Failures of a graver kind than a data race are analysed without regard to races, which may be in each run.
+FailureReport report_of(Target& target, SearchProgress& progress, const Discoveries& discoveries) {
+  const FailedRun& gravest = *discoveries.gravest();
+  const bool is_race = gravest.finding.kind == Finding::Kind::race;
+  if (!is_race) target.ignore_races();
+  FailureReport result = gravest.number ? report(target, progress, gravest) : report_default(target, gravest.finding);
+  result.text += discoveries.besides(is_race ? result.races : std::vector<ToldRace>());
+  return result;
 }
 
 // A schedule counts as endless beyond the fixed limit plus this multiple of the default order's time.
@@ -81,19 +102,25 @@ int search(Target& target, Files& files) {
   const double usual_s = progress.seconds() - usual_start_s;
   target.set_limit(target.options().schedule_limit_s.value_or(least_limit_s + usual_times_max * usual_s));
   if (usual) std::fputs(usual->system_calls.c_str(), stderr);
-  if (usual && !usual->passed() && !files.has_results()) {
+  Discoveries discoveries(target, progress);
+  const bool only_raced = usual && usual->kind == Finding::Kind::race && target.options().races == Races::report;
+  if (only_raced) {
+    discoveries.take({std::nullopt, *usual});
+  } else if (usual && !usual->passed() && !files.has_results()) {
     tell(report_default(target, *usual), files);
     return 1;
   }
   if (usual) target.set_profile(std::move(usual->profile));
-  Search search(target, progress);
+  Search search(target, progress, discoveries);
+  discoveries.on_discovery([&] { files.write_results_so_far(target, search); });
   const double start_s = progress.seconds();
   if (usual) search.run(files.has_results());
   const double seconds = progress.seconds() - start_s;
   files.write_results(target, search);
   write_standard_output(sum(target, search, seconds));
-  if (search.first()) tell(report(target, progress, *search.first()), files);
-  return search.interrupted() || !usual ? 130 : search.first() ? 1 : 0;
+  const FailedRun* const gravest = discoveries.gravest();
+  if (gravest != nullptr) tell(report_of(target, progress, discoveries), files);
+  return search.interrupted() || !usual ? 130 : gravest != nullptr ? 1 : 0;
 }
 
 }  // namespace

@@ -72,6 +72,14 @@ std::string assignment_of(const std::string& property) {
   return "expect." + property;
 }
 
+Races races_of(const std::string& option) {
+  std::string where = "--races";
+  const std::string text = text_of(option, "WAITPOINT_RACES", where);
+  const std::optional<Races> meant = races_named(text.empty() ? "report" : text);
+  if (!meant) refuse(where, races_words, text);
+  return *meant;
+}
+
 std::optional<std::filesystem::path> file(const std::string& name) {
   return name.empty() ? std::nullopt : std::optional<std::filesystem::path>(name);
 }
@@ -115,6 +123,10 @@ ExploreArguments::ExploreArguments(CommandLine& line)
   command_.option("--schedule", schedule_, "FILE", "write the failing schedule, minimised, for --replay");
   command_.option("--trace", trace_, "FILE.json",
                   "write the last seconds before the failure as a trace for Chrome and Perfetto");
+  command_.option("--races", races_, "report|fail|ignore",
+                  "data races of a program compiled with -fsanitize=thread (default: $WAITPOINT_RACES, or\n"
+                  "report): failures, each reported once, that do not end the search; failures like any\n"
+                  "other, the first of which ends it; or no failures");
   conditions_.add_to(command_);
   command_.flag("--no-minimize", keep_all_, "report the failure as found, without minimisation");
   command_.footer(
@@ -183,6 +195,8 @@ ExploreOptions ExploreArguments::options(const std::vector<std::string>& words) 
   options.seed_is_asked = !text_of(seed_, "WAITPOINT_SEED", where).empty();
   if (!jobs_.empty() && (!parse_number(jobs_, options.jobs) || options.jobs < 1 || options.jobs > jobs_max))
     refuse("--jobs", "a whole number from 1 to " + std::to_string(jobs_max), jobs_);
+  if (!races_.empty() && !is_program_) throw BadInput("--races", "expected --exec and a program");
+  options.races = races_of(races_);
   options.until = positive_seconds("--until", until_);
   options.from = positive_seconds("--from", from_);
   if (options.from && options.until && *options.from >= *options.until)

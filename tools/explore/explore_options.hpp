@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/time.hpp"
+#include "fibers/explore/races_option.hpp"
 #include "tools/command/command_line.hpp"
 #include "tools/command/confinement_options.hpp"
 #include "tools/exec/program_conditions.hpp"
@@ -43,6 +44,7 @@ struct ExploreOptions {
   std::string replay;  ///< a token or a file's name, to run only that schedule
   bool minimize = true;
   ProgramConditions conditions;  ///< of a program
+  Races races = Races::report;   ///< of a program compiled with -fsanitize=thread
 
   /// The end of a run, for a scenario whose own limit is `own`.
   Time limit(Duration own) const { return Time() + until.value_or(own); }
@@ -65,7 +67,7 @@ class ExploreArguments {
 
   Command command_;
   std::string scenario_, seed_, strategy_, iterations_, time_limit_, schedule_limit_, jobs_, until_, from_, shard_;
-  std::string results_, trace_, schedule_, replay_;
+  std::string results_, trace_, schedule_, replay_, races_;
   std::vector<std::string> assignments_, properties_;
   ConfinementArguments confinement_;
   ConditionArguments conditions_;

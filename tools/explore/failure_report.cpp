@@ -4,14 +4,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
 
 #include "core/number_text.hpp"
 #include "fibers/explore/schedules/token.hpp"
-#include "tools/command/shell_words.hpp"
-#include "tools/explore/depth_first.hpp"
 #include "tools/explore/fewer_switches.hpp"
 #include "tools/explore/reversed_events.hpp"
+#include "tools/explore/search.hpp"
 
 namespace waitpoint::tools {
 namespace {
@@ -44,6 +42,7 @@ void tell_run(Target& target, const Plan& plan, const Finding& least, FailureRep
   const auto told = run_apart(target, plan, {.words = true, .places = true, .events = true, .events_from = from});
   if (!told) return;
   report.text += told->details;
+  report.races = told->races;
   if (!told->told.empty()) report.text += "switches away from the default order:\n" + told->told;
   if (!told->last_events.empty())
     report.text += "last events of the tasks (*: switch away from the default order):\n" + told->last_events;
@@ -51,21 +50,6 @@ void tell_run(Target& target, const Plan& plan, const Finding& least, FailureRep
 }
 
 }  // namespace
-
-std::string replay_command(const ExploreOptions& options, const std::string& replayed) {
-  std::string line = quoted(program_invocation_name) + " explore ";
-  line += options.program.empty() ? quoted(options.scenario.string()) : "--exec";
-  line += " --seed " + std::to_string(options.seed);
-  if (options.until) line += " --until " + to_string(Time() + *options.until);
-  line += options.conditions.words();
-  if (options.from) line += " --from " + to_string(Time() + *options.from);
-  const std::size_t sets = options.assignments.size() - options.properties.size();
-  for (std::size_t i = 0; i < sets; ++i) line += " --set " + quoted(options.assignments[i]);
-  for (const std::string& property : options.properties) line += " --property " + quoted(property);
-  if (!replayed.empty()) line += " --replay " + quoted(replayed);
-  if (!options.program.empty()) line += " --" + quoted(options.program);
-  return line;
-}
 
 FailureReport report_default(Target& target, const Finding& finding) {
   FailureReport report;
@@ -87,24 +71,18 @@ FailureReport report_default(Target& target, const Finding& finding) {
   return report;
 }
 
-FailureReport report(Target& target, SearchProgress& progress, const Search::Failed& failed) {
+FailureReport report(Target& target, SearchProgress& progress, const FailedRun& failed) {
   const ExploreOptions& options = target.options();
   FailureReport report;
-  report.text =
-      headline(fmt::format("schedule {} of strategy {}, seed {},", failed.number, options.strategy, options.seed),
-               failed.finding);
-  Token found{0, token_digest(failed.finding.digest), options.strategy, options.seed, failed.number, {}};
-  Plan plan{.number = failed.number};
-  if (DepthFirst::of(options.strategy)) {  // these draw nothing
-    found = {0, found.digest, "", 0, 0, failed.finding.deviations};
-    plan = {.drawn = false, .switches = {}, .deviations = failed.finding.deviations};
-  }
+  report.text = headline(name_of(failed, options) + ",", failed.finding);
+  const Token found = token_of(failed, options);
+  Plan plan = plan_of(failed, options);
   Token token = found;
   const Plan found_plan = plan;
   Finding least = failed.finding;
   if (options.minimize) {
     Budget budget(runs_to_minimize, seconds_to_minimize);
-    FewerSwitches fewer(target, progress, budget, failed.number, failed.finding);
+    FewerSwitches fewer(target, progress, budget, plan.number, failed.finding);
     fewer.run();
     if (fewer.is_noise()) {
       report.text += target.has_noise() ? "it is the noise, not the order: with the noise of this schedule the default "
@@ -115,7 +93,8 @@ FailureReport report(Target& target, SearchProgress& progress, const Search::Fai
       report.text += fmt::format("{} {} away from the default order {}, of {} that were found ({})\n", count,
                                  count == 1 ? "switch" : "switches", count == 1 ? "fails" : "fail",
                                  failed.finding.switches.size(), counted(budget.used(), "run"));
-      if (target.has_noise() && fewer.number() == 0 && failed.number != 0) report.text += "the noise does not matter\n";
+      if (target.has_noise() && fewer.number() == 0 && found_plan.number != 0)
+        report.text += "the noise does not matter\n";
     }
     if (fewer.is_noise() || fewer.repeats()) {
       least = fewer.least();

@@ -4,25 +4,25 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
+#include "tools/explore/failed_run.hpp"
 #include "tools/explore/schedule_file.hpp"
-#include "tools/explore/search.hpp"
+#include "tools/explore/search_progress.hpp"
+#include "tools/explore/target.hpp"
 
 namespace waitpoint::tools {
 
 struct FailureReport {
-  std::string text;         ///< several lines
-  StoredSchedule schedule;  ///< the minimised one
-  std::string trace;        ///< of its last seconds, if requested
+  std::string text;                  ///< several lines
+  StoredSchedule schedule;           ///< the minimised one
+  std::string trace;                 ///< of its last seconds, if requested
+  std::vector<ToldRace> races = {};  ///< that the text tells of
 };
 
 /// The report of a failing default order.
 FailureReport report_default(Target& target, const Finding& finding);
 /// The report of a failure found by a search. Takes at most a few minutes.
-FailureReport report(Target& target, SearchProgress& progress, const Search::Failed& failed);
-
-/// The command that repeats the target's run with these options; with `replayed`, a token or a file's name, that
-/// schedule.
-std::string replay_command(const ExploreOptions& options, const std::string& replayed = "");
+FailureReport report(Target& target, SearchProgress& progress, const FailedRun& failed);
 
 }  // namespace waitpoint::tools

@@ -6,7 +6,8 @@
 #pragma once
 
 #include "tools/explore/budget.hpp"
-#include "tools/explore/search.hpp"
+#include "tools/explore/search_progress.hpp"
+#include "tools/explore/target.hpp"
 
 namespace waitpoint::tools {
 

@@ -20,6 +20,13 @@ void pass_task(Pass& pass, Task& task) {
   pass(task.objects);
 }
 
+template <class Pass, class Race>
+void pass_race(Pass& pass, Race& race) {
+  pass(race.lines);
+  pass(race.headline);
+  pass(race.text);
+}
+
 // The order of the fields, for both directions.
 template <class Pass, class F>
 void pass_fields(Pass& pass, F& finding) {
@@ -35,6 +42,7 @@ void pass_fields(Pass& pass, F& finding) {
   pass(finding.cuts_polls_short);
   pass(finding.has_unlearned_code);
   pass(finding.parted);
+  pass(finding.racing);
   pass(finding.details);
   pass(finding.told);
   pass(finding.system_calls);
@@ -89,6 +97,8 @@ bool is_same_failure(const Finding& a, const Finding& b) {
   if (a.passed() || a.kind != b.kind) return false;
   // The tasks of a deadlock, and the places of a lack of progress, may differ.
   if (a.kind == Finding::Kind::deadlock || a.kind == Finding::Kind::no_progress) return true;
+  if (a.kind == Finding::Kind::race)
+    return std::find_first_of(a.racing.begin(), a.racing.end(), b.racing.begin(), b.racing.end()) != a.racing.end();
   return without_digits(a.headline()) == without_digits(b.headline());
 }
 
@@ -97,6 +107,8 @@ std::string to_bytes(const Finding& finding) {
   pass_fields(writer, finding);
   writer(finding.profile.tasks.size());
   for (const auto& task : finding.profile.tasks) pass_task(writer, task);
+  writer(finding.races.size());
+  for (const auto& race : finding.races) pass_race(writer, race);
   return std::move(writer.bytes);
 }
 
@@ -104,10 +116,13 @@ Finding finding_of(std::string_view bytes) {
   Finding finding;
   FieldReader reader(bytes);
   pass_fields(reader, finding);
-  std::size_t tasks = 0;
+  std::size_t tasks = 0, races = 0;
   reader(tasks);
   finding.profile.tasks.resize(tasks);
   for (auto& task : finding.profile.tasks) pass_task(reader, task);
+  reader(races);
+  finding.races.resize(races);
+  for (auto& race : finding.races) pass_race(reader, race);
   return finding;
 }
 

@@ -3,6 +3,7 @@
 // bytes.
 #pragma once
 
+#include <compare>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -17,8 +18,23 @@
 
 namespace waitpoint::tools {
 
+/// A race's two places of code, as hashes that are the same in all runs, the lesser one first.
+struct RacingCode {
+  std::uint64_t first, second;
+
+  auto operator<=>(const RacingCode&) const = default;
+};
+
+/// A race in words.
+struct ToldRace {
+  std::string lines;     ///< of its accesses, which identify it
+  std::string headline;  ///< in one line
+  std::string text;      ///< several lines
+};
+
 struct Finding {
-  enum class Kind : std::uint8_t { passed, unmet, deadlock, no_progress, exception, killed };
+  /// By rank, the least grave first: a run that fails in several ways is of the gravest kind.
+  enum class Kind : std::uint8_t { passed, race, no_progress, deadlock, unmet, exception, crash, killed };
 
   Kind kind = Kind::passed;
   std::string words;         ///< the failure; its first line is the headline
@@ -30,14 +46,15 @@ struct Finding {
   std::vector<exploration::Deviation> deviations;  ///< the same switches
   std::vector<exploration::Decision> choices;      ///< if requested: all of them
   bool cuts_polls_short = false;                   ///< as in exploration::Schedule
-  bool has_unlearned_code =
-      false;                 ///< its first accesses to shared memory were not switch points; if choices are requested
-  bool parted = false;       ///< the plan did not fit the run
-  std::string details;       ///< for failures, if places are requested: lines specific to the kind
-  std::string told;          ///< if requested: the switches, a decision or an event, in words
-  std::string system_calls;  ///< with the profile: warnings of calls that leave virtual time
-  std::string last_events;   ///< if requested, in words
-  std::string trace;         ///< if requested
+  bool has_unlearned_code = false;  ///< its first accesses to shared memory were no switch points; if choices are asked
+  bool parted = false;              ///< the plan did not fit the run
+  std::vector<RacingCode> racing;   ///< of its data races, whatever its kind
+  std::vector<ToldRace> races;      ///< the same in words, if places are requested, or new to the process
+  std::string details;              ///< for failures, if places are requested: lines specific to the kind
+  std::string told;                 ///< if requested: the switches, a decision or an event, in words
+  std::string system_calls;         ///< with the profile: warnings of calls that leave virtual time
+  std::string last_events;          ///< if requested, in words
+  std::string trace;                ///< if requested
   std::vector<exploration::DoneEvent> log;  ///< if requested
   std::string trail;                        ///< if requested
   exploration::Profile profile;             ///< if requested
@@ -55,7 +72,8 @@ struct Finding {
   std::string headline() const { return words.substr(0, words.find('\n')); }
 };
 
-/// True if both failed in the same way: with the same words, ignoring numbers, which differ from schedule to schedule.
+/// True if both failed in the same way: with the same words, ignoring numbers, which differ from schedule to schedule,
+/// or by races of the same code.
 bool is_same_failure(const Finding& a, const Finding& b);
 
 std::string to_bytes(const Finding& finding);

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include "tools/explore/search.hpp"
+
 namespace waitpoint::tools {
 namespace {
 

@@ -9,7 +9,8 @@
 #include <string>
 
 #include "tools/explore/budget.hpp"
-#include "tools/explore/search.hpp"
+#include "tools/explore/search_progress.hpp"
+#include "tools/explore/target.hpp"
 
 namespace waitpoint::tools {
 

@@ -4,8 +4,11 @@
 #include <sys/wait.h>
 
 #include <algorithm>
+#include <csignal>
 #include <cstring>
+#include <sstream>
 
+#include "core/digest.hpp"
 #include "core/error.hpp"
 #include "fibers/explore/report/reordered_events.hpp"
 #include "fibers/posix/exec/exploration.hpp"
@@ -58,6 +61,8 @@ void judge(const RunMemory& memory, int status, Finding& finding) {
     finding.kind = Finding::Kind::no_progress;
     finding.words = "idle: only timers expire, and no thread wakes another";
   } else if (WIFSIGNALED(status)) {
+    // An abort is how assertions fail.
+    if (WTERMSIG(status) != SIGABRT) finding.kind = Finding::Kind::crash;
     finding.words = "terminated by " + signal_in_words(WTERMSIG(status));
   } else if (WEXITSTATUS(status) != 0) {
     finding.words = "exit status " + std::to_string(WEXITSTATUS(status));
@@ -68,6 +73,23 @@ void judge(const RunMemory& memory, int status, Finding& finding) {
 
 const posix::SharedSchedule* shared_schedule_of(const posix::Record& record) {
   return static_cast<const posix::SharedSchedule*>(common_of(record, posix::family::Part::schedule));
+}
+
+std::uint64_t hash_of(const sync::CodePlaces& calls) {
+  if (calls.empty()) return 0;
+  Digest digest;
+  digest.add(std::string_view(calls.front().module));
+  digest.add(static_cast<std::uint64_t>(calls.front().offset));
+  return digest.value();
+}
+
+std::vector<RacingCode> racing_code(const posix::Record& record) {
+  std::vector<RacingCode> code;
+  for (const races::LocatedRace& race : located_races(record)) {
+    const auto [first, second] = std::minmax({hash_of(race.first_calls), hash_of(race.second_calls)});
+    code.push_back({first, second});
+  }
+  return code;
 }
 
 }  // namespace
@@ -129,14 +151,26 @@ bool has_parted_elsewhere(const posix::Record& record) {
 
 }  // namespace
 
+void tell_races(const posix::Record& record, Finding& finding) {
+  for (const auto& [process, races] : races_by_process(record))
+    for (const races::Race& race : races) {
+      std::ostringstream text;
+      text << race;
+      finding.races.push_back({race.lines().first + "\n" + race.lines().second,
+                               headline(race) + (process.empty() ? "" : " in " + process), text.str()});
+    }
+}
+
 Finding finding_of_run(const RunMemory& memory, int status, const std::string& output, const Target::Request& request,
-                       bool trace_too) {
+                       bool trace_too, bool races_fail) {
   Finding finding;
   judge(memory, status, finding);
   if (!finding.passed() && !output.empty()) finding.words += "\n" + output;
   const posix::Record& record = memory.record();
-  if (finding.passed() && has_races(record)) {
-    finding.kind = Finding::Kind::unmet;
+  finding.racing = racing_code(record);
+  if (request.places) tell_races(record, finding);
+  if (finding.passed() && races_fail && !finding.racing.empty()) {
+    finding.kind = Finding::Kind::race;
     finding.words = "a data race";
     if (request.places) finding.details = races_of(record);
   }

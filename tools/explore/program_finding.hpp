@@ -18,8 +18,11 @@ void ask_for_run(RunMemory& memory, const ExploreOptions& options, const Plan& p
 exploration::Schedule schedule_of(const posix::Record& record);
 
 /// The finding of a finished run: `status` is as from waitpid(), `output` the program's last output. A run passes with
-/// exit status 0.
+/// exit status 0, without a data race if `races_fail`.
 Finding finding_of_run(const RunMemory& memory, int status, const std::string& output, const Target::Request& request,
-                       bool trace_too);
+                       bool trace_too, bool races_fail);
+
+/// Adds the run's data races in words.
+void tell_races(const posix::Record& record, Finding& finding);
 
 }  // namespace waitpoint::tools

@@ -25,7 +25,7 @@ exploration::Profile look(const ProgramFiles& files, const ExploreOptions& optio
   const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
   const ProgramRun run(files, memory, nowhere);
   close(nowhere);
-  return finding_of_run(memory, run.status(), "", request, false).profile;
+  return finding_of_run(memory, run.status(), "", request, false, false).profile;
 }
 
 /// The parts of the profile that the schedule depends on.
@@ -52,7 +52,8 @@ int replay_program(const ExploreOptions& asked) {
   ask_for_run(memory, options, record.plan, request, profile);
   const double limit_s = options.schedule_limit_s.value_or(least_limit_s);
   const ProgramRun run(files, memory, -1, limit_s);
-  Finding finding = finding_of_run(memory, run.status(), "", request, trace.has_value());
+  Finding finding =
+      finding_of_run(memory, run.status(), "", request, trace.has_value(), options.races != Races::ignore);
   if (run.is_over_limit()) {
     finding.kind = Finding::Kind::no_progress;
     finding.words = over_limit(limit_s);

@@ -78,6 +78,7 @@ std::uint64_t fingerprint_of(const ProgramFiles& files, const ExploreOptions& op
 ProgramTarget::ProgramTarget(const ExploreOptions& options)
     : options_(options), files_(options.program), fingerprint_(fingerprint_of(files_, options)), input_(open_input()) {
   options.conditions.check(files_.named());
+  if (options.races == Races::ignore) ignore_races();
 }
 
 ProgramTarget::~ProgramTarget() { close(input_); }
@@ -91,6 +92,13 @@ Finding ProgramTarget::run(const Plan& plan, const Request& request) {
   Finding finding = run_once(plan, request);
   finding.profile.code = profile_.code;
   return finding;
+}
+
+// Looking up source lines takes a second: a process tells of each race once, in the first run that shows it.
+bool ProgramTarget::shows_new_races(const Finding& finding) {
+  const std::size_t before = told_.size();
+  told_.insert(finding.racing.begin(), finding.racing.end());
+  return told_.size() > before;
 }
 
 Finding ProgramTarget::run_once(const Plan& plan, const Request& request) {
@@ -129,7 +137,9 @@ Finding ProgramTarget::run_once(const Plan& plan, const Request& request) {
     return is_stalled();
   };
   if (stalled.empty() && !request.stop_before) end_others(memory.record(), is_stalled_by_now);
-  Finding finding = finding_of_run(memory, *status, end_of(output), request, options_.trace.has_value());
+  Finding finding = finding_of_run(memory, *status, end_of(output), request, options_.trace.has_value(), races_fail());
+  if (options_.races == Races::report && !request.learn && !request.places && shows_new_races(finding))
+    tell_races(memory.record(), finding);
   if (!stalled.empty()) {
     while (stalled.ends_with('\n')) stalled.pop_back();
     finding.kind = Finding::Kind::no_progress;

@@ -6,6 +6,8 @@
 // only the schedules differ.
 #pragma once
 
+#include <set>
+
 #include "tools/exec/fork_server.hpp"
 #include "tools/explore/target.hpp"
 
@@ -29,12 +31,14 @@ class ProgramTarget final : public Target {
 
  private:
   bool has_processes() const override { return true; }
+  bool shows_new_races(const Finding& finding);
   Finding run_once(const Plan& plan, const Request& request);
 
   const ExploreOptions& options_;
   ProgramFiles files_;
   std::uint64_t fingerprint_;
   int input_;                         // of the runs: each reads it from its beginning
+  std::set<RacingCode> told_;         // the races of this process's findings so far
   std::optional<ForkServer> server_;  // of the process that runs schedules
 };
 

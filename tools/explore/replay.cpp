@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "core/error.hpp"
-#include "tools/explore/failure_report.hpp"
+#include "tools/explore/failed_run.hpp"
 #include "tools/explore/replay_record.hpp"
 #include "tools/explore/scene.hpp"
 #include "tools/output/output_file.hpp"

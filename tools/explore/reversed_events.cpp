@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "fibers/explore/report/reordered_events.hpp"
+#include "tools/explore/search.hpp"
 
 namespace waitpoint::tools {
 namespace {

@@ -51,7 +51,7 @@ bool Search::may_start(bool all) const {
   const std::uint64_t number = options.shard.index - 1 + started_ * options.shard.count;
   // Without noise the default order is a single schedule.
   const bool is_one = options.strategy == "fifo" && !target_.has_noise();
-  return number < (is_one ? std::min<std::uint64_t>(options.iterations, 1) : options.iterations) && (all || !first_) &&
+  return number < (is_one ? std::min<std::uint64_t>(options.iterations, 1) : options.iterations) && (all || !last_) &&
          !(options.time_limit_s > 0 && progress_.seconds() >= options.time_limit_s);
 }
 
@@ -59,11 +59,30 @@ void Search::take(std::uint64_t number, Finding finding, bool all) {
   ++schedules_;
   if (finding.kind != Finding::Kind::killed) digests_.insert(finding.digest);
   if (all) lines_.emplace(number, result_line(number, finding));
-  if (finding.passed()) return;
-  ++failures_;
-  if (first_ && first_->number < number) return;
-  if (!all) target_.runs().kill_from(number);
-  first_ = Failed{number, std::move(finding)};
+  const bool only_raced = finding.kind == Finding::Kind::race && target_.options().races == Races::report;
+  if (!finding.passed()) ++failures_;
+  if (only_raced) ++raced_;
+  if (!finding.passed() && !only_raced && !all && (!last_ || number < *last_)) {
+    last_ = number;
+    target_.runs().kill_from(number);
+  }
+  const bool is_of_interest = !finding.passed() || !finding.racing.empty();
+  waiting_.emplace(number, is_of_interest ? std::optional(std::move(finding)) : std::nullopt);
+  discover(false);
+}
+
+// In the order of the numbers; after an interruption lower ones may be missing.
+void Search::discover(bool at_end) {
+  const Shard& shard = target_.options().shard;
+  while (!waiting_.empty()) {
+    const std::uint64_t number = waiting_.begin()->first;
+    if (!at_end && number != shard.index - 1 + discovered_ * shard.count) return;
+    std::optional<Finding> finding = std::move(waiting_.begin()->second);
+    waiting_.erase(waiting_.begin());
+    ++discovered_;
+    if (!finding || (last_ && number > *last_)) continue;
+    discoveries_.take({number, std::move(*finding)});
+  }
 }
 
 void Search::run(bool all) {
@@ -71,6 +90,7 @@ void Search::run(bool all) {
     run_depth_first(std::move(*tree), all);
   else
     run_drawn(all);
+  discover(true);
   progress_.finish();
 }
 

@@ -11,6 +11,7 @@
 #include <unordered_set>
 
 #include "tools/explore/depth_first.hpp"
+#include "tools/explore/discoveries.hpp"
 #include "tools/explore/search_progress.hpp"
 #include "tools/explore/target.hpp"
 
@@ -25,38 +26,41 @@ std::string result_line(std::uint64_t number, const Finding& finding);
 
 class Search {
  public:
-  struct Failed {
-    std::uint64_t number;
-    Finding finding;
-  };
+  /// Tells `discoveries` of failed and racing runs.
+  Search(Target& target, SearchProgress& progress, Discoveries& discoveries)
+      : target_(target), progress_(progress), discoveries_(discoveries) {}
 
-  Search(Target& target, SearchProgress& progress) : target_(target), progress_(progress) {}
-
-  /// Runs the schedules that the options request. With `all`, failures do not end the search.
+  /// Runs the schedules that the options request. With `all`, failures do not end the search; data races only with
+  /// Races::fail.
   void run(bool all);
 
   std::uint64_t schedules() const { return schedules_; }
   std::uint64_t distinct() const { return digests_.size(); }
   std::uint64_t failures() const { return failures_; }
+  /// Those that did not end the search, as they failed by a data race alone.
+  std::uint64_t raced() const { return raced_; }
   bool interrupted() const { return interrupted_; }
   /// The scope of an exhausted search; nothing for strategies that are not exhaustive or did not finish.
   const std::optional<std::string>& scope() const { return scope_; }
-  const std::optional<Failed>& first() const { return first_; }
   /// With `all`: the result lines, by number.
   const std::map<std::uint64_t, std::string>& lines() const { return lines_; }
 
  private:
   bool may_start(bool all) const;
   void take(std::uint64_t number, Finding finding, bool all);
+  void discover(bool at_end);
   void run_drawn(bool all);
   void run_depth_first(DepthFirst tree, bool all);
 
   Target& target_;
   SearchProgress& progress_;
+  Discoveries& discoveries_;
   std::uint64_t started_ = 0;
-  std::uint64_t schedules_ = 0, failures_ = 0;
+  std::uint64_t schedules_ = 0, failures_ = 0, raced_ = 0;
   std::unordered_set<std::uint64_t> digests_;
-  std::optional<Failed> first_;
+  std::optional<std::uint64_t> last_;  // the failure that ends the search
+  std::uint64_t discovered_ = 0;       // so many schedules are through, in the order of their numbers
+  std::map<std::uint64_t, std::optional<Finding>> waiting_;  // ended before lower numbers; passed ones without finding
   std::map<std::uint64_t, std::string> lines_;
   bool interrupted_ = false;
   std::optional<std::string> scope_;

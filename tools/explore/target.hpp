@@ -51,6 +51,9 @@ class Target {
   /// Wall clock limit of each following run; 0: none. There must be no run.
   void set_limit(double seconds);
 
+  /// Data races are no failures of the following runs. There must be no run.
+  void ignore_races();
+
   /// Executes one run by the plan, in a process that does nothing else.
   virtual Finding run(const Plan& plan, const Request& request) = 0;
   Finding run(const Plan& plan) { return run(plan, Request()); }
@@ -64,12 +67,14 @@ class Target {
   /// them.
   virtual bool has_processes() const = 0;
   double limit_s() const { return limit_s_; }
+  bool races_fail() const { return races_fail_; }
   exploration::Profile profile_;
 
  private:
   std::string execute(std::string_view request);
 
   double limit_s_ = 0;
+  bool races_fail_ = true;
   std::optional<Children> runs_;
 };
 

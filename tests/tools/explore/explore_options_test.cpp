@@ -27,8 +27,8 @@ class ExploreCommandLine : public ::testing::Test {
   void SetUp() override { clear(); }
   void TearDown() override { clear(); }
   static void clear() {
-    for (const char* name :
-         {"WAITPOINT_SEED", "WAITPOINT_STRATEGY", "WAITPOINT_ITERATIONS", "WAITPOINT_TIME_LIMIT", "WAITPOINT_REPLAY"})
+    for (const char* name : {"WAITPOINT_SEED", "WAITPOINT_STRATEGY", "WAITPOINT_ITERATIONS", "WAITPOINT_TIME_LIMIT",
+                             "WAITPOINT_RACES", "WAITPOINT_REPLAY"})
       unsetenv(name);
   }
 };
@@ -88,6 +88,9 @@ TEST_F(ExploreCommandLine, the_environment_says_what_the_command_line_does_not) 
   EXPECT_EQ(options.strategy, "random");
   EXPECT_EQ(options.iterations, 11u);
   EXPECT_EQ(options.replay, "wx1.0.00000000.=1-1");
+  EXPECT_EQ(options.races, Races::report);
+  setenv("WAITPOINT_RACES", "fail", 1);
+  EXPECT_EQ(explore({"a"}).races, Races::fail);
   setenv("WAITPOINT_ITERATIONS", "many", 1);
   EXPECT_EQ(refusal({"a"}), "WAITPOINT_ITERATIONS: expected a positive whole number, found 'many'");
 }
@@ -118,6 +121,7 @@ TEST_F(ExploreCommandLine, what_cannot_be_meant_is_one_clear_line) {
   EXPECT_EQ(refusal({"a", "--from", "20", "--until", "10"}), "--from: expected a time before --until, found '20'");
   EXPECT_EQ(refusal({"a", "--iterations", "-1"}), "--iterations: expected a positive whole number, found '-1'");
   EXPECT_EQ(refusal({"a", "--iterations", "0"}), "--iterations: expected a positive whole number, found '0'");
+  EXPECT_EQ(refusal({"a", "--races", "fail"}), "--races: expected --exec and a program");
   EXPECT_EQ(explore({"a", "--schedule-limit", "0"}).schedule_limit_s, 0.0);
   EXPECT_EQ(refusal({"a", "--schedule-limit", "-1"}),
             "--schedule-limit: expected a number of seconds, 0 for no limit, found '-1'");
