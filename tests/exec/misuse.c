@@ -38,6 +38,14 @@ static void* unlock_rwlock(void* of) {
   pthread_rwlock_unlock(&rwlock);
   return of;
 }
+static void* post(void* of) {
+  sem_post(&semaphore);
+  return of;
+}
+static void* try_and_crash(void* of) {
+  if (sem_trywait(&semaphore) == 0) __builtin_trap();
+  return of;
+}
 static void* nothing(void* of) { return of; }
 
 static pthread_t make(void* (*body)(void*), void* argument) {
@@ -135,6 +143,13 @@ int main(int count, char** words) {
     pthread_detach(thread);
     if (pthread_join(thread, NULL) != EINVAL) return 1;
     _exit(0);
+  } else if (strcmp(way, "beside a crash") == 0) {
+    pthread_mutex_lock(&mutex);
+    pthread_mutex_unlock(&mutex);
+    pthread_mutex_unlock(&mutex);
+    const pthread_t one = make(try_and_crash, NULL), two = make(post, NULL);
+    join(one);
+    join(two);
   } else {
     reuse();
   }

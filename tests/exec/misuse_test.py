@@ -42,6 +42,12 @@ class Misuse(ExecCase):
             self.assertEqual(done.returncode, 1, way)
             self.assertRegex(done.stdout, rf"failed at \S+ s: misuse: {MISUSES[way][0]}\n", way)
 
+    def test_does_not_end_a_search(self):
+        done = self.run_it(["explore", "--exec", "--iterations", "300"], "beside a crash")
+        self.assertEqual(done.returncode, 1)
+        self.assertRegex(done.stdout, r" failed at \S+ s: terminated by signal 4 \(Illegal instruction\)\n")
+        self.assertRegex(done.stdout, r"also found, by the default order: misuse: main unlocks mutex mutex, which is not locked\nreplay: ")
+
     def test_is_not_what_reuses_memory(self):
         done = self.run_it(["exec"])
         self.assertEqual((done.returncode, "misuse at" in done.stderr), (0, False), done.stderr)

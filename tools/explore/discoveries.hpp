@@ -16,6 +16,11 @@
 
 namespace waitpoint::tools {
 
+/// True if the search goes on after such a failure, to one of a graver kind.
+inline bool goes_on_after(Finding::Kind kind, const ExploreOptions& options) {
+  return kind == Finding::Kind::misuse || (kind == Finding::Kind::race && options.races == Races::report);
+}
+
 class Discoveries {
  public:
   Discoveries(Target& target, SearchProgress& progress) : target_(target), progress_(progress) {}

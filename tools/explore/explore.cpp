@@ -103,8 +103,7 @@ int search(Target& target, Files& files) {
   target.set_limit(target.options().schedule_limit_s.value_or(least_limit_s + usual_times_max * usual_s));
   if (usual) std::fputs(usual->system_calls.c_str(), stderr);
   Discoveries discoveries(target, progress);
-  const bool only_raced = usual && usual->kind == Finding::Kind::race && target.options().races == Races::report;
-  if (only_raced) {
+  if (usual && goes_on_after(usual->kind, target.options())) {
     discoveries.take({std::nullopt, *usual});
   } else if (usual && !usual->passed() && !files.has_results()) {
     tell(report_default(target, *usual), files);

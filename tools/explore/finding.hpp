@@ -34,7 +34,7 @@ struct ToldRace {
 
 struct Finding {
   /// By rank, the least grave first: a run that fails in several ways is of the gravest kind.
-  enum class Kind : std::uint8_t { passed, race, no_progress, deadlock, unmet, exception, crash, killed };
+  enum class Kind : std::uint8_t { passed, race, misuse, no_progress, deadlock, unmet, exception, crash, killed };
 
   Kind kind = Kind::passed;
   std::string words;         ///< the failure; its first line is the headline

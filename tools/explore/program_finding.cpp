@@ -169,15 +169,15 @@ Finding finding_of_run(const RunMemory& memory, int status, const std::string& o
   const posix::Record& record = memory.record();
   finding.racing = racing_code(record);
   if (request.places) tell_races(record, finding);
+  if (const std::string misuse = first_misuse(record); finding.passed() && !misuse.empty()) {
+    finding.kind = Finding::Kind::misuse;
+    finding.words = "misuse: " + misuse;
+    if (request.places) finding.details = misuses_of(record);
+  }
   if (finding.passed() && races_fail && !finding.racing.empty()) {
     finding.kind = Finding::Kind::race;
     finding.words = "a data race";
     if (request.places) finding.details = races_of(record);
-  }
-  if (const std::string misuse = first_misuse(record); finding.passed() && !misuse.empty()) {
-    finding.kind = Finding::Kind::unmet;
-    finding.words = "misuse: " + misuse;
-    if (request.places) finding.details = misuses_of(record);
   }
   if (record.explored == nullptr) return finding;
   const posix::Explored& explored = *record.explored;

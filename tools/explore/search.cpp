@@ -59,10 +59,10 @@ void Search::take(std::uint64_t number, Finding finding, bool all) {
   ++schedules_;
   if (finding.kind != Finding::Kind::killed) digests_.insert(finding.digest);
   if (all) lines_.emplace(number, result_line(number, finding));
-  const bool only_raced = finding.kind == Finding::Kind::race && target_.options().races == Races::report;
+  const bool goes_on = finding.passed() || goes_on_after(finding.kind, target_.options());
   if (!finding.passed()) ++failures_;
-  if (only_raced) ++raced_;
-  if (!finding.passed() && !only_raced && !all && (!last_ || number < *last_)) {
+  if (goes_on && finding.kind == Finding::Kind::race) ++raced_;
+  if (!goes_on && !all && (!last_ || number < *last_)) {
     last_ = number;
     target_.runs().kill_from(number);
   }
