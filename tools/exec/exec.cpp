@@ -15,8 +15,8 @@
 #include "tools/command/shell_words.hpp"
 #include "tools/command/signal_words.hpp"
 #include "tools/exec/family_report.hpp"
-#include "tools/exec/program_run.hpp"
 #include "tools/exec/misuse_report.hpp"
+#include "tools/exec/program_run.hpp"
 #include "tools/exec/race_report.hpp"
 #include "tools/output/output_file.hpp"
 

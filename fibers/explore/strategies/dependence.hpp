@@ -58,8 +58,8 @@ inline bool is_of_lock(kernel::Operation operation) {
   }
 }
 
-/// True if it acts on something that the kernel does not know as an object, if it is given none: a descriptor, a file, a
-/// signal, memory between processes.
+/// True if it acts on something that the kernel does not know as an object, if it is given none: a descriptor, a file,
+/// a signal, memory between processes.
 inline bool acts_on_unknown(kernel::Operation operation) {
   switch (operation) {
     case kernel::Operation::start:
