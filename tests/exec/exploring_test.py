@@ -365,6 +365,17 @@ class Instrumented(ExecCase):
     def execute(self, *words):
         return subprocess.run([str(WAITPOINT), "exec", "--", str(self.program), *words], capture_output=True, text=True)
 
+    def test_exhaustive_search_says_that_it_leaves_first_accesses_out(self):
+        source = self.folder / "late.cpp"
+        source.write_text("#include <pthread.h>\n#include <atomic>\nstatic std::atomic<std::atomic<int>*> shared;\n"
+                          "static void* publish(void*) {\n  auto* value = new std::atomic<int>(0);\n  shared.store(value);\n"
+                          "  return reinterpret_cast<void*>(static_cast<long>(value->load()));\n}\n"
+                          "int main() {\n  pthread_t publisher;\n  pthread_create(&publisher, nullptr, publish, nullptr);\n"
+                          "  if (auto* value = shared.load()) value->store(1);\n  return pthread_join(publisher, nullptr);\n}\n")
+        line = explore("--strategy", "bounded:2", "--", self.compile(str(source), "-fsanitize=thread")).stdout.splitlines()[0]
+        self.assertTrue(line.endswith("exhaustive with at most 2 preemptions, except for switches at first accesses to memory that "
+                                      "the default order does not share"), line)
+
     def test_races_are_told_with_both_accesses_and_their_lines(self):
         done = self.execute()
         self.assertEqual((done.returncode, done.stdout), (0, "2 seen\n"), "they did no harm in this schedule")
