@@ -73,18 +73,17 @@ class RacesBesideFailures(ExecCase):
             self.assertEqual(len(done.stderr.splitlines()), 4, done.stderr)
             self.assertEqual(len(results.read_text().splitlines()), 61)
 
-    def test_results_are_in_the_file_before_the_end(self):
-        results = self.folder / "results-so-far"
-        command = [str(word) for word in (WAITPOINT, "explore", "--exec", "--iterations", "100000", "--results", results, "--",
+    def test_are_told_before_the_end(self):
+        results = self.folder / "endless"
+        command = [str(word) for word in (WAITPOINT, "explore", "--exec", "--iterations", "1000000", "--results", results, "--",
                                           self.program, "abort")]
         search = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
-        for line in search.stderr:
-            if "terminated by signal 6" in line:
-                break
+        lines = [search.stderr.readline() for _ in range(3)]
+        self.assertIsNone(search.poll())
         search.kill()
         search.wait()
         search.stderr.close()
-        self.assertIn("failed: terminated by signal 6", results.read_text().splitlines()[-1])
+        self.assertEqual([line.count("data race") for line in lines], [1, 1, 0], lines)
 
 
 if __name__ == "__main__":

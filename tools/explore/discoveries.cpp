@@ -16,7 +16,6 @@ void Discoveries::take(FailedRun run) {
     lines.push_back(name_of(run, options) + ": " + run.finding.headline());
   if (is_first) first_.emplace(kind, std::move(run));
   if (lines.empty()) return;
-  if (on_discovery_) on_discovery_();
   progress_.finish();
   for (const std::string& line : lines) std::fprintf(stderr, "waitpoint: %s\n", line.c_str());
 }

@@ -3,10 +3,8 @@
 // standard error at once.
 #pragma once
 
-#include <functional>
 #include <map>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "tools/explore/failed_run.hpp"
@@ -25,8 +23,6 @@ class Discoveries {
  public:
   Discoveries(Target& target, SearchProgress& progress) : target_(target), progress_(progress) {}
 
-  /// Called at each new discovery, before its lines are written.
-  void on_discovery(std::function<void()> call) { on_discovery_ = std::move(call); }
   /// Takes a failed or racing run; runs come in the order of their numbers, so that the lines do not depend on the
   /// number of jobs.
   void take(FailedRun run);
@@ -39,7 +35,6 @@ class Discoveries {
  private:
   Target& target_;
   SearchProgress& progress_;
-  std::function<void()> on_discovery_;
   std::map<Finding::Kind, FailedRun> first_;
   RaceDiscoveries races_;
 };

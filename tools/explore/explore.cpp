@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <filesystem>
 #include <optional>
 #include <vector>
 
@@ -35,7 +34,7 @@ class Files {
   }
 
   bool has_results() const { return results_.has_value(); }
-  /// The results so far. Every shard writes the same head line, so that merged and sorted files have it once.
+  /// Every shard writes the same head line, so that merged and sorted files have it once.
   void write_results(const Target& target, const Search& search) {
     if (!results_) return;
     const ExploreOptions& options = target.options();
@@ -43,12 +42,6 @@ class Files {
                                 options.strategy, options.seed));
     for (const auto& [number, line] : search.lines()) results_->write(line);
     results_->commit();
-  }
-  /// The same before the end of the search, for a file that can be replaced later.
-  void write_results_so_far(const Target& target, const Search& search) {
-    if (!results_ || !std::filesystem::is_regular_file(results_->written_to())) return;
-    write_results(target, search);
-    results_.emplace(*target.options().results);
   }
   void write(const FailureReport& report) {
     if (schedule_) {
@@ -111,7 +104,6 @@ int search(Target& target, Files& files) {
   }
   if (usual) target.set_profile(std::move(usual->profile));
   Search search(target, progress, discoveries);
-  discoveries.on_discovery([&] { files.write_results_so_far(target, search); });
   const double start_s = progress.seconds();
   if (usual) search.run(files.has_results());
   const double seconds = progress.seconds() - start_s;
