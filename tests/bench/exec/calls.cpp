@@ -96,6 +96,19 @@ void many(long count) {
   for (const pthread_t thread : threads) pthread_join(thread, nullptr);
 }
 
+// A small program, for the exploration of schedules.
+void* lock_three_times(void* argument) {
+  lock(3);
+  return argument;
+}
+void three_threads(long count) {
+  for (long i = 0; i < count; ++i) {
+    pthread_t threads[3];
+    for (pthread_t& thread : threads) pthread_create(&thread, nullptr, lock_three_times, nullptr);
+    for (const pthread_t thread : threads) pthread_join(thread, nullptr);
+  }
+}
+
 const Workload workloads[] = {
     {"lock", lock},
     {"hand-over", hand_over},
@@ -109,6 +122,7 @@ const Workload workloads[] = {
     {"pipe", write_and_read},
     {"threads-pipes", hand_over_by_pipes_of_threads},
     {"threads-socket-pair", hand_over_by_socket_pair},
+    {"three", three_threads},
     {"fork", fork_and_wait},
     {"spawn", spawn_and_wait},
 };

@@ -36,6 +36,7 @@ class Bench {
     calls_ = (folder / "exec-calls").string();
     exec_ = (folder / "../../tools/waitpoint").lexically_normal().string() +
             " exec --quiet --strategy fifo --idle-limit 0 -- ";
+    explore_ = (folder / "../../tools/waitpoint").lexically_normal().string() + " explore --exec --strategy random";
   }
 
   void run() {
@@ -63,6 +64,8 @@ class Bench {
     beside("processes, hand-over by TCP", "processes-tcp", 20'000, 20'000);
     beside("process, fork + wait", "fork", 200, 200);
     beside("process, posix_spawn + wait", "spawn", 50, 50);
+    explored("explored schedule of three threads", "three", 2'000);
+    at_most("explored schedule of three threads", 500'000, "ns");
   }
   const std::vector<Row>& rows() const { return rows_; }
 
@@ -78,6 +81,26 @@ class Bench {
         !parse_number(std::string(text, std::min<std::size_t>(63, std::string(text).find('\n'))), ticks))
       throw BadInput(command, "did not answer");
     return ticks * ns_per_tick_;
+  }
+  // By the rate that the explorer states.
+  double explore_once(const char* workload, int schedules) const {
+    const std::string command = fmt::format("{} --iterations {} -- {} {} 1", explore_, schedules, calls_, workload);
+    std::FILE* const output = popen(command.c_str(), "r");
+    char text[256] = {};
+    const bool answered = output != nullptr && std::fgets(text, sizeof text, output) != nullptr;
+    const bool ended_well = output != nullptr && pclose(output) == 0;
+    const std::string line = text;
+    const std::size_t begin = line.find(" s (") + 4, end = line.find(" a second)");
+    double rate = 0;
+    if (!answered || !ended_well || end == std::string::npos || !parse_number(line.substr(begin, end - begin), rate))
+      throw BadInput(command, "did not answer");
+    return 1e9 / rate;
+  }
+  void explored(const std::string& what, const char* workload, int schedules) {
+    if (!is_asked(what)) return;
+    last_ = std::numeric_limits<double>::infinity();
+    for (int i = 0; i < repeats_; ++i) last_ = std::min(last_, explore_once(workload, schedules));
+    add(what, "waitpoint", last_, "ns");
   }
   bool is_asked(const std::string& what) const { return what.find(only_) != std::string::npos; }
   void simulated(const std::string& what, const char* workload, long count) {
@@ -110,7 +133,7 @@ class Bench {
   int repeats_;
   std::string only_;
   double ns_per_tick_;
-  std::string calls_, exec_;
+  std::string calls_, exec_, explore_;
   double last_ = 0;
   std::vector<Row> rows_;
 };
