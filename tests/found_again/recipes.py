@@ -52,7 +52,9 @@ def callback_queue(sources, _folder):
 
 
 def tf2(sources, _folder):
-    return [f"-I{sources}/tf2/include", f"-I{sources}/tf2_ros/include", *sorted(sources.glob("tf2/src/*.cpp"))]
+    # Early versions use names without a prefix, which console_bridge no longer has.
+    names = [f"-Dlog{level}=CONSOLE_BRIDGE_log{level}" for level in ("Debug", "Inform", "Warn", "Error")]
+    return [*names, f"-I{sources}/tf2/include", f"-I{sources}/tf2_ros/include", *sorted(sources.glob("tf2/src/*.cpp"))]
 
 
 def thread_pool(sources, _folder):
@@ -66,6 +68,7 @@ RECIPES = [
     Recipe("nng_close_in_receive.c", "nng #1543, #1813", "1.5.2", "libnng-dev", ("nng",), nng),
     Recipe("nng_close_after_message.c", "nng #1236", "1.3.0", "libnng-dev", ("nng",), nng, packaged=False),
     Recipe("tf2_filter_destroyed.cpp", "geometry2 #538", "0.7.6", "libtf2-ros-dev", TF2, tf2),
+    Recipe("tf2_filter_full.cpp", "geometry2 #91, #144", "0.5.15", "libtf2-ros-dev", TF2, tf2, packaged=False),
     Recipe("roscpp_remove_in_call.cpp", "ros_comm #2283", "1.15.15", "libroscpp-dev", ROSCPP, callback_queue),
     Recipe("roscpp_remove_under_lock.cpp", "ros_comm #1980", "1.15.9", "libroscpp-dev", ROSCPP, callback_queue, packaged=False),
     Recipe("roscpp_first_callback.cpp", "ros_comm #1054", "1.12.7", "libroscpp-dev", ROSCPP, callback_queue, packaged=False),
