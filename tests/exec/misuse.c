@@ -82,6 +82,34 @@ static void reuse(void) {
   }
 }
 
+static int is_open;
+static void* wait_until_open(void* of) {
+  pthread_mutex_lock(of);
+  while (!is_open) pthread_cond_wait(&condition, of);
+  pthread_mutex_unlock(of);
+  return of;
+}
+
+// Whoever was signalled is not blocked on the condition any more: the next one may wait with its own mutex.
+static void change_mutex(void) {
+  const struct timespec past = {1, 0};
+  for (int i = 0; i < 3; ++i) {
+    is_open = 0;
+    pthread_cond_init(&condition, NULL);
+    const pthread_t thread = make(wait_until_open, &mutex);
+    sleep(1);
+    pthread_mutex_lock(&mutex);
+    is_open = 1;
+    pthread_cond_broadcast(&condition);
+    pthread_mutex_lock(&other);
+    pthread_cond_timedwait(&condition, &other, &past);
+    pthread_mutex_unlock(&other);
+    pthread_mutex_unlock(&mutex);
+    join(thread);
+    pthread_cond_destroy(&condition);
+  }
+}
+
 static void free_in_between(void) {
   pthread_mutex_t* const made = malloc(sizeof *made);
   pthread_mutex_init(made, NULL);
@@ -150,6 +178,8 @@ int main(int count, char** words) {
     const pthread_t one = make(try_and_crash, NULL), two = make(post, NULL);
     join(one);
     join(two);
+  } else if (strcmp(way, "another mutex afterwards") == 0) {
+    change_mutex();
   } else {
     reuse();
   }

@@ -54,6 +54,11 @@ class Misuse(ExecCase):
         done = self.run_it(["explore", "--exec", "--iterations", "100"])
         self.assertEqual(done.returncode, 0, done.stdout)
 
+    def test_is_not_another_mutex_after_a_signal(self):
+        for seed in range(1, 4):
+            done = self.run_it(["exec", "--seed", seed], "another mutex afterwards")
+            self.assertEqual((done.returncode, "misuse at" in done.stderr), (0, False), done.stderr)
+
 
 if __name__ == "__main__":
     unittest.main()

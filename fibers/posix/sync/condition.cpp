@@ -148,7 +148,8 @@ int wait_before(pthread_cond_t* condition, pthread_mutex_t* bytes, Time deadline
   pass(kernel::Operation::wait, &known.object);
   if (!is_mine(*bytes) && type_of(*bytes) != PTHREAD_MUTEX_TIMED_NP) return EPERM;
   if (!is_mine(*bytes)) note_misuse("waits for a condition with", mutex, ", which it has not locked");
-  if (known.inside > 0 && known.mutex != &mutex)
+  // Who was signalled waits no longer, though it has not continued yet.
+  if (!words.is_shared() && known.object.first_waiter != nullptr && known.mutex != &mutex)
     note_misuse("waits for", known, " with another mutex than those that wait already");
   known.mutex = &mutex;
   // Unlock and wait are one step, without a waitpoint between, so the happens-before edge is reported here.
