@@ -27,8 +27,10 @@ class Misuse(ExecCase):
         self.program = self.compile("misuse.c", "-g", "-O0")
 
     def run_it(self, command, *words):
-        return subprocess.run([str(word) for word in (WAITPOINT, *command, "--", self.program, *words)],
-                              capture_output=True, text=True, timeout=120)
+        return self.run_words(WAITPOINT, *command, "--", self.program, *words)
+
+    def run_words(self, *words):
+        return subprocess.run([str(word) for word in words], capture_output=True, text=True, timeout=120)
 
     def test_is_reported_with_its_place_and_the_program_continues(self):
         for way, (sentence, function) in MISUSES.items():
@@ -58,6 +60,14 @@ class Misuse(ExecCase):
         for seed in range(1, 4):
             done = self.run_it(["exec", "--seed", seed], "another mutex afterwards")
             self.assertEqual((done.returncode, "misuse at" in done.stderr), (0, False), done.stderr)
+
+    def test_is_not_reported_for_an_allocator_without_sizes(self):
+        allocator = self.compile("guarding_allocator.c", "-shared", "-fPIC", "-fno-builtin")
+        command = [WAITPOINT, "exec", "--", "env", f"LD_PRELOAD={allocator}", self.program]
+        done = self.run_words(*command)
+        self.assertEqual((done.returncode, "misuse at" in done.stderr), (0, False), done.stderr)
+        done = self.run_words(*command, "locked when freed")
+        self.assertIn("misuse at", done.stderr)
 
 
 if __name__ == "__main__":

@@ -18,6 +18,9 @@ extern "C" [[gnu::visibility("hidden")]] void* waitpoint_own_dlsym();
 
 namespace waitpoint::posix {
 
+/// True if both addresses are of one loaded file.
+bool are_of_one_library(const void* one, const void* other);
+
 /// The replaced function of this name: the next one in the search order of the libraries.
 template <class Function>
 Function next(Function& known, const char* name) {

@@ -55,12 +55,13 @@ dlsym:
 )");
 
 namespace waitpoint::posix {
-namespace {
 
 bool are_of_one_library(const void* one, const void* other) {
   Dl_info first{}, second{};
   return dladdr(one, &first) != 0 && dladdr(other, &second) != 0 && first.dli_fbase == second.dli_fbase;
 }
+
+namespace {
 
 // The layer's library is searched first, then those that it needs. If a library of the program defines the name too, it
 // may call what it finds, and be called by ours: it gets the C library's.
