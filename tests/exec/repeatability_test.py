@@ -105,7 +105,9 @@ class Strict(ExecCase):
         return line
 
     def test_files_of_the_system(self):
-        self.ends("cat", "/proc/interrupts", source="/proc/interrupts")
+        for path in ("/proc/interrupts", "/proc/sys/kernel/ns_last_pid", "/proc/sysvipc/shm", "/proc/self/oom_score",
+                     "/proc/1/stat"):
+            self.ends("cat", path, source=path)
         program = self.folder / "reads.c"
         program.write_text("#include <fcntl.h>\nint main(void) { return open(\"/proc/vmstat\", O_RDONLY) < 0; }\n")
         line = self.ends(self.compile(str(program)), source="/proc/vmstat")

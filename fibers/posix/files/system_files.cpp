@@ -84,13 +84,38 @@ constexpr struct {
 
 // Files and folders that are the system's, and differ.
 constexpr const char* unrepeatable[] = {
-    "/proc/buddyinfo", "/proc/diskstats",  "/proc/interrupts",   "/proc/kmsg",     "/proc/locks",  "/proc/net",
-    "/proc/pressure",  "/proc/schedstat",  "/proc/slabinfo",     "/proc/softirqs", "/proc/sys/fs", "/proc/vmstat",
-    "/proc/zoneinfo",  "/proc/timer_list", "/proc/pagetypeinfo", "/sys/block",     "/sys/kernel",  "/sys/class",
-    "/dev/hwrng",      "/dev/rtc",         "/dev/cpu",           "/dev/input",
+    "/proc/buddyinfo",
+    "/proc/diskstats",
+    "/proc/interrupts",
+    "/proc/key-users",
+    "/proc/keys",
+    "/proc/kmsg",
+    "/proc/locks",
+    "/proc/net",
+    "/proc/pagetypeinfo",
+    "/proc/pressure",
+    "/proc/schedstat",
+    "/proc/slabinfo",
+    "/proc/softirqs",
+    "/proc/swaps",
+    "/proc/sys/fs",
+    "/proc/sys/kernel/ns_last_pid",
+    "/proc/sys/kernel/pty",
+    "/proc/sysvipc",
+    "/proc/timer_list",
+    "/proc/vmstat",
+    "/proc/zoneinfo",
+    "/sys/block",
+    "/sys/class",
+    "/sys/fs/cgroup",
+    "/sys/kernel",
+    "/dev/cpu",
+    "/dev/hwrng",
+    "/dev/input",
+    "/dev/rtc",
 };
 constexpr const char* unrepeatable_of_process[] = {
-    "/net", "/numa_maps", "/pagemap", "/sched", "/smaps", "/smaps_rollup", "/stack", "/syscall",
+    "/net", "/numa_maps", "/oom_score", "/pagemap", "/sched", "/smaps", "/smaps_rollup", "/stack", "/syscall",
 };
 
 bool begins_path(const char* beginning, const char* path) {
@@ -105,6 +130,7 @@ void note_use_of(const char* path) {
   for (const char* const each : unrepeatable)
     if (begins_path(each, path)) note_unrepeatable(path);
   const ProcessPath of_process(path);
+  if (of_process.is_by_number && of_process.process == nullptr) note_unrepeatable(path);
   for (const char* const each : unrepeatable_of_process)
     if (of_process.process != nullptr && begins_path(each, of_process.rest)) note_unrepeatable(path);
 }
