@@ -216,6 +216,12 @@ class Conditions(unittest.TestCase):
         client = "import socket; socket.create_connection(('127.0.0.1', %d)).send(b'it')" % port
         self.assertEqual(self.said(f"after:tcp:{port}", "a=python3", "-c", client, "::", "b=python3", "-c", server), ["heard it"])
 
+    def test_a_file_that_does_not_come_is_told(self):
+        run = execute(["a=true", "::", "after:/nonexistent/x", "b=true"], "--idle-limit", "1")
+        self.assertEqual(run.returncode, 124, run.stderr)
+        self.assertEqual(run.stderr.splitlines()[0],
+                         "waitpoint: b waits for its start, after:/nonexistent/x, and no program is running")
+
     def test_conditions_that_can_never_hold_are_refused(self):
         for words, line in ((["after:c", "a=true", "::", "b=true"], "after:c: there is no program 'c'"),
                             (["after:b", "a=true", "::", "after:a.started", "b=true"],

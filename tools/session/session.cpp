@@ -64,7 +64,9 @@ class Session {
     while (start_those_due(), !have_all_ended()) {
       const bool looks = waits_for_outside();
       const bool has_ended = note_end(looks ? WNOHANG : 0);
-      if (looks && !has_ended) std::this_thread::sleep_for(between_looks);
+      if (!looks || has_ended) continue;
+      tell_who_waits_alone();
+      std::this_thread::sleep_for(between_looks);
     }
   }
 
@@ -141,6 +143,23 @@ class Session {
     });
   }
 
+  // Once: what an ended program has left behind may still fulfil a condition.
+  void tell_who_waits_alone() {
+    const auto runs = [](const Program& each) { return each.process != 0 && !each.has_ended; };
+    if (has_told_ || std::any_of(programs_.begin(), programs_.end(), runs)) return;
+    has_told_ = true;
+    for (const Program& program : programs_)
+      for (const StartCondition& each : program.conditions)
+        if (program.process == 0 && !holds(each))
+          std::fprintf(stderr, "waitpoint: %s waits for its start, after:%s, and no program is running\n",
+                       program.name.c_str(), in_words(each).c_str());
+  }
+
+  static std::string in_words(const StartCondition& condition) {
+    if (condition.kind == StartCondition::Kind::port) return "tcp:" + std::to_string(condition.port);
+    return condition.kind == StartCondition::Kind::start ? condition.of + ".started" : condition.of;
+  }
+
   bool note_end(int flags) {
     int status = 0;
     const pid_t process = waitpid(-1, &status, flags);
@@ -156,6 +175,7 @@ class Session {
   }
 
   std::vector<Program> programs_;
+  bool has_told_ = false;  // that none is running
 };
 
 }  // namespace
