@@ -1,11 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/start_condition.hpp"
 
+#include <arpa/inet.h>
+#include <linux/inet_diag.h>
+#include <linux/netlink.h>
+#include <linux/sock_diag.h>
+#include <netinet/tcp.h>
+#include <sys/socket.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <charconv>
+#include <cstdint>
 #include <cstdio>
+#include <cstring>
 #include <string_view>
 #include <vector>
 
@@ -14,9 +22,43 @@ namespace {
 
 constexpr std::string_view of_port = "tcp:", of_start = ".started";
 
-// Looks into the system's table of sockets: a connection would disturb the server.
-bool is_listening_at(int port, const char* table) {
-  constexpr unsigned listening = 0x0A;
+// A connection would disturb the server, so the system is asked for its listening sockets. It answers within the call
+// that asks.
+enum class Answer : std::uint8_t { no, yes, none };
+Answer ask_system(int port, std::uint8_t family) {
+  struct {
+    nlmsghdr head;
+    inet_diag_req_v2 body;
+  } question{};
+  question.head.nlmsg_len = sizeof question;
+  question.head.nlmsg_type = SOCK_DIAG_BY_FAMILY;
+  question.head.nlmsg_flags = NLM_F_REQUEST | NLM_F_DUMP;
+  question.body.sdiag_family = family;
+  question.body.sdiag_protocol = IPPROTO_TCP;
+  question.body.idiag_states = 1U << TCP_LISTEN;
+  question.body.id.idiag_sport = htons(static_cast<std::uint16_t>(port));
+  const int socket_of_system = socket(AF_NETLINK, SOCK_RAW | SOCK_CLOEXEC, NETLINK_SOCK_DIAG);
+  Answer answer = Answer::none;
+  ssize_t received = send(socket_of_system, &question, sizeof question, 0);
+  alignas(nlmsghdr) char part[16384];
+  for (bool is_complete = false; !is_complete && received > 0;) {
+    received = recv(socket_of_system, part, sizeof part, MSG_DONTWAIT);
+    auto left = static_cast<unsigned>(std::max<ssize_t>(received, 0));
+    for (auto* head = reinterpret_cast<nlmsghdr*>(part); NLMSG_OK(head, left); head = NLMSG_NEXT(head, left)) {
+      is_complete = head->nlmsg_type == NLMSG_DONE || head->nlmsg_type == NLMSG_ERROR;
+      if (head->nlmsg_type == NLMSG_DONE && answer == Answer::none) answer = Answer::no;
+      if (is_complete) break;
+      const auto* const found = static_cast<const inet_diag_msg*>(NLMSG_DATA(head));
+      if (found->id.idiag_sport == question.body.id.idiag_sport) answer = Answer::yes;
+    }
+  }
+  if (socket_of_system >= 0) close(socket_of_system);
+  return answer;
+}
+
+// For systems that do not answer: the table tells all sockets, after some milliseconds on large machines.
+bool is_in_table(int port, const char* table) {
+  constexpr unsigned listening = TCP_LISTEN;
   std::FILE* const file = std::fopen(table, "r");
   if (file == nullptr) return false;
   char line[512];
@@ -28,6 +70,11 @@ bool is_listening_at(int port, const char* table) {
   }
   std::fclose(file);
   return is_found;
+}
+
+bool is_listening_at(int port, std::uint8_t family, const char* table) {
+  const Answer answer = ask_system(port, family);
+  return answer == Answer::none ? is_in_table(port, table) : answer == Answer::yes;
 }
 
 }  // namespace
@@ -71,7 +118,8 @@ std::size_t first_never_started(std::span<const ConditionedStart> programs) {
 
 bool holds_outside(const StartCondition& condition) {
   if (condition.kind == StartCondition::Kind::file) return access(condition.of.c_str(), F_OK) == 0;
-  return is_listening_at(condition.port, "/proc/net/tcp") || is_listening_at(condition.port, "/proc/net/tcp6");
+  return is_listening_at(condition.port, AF_INET, "/proc/net/tcp") ||
+         is_listening_at(condition.port, AF_INET6, "/proc/net/tcp6");
 }
 
 }  // namespace waitpoint
