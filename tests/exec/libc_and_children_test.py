@@ -53,6 +53,14 @@ class Children(ExecCase):
         self.assertEqual(len(years), 1)
         self.assertNotIn("2024", years)
 
+    def test_a_statically_linked_child_of_a_shell_is_waited_for(self):
+        program = self.folder / "static"
+        source = '#include <stdio.h>\n#include <unistd.h>\nint main(void) { usleep(200000); return puts("native") < 0; }\n'
+        subprocess.run(["gcc", "-static", "-x", "c", "-", "-o", program], input=source, text=True, check=True)
+        done = subprocess.run([WAITPOINT, "exec", "--quiet", "--", "dash", "-c", f"{program}; echo after"],
+                              capture_output=True, text=True, timeout=60)
+        self.assertEqual((done.returncode, done.stdout), (0, "native\nafter\n"), done.stderr)
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -147,7 +147,7 @@ void register_fork() { pthread_atfork(copy_record, drop_copy, begin_as_child); }
 
 namespace {
 
-// Until the child of a vfork() executes a program or ends.
+// Until the child of a vfork() executes a program, also natively, or ends.
 void await_return(const family::Process& child) {
   static constinit kernel::Object object{"child"};
   struct Borrower {
@@ -156,7 +156,8 @@ void await_return(const family::Process& child) {
   } const borrower{&child, child.id};
   const auto has_returned = [](const void* what) {
     const auto& [process, id] = *static_cast<const Borrower*>(what);
-    return process->id != id || !process->borrows || process->state == family::Process::State::ended;
+    return process->id != id || !process->borrows || process->is_native ||
+           process->state == family::Process::State::ended;
   };
   while (!has_returned(&borrower)) {
     kernel::running->scheduler->enter(object);
