@@ -38,8 +38,7 @@ Token first_token(const ExploreOptions& options, std::uint32_t call) {
 
 Campaign::Campaign(ExternalChecks* checks, std::function<void()> body, const ExploreOptions& options,
                    std::uint32_t call)
-    : checks_(checks),
-      options_(options),
+    : options_(options),
       call_(call),
       command_(command_line(checks)),
       body_(std::move(body), checks, options.until, options.steps_max),

@@ -51,7 +51,6 @@ class Campaign {
   std::string replay_line(const Token& token) const;
   std::string replay_by(const Token& token, const Failure& failure);
 
-  ExternalChecks* checks_;
   ExploreOptions options_;
   std::uint32_t call_;
   const std::string command_;  // that reruns this program

@@ -93,7 +93,7 @@ class Minimizer {
   // All schedules that follow `prefix` up to `from`, and then differ `count` times from the default order.
   std::optional<Failure> search(std::vector<Decision> prefix, std::size_t from, std::size_t count) {
     prefix.resize(from);
-    if (const auto failed = failing({.prefix = prefix})) return failed;
+    if (auto failed = failing({.prefix = prefix})) return failed;
     const std::vector<Decision> path = passed_.decisions;
     for (std::size_t i = from; i < path.size() && effort_.is_left(); ++i) {
       std::vector<Decision> changed(path.begin(), path.begin() + static_cast<std::ptrdiff_t>(i) + 1);
@@ -101,8 +101,8 @@ class Minimizer {
         if (other == path[i].chosen) continue;
         changed.back().chosen = other;
         if (count > 1) {
-          if (const auto failed = search(changed, i + 1, count - 1)) return failed;
-        } else if (const auto failed = failing({.prefix = changed})) {
+          if (auto failed = search(changed, i + 1, count - 1)) return failed;
+        } else if (auto failed = failing({.prefix = changed})) {
           return failed;
         }
       }

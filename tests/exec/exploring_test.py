@@ -79,9 +79,9 @@ class Exploring(ExecCase):
         self.assertEqual(rows, {1000, 1001})
 
     def test_siblings_begin_in_any_order(self):
-        file = self.folder / "late"
+        file = self.folder / "written by a sibling"
         for strategy in ("bounded:1", "random"):
-            done = explore("--strategy", strategy, "--", "sh", "-c", f"rm -f {file}; (echo a > {file}) & cat {file}")
+            done = explore("--strategy", strategy, "--", "sh", "-c", f"rm -f '{file}'; (echo a > '{file}') & cat '{file}'")
             self.assertEqual(done.returncode, 1, done.stdout)
             self.assertIn("No such file or directory", done.stdout)
 

@@ -254,6 +254,17 @@ class Programs(Families):
         for run in self.assertRepeats("sh", "-c", str(program), env=with_path):
             self.assertEqual((run.status, run.output), (0, "/somewhere:none\n02\n"), run.errors)
 
+    def test_native_programs_are_at_the_other_ends_of_pipes(self):
+        with tempfile.TemporaryDirectory() as folder:
+            source, static = pathlib.Path(folder) / "said.c", pathlib.Path(folder) / "said"
+            source.write_text('#include <stdio.h>\nint main(void) { return puts("said by it") < 0; }\n')
+            subprocess.run(["gcc", "-static", source, "-o", static], check=True)
+            for words in ("bash", "-c", "echo $($0); echo after"), ("dash", "-c", "$0 | cat; echo after"), \
+                         (PYTHON, "-c", "import subprocess, sys; print(subprocess.run(sys.argv[1], capture_output=True).stdout)"):
+                native = subprocess.run([*words, static], capture_output=True, text=True)
+                run = Run(1, *words, static)  # which does not repeat, as such a program does not
+                self.assertEqual((run.status, run.output), (native.returncode, native.stdout), run.errors)
+
     def test_a_killed_process_holds_up_nobody(self):
         run = Run(1, "sh", "-c", "sh -c 'kill -KILL $$'; echo $?; sleep 1; date +%S")
         self.assertEqual(run.output, "137\n01\n", run.errors)

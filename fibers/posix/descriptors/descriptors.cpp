@@ -18,6 +18,7 @@
 #include "fibers/posix/base/real_waits.hpp"
 #include "fibers/posix/descriptors/partners.hpp"
 #include "fibers/posix/family/order.hpp"
+#include "fibers/posix/family/processes.hpp"
 #include "fibers/posix/program/program.hpp"
 #include "fibers/posix/program/repeatability.hpp"
 #include "fibers/posix/program/timer_firing.hpp"
@@ -220,8 +221,14 @@ bool anybody_awaits_partner(const kernel::Scheduler& scheduler) {
 void (*before_look)() = nullptr;
 void (*before_partner)() = nullptr;
 
-bool anybody_waits_outside() { return waiting_outside > 0; }
-bool anybody_awaits_outsiders() { return waiting_for_outsiders > 0; }
+namespace {
+
+bool may_be_served_by_natives() { return first != nullptr && !has_host && family::has_natives(); }
+
+}  // namespace
+
+bool anybody_waits_outside() { return waiting_outside > 0 || may_be_served_by_natives(); }
+bool anybody_awaits_outsiders() { return waiting_for_outsiders > 0 || may_be_served_by_natives(); }
 
 void forget_waiters() {
   first = last = nullptr;
@@ -348,7 +355,7 @@ void look_at_descriptors(family::Changes changes) {
 
 bool wait_outside_for(Duration longest) {
   wait_really(longest);
-  return has_come_from_outside() || waiting_outside > 0;
+  return has_come_from_outside() || anybody_waits_outside();
 }
 
 void (*note_what_came)() = nullptr;
@@ -359,7 +366,7 @@ bool look_or_wait(bool may_wait) {
   const bool came = take_in_signals_from_outside();
   if (wake_ready(true, family::of_anything) || came) return true;
   if (!may_wait) return false;
-  if (waiting_outside == 0) return false;
+  if (!anybody_waits_outside()) return false;
   wait_really(Duration::max());
   take_in_signals_from_outside();
   wake_ready(true, family::of_anything);

@@ -17,7 +17,12 @@ namespace {
 
 using family::Process;
 
-bool waits_outside(const Process& process) { return family::takes_turns(process) && process.waits_outside; }
+// A native process may be at the other end of whatever others wait for.
+bool waits_for_others(bool outside, const Process& process) {
+  return family::takes_turns(process) && (outside || (process.listens_to != 0 && family::has_natives()));
+}
+bool waits_outside(const Process& process) { return waits_for_others(process.waits_outside, process); }
+bool awaits_outsiders(const Process& process) { return waits_for_others(process.awaits_outsiders, process); }
 
 // Notes whether a thread of this process has run since the last call: it may have acted on a socket, say.
 void note_actions(const kernel::Scheduler& scheduler) {
@@ -64,7 +69,6 @@ Process* next_waiting_outside() {
 bool wait_outside_together(kernel::Scheduler& scheduler) {
   Process* const next = next_waiting_outside();
   if (next == nullptr) return false;
-  const auto awaits_outsiders = [](const Process& each) { return waits_outside(each) && each.awaits_outsiders; };
   if (std::ranges::none_of(family::entries(), awaits_outsiders)) {
     family::Family& all = *family::family;
     if (all.settled_after == all.actions) return false;

@@ -107,6 +107,10 @@ bool has_native_child() {
       entries(), [](const Process& each) { return is_listed(each) && each.is_native && each.parent == own->id; });
 }
 
+bool has_natives() {
+  return std::ranges::any_of(entries(), [](const Process& each) { return is_alive(each) && each.is_native; });
+}
+
 void remove(Process& process) {
   if (is_alive(process) && !process.is_native) --family->alive;
   process.state = Process::State::none;

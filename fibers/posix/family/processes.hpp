@@ -22,6 +22,8 @@ Process* add();
 void set_native(Process& process, bool is_native);
 /// True if the calling process has a child of that kind.
 bool has_native_child();
+/// True if any process of the family executes such a program: it may be at the other end of any pipe.
+bool has_natives();
 /// The process has executed another program: the family's digest keeps the events of the one before.
 void keep_digest_of(const Process& process, const PairDigest& digest);
 /// Removes an entry whose end was noted.

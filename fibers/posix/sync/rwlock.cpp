@@ -37,7 +37,7 @@ struct RwLock : Waitable {
   std::uint32_t readers = 0;  ///< that hold it
 };
 
-static_assert(sizeof(RwLock*) <= offsetof(pthread_rwlock_t, __data.__shared) &&
+static_assert(sizeof(void*) <= offsetof(pthread_rwlock_t, __data.__shared) &&
               alignof(RwLock*) <= alignof(pthread_rwlock_t));
 
 // As in glibc, `__flags` is the kind. The other fields are unused.
