@@ -30,6 +30,7 @@ std::string misuses_of(const posix::Record& record) {
   const std::vector<posix::LoggedMisuse>& all = misuse_log_of(record);
   if (all.empty()) return "";
   std::vector<sync::CodePlaces> calls;
+  calls.reserve(all.size());
   for (const posix::LoggedMisuse& one : all) calls.push_back(one.calls);
   const auto lines = sync::user_source_lines(calls, frames_shown);
   std::string text;
