@@ -25,6 +25,7 @@ std::vector<RacesOf> races_by_process(const posix::Record& record) {
   for (const posix::RaceOfProcess& one : log_of(record)->races)
     of_processes[{one.process, one.program}].push_back(one.race);
   std::vector<RacesOf> all;
+  all.reserve(of_processes.size());
   for (const auto& [process, found] : of_processes)
     all.push_back({family_of(record).made > 1 ? process.second : "", races::in_words(found)});
   return all;

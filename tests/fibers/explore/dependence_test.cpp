@@ -39,7 +39,7 @@ std::set<std::string> results(const std::function<void(std::string& result)>& bo
     }
     return found;
   };
-  const std::set<std::string> by_dpor = found_by("dpor", 100'000);
+  std::set<std::string> by_dpor = found_by("dpor", 100'000);
   for (const std::string& by_dfs : found_by("dfs", 10'000)) EXPECT_TRUE(by_dpor.contains(by_dfs)) << by_dfs;
   return by_dpor;
 }

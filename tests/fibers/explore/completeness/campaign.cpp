@@ -125,7 +125,7 @@ int run(const Asked& asked) {
     const Enumerated all = enumerate(program, states_max);
     for (Tally& tally : tallies) compare_one(program, all, cover_by, tally, asked.is_exec ? " --exec" : "");
     if ((asked.is_exec || i % 100 == 99) && isatty(STDERR_FILENO) != 0)
-      std::fprintf(stderr, "\r%llu of %llu programs", static_cast<unsigned long long>(i + 1),
+      std::fprintf(stderr, "\r%llu of %llu programs", static_cast<unsigned long long>(i) + 1,
                    static_cast<unsigned long long>(asked.count));
   }
   std::size_t different = 0;

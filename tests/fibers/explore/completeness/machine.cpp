@@ -126,7 +126,7 @@ class Search {
         next.units[object] -= state.units[object] > 0;
         return finish(next, t, state.units[object] > 0);
       case Step::release:
-        return serve(next, Mode::acquiring, object, [&](State& after, std::size_t waiter) {
+        return serve(next, Mode::acquiring, object, [&, object = object](State& after, std::size_t waiter) {
           if (waiter < threads_max)
             resume(program_, after, waiter);
           else

@@ -153,8 +153,8 @@ static void* run(void* argument) {
   int created[threads_max] = {0}, held[objects] = {0};
   const char* at = texts[self];
   while (at != NULL && *at != '\0' && *at != '|' && *at != 'e') {
-    const int object = at[1] - '0', operand = at[2] - '0';
-    record->threads[self].step = *at;
+    const int object = (unsigned char)at[1] - '0', operand = (unsigned char)at[2] - '0';
+    record->threads[self].step = (unsigned char)*at;
     record->threads[self].object = object;
     int next = 1;
     if (*at != 's')

@@ -61,27 +61,29 @@ std::string to_text(const Program& program) {
 }
 
 Program read_program(std::string_view text) {
-  const BadInput refused("program", "expected a text such as '01|c10 g00|p02', found '" + std::string(text) + "'");
+  const auto refused = [text] {
+    return BadInput("program", "expected a text such as '01|c10 g00|p02', found '" + std::string(text) + "'");
+  };
   Program program;
-  if (text.size() <= objects || !std::all_of(text.begin(), text.begin() + objects, is_digit)) throw refused;
+  if (text.size() <= objects || !std::all_of(text.begin(), text.begin() + objects, is_digit)) throw refused();
   for (std::size_t i = 0; i < objects; ++i) program.units[i] = digit(text[i]);
   for (std::size_t at = objects; at < text.size();) {
     if (text[at] == '|') program.threads.emplace_back();
-    if (program.threads.empty() || (text[at] != '|' && text[at] != ' ')) throw refused;
+    if (program.threads.empty() || (text[at] != '|' && text[at] != ' ')) throw refused();
     ++at;
     if (at == text.size() || text[at] == '|') continue;
     if (at + 3 > text.size() || letters.find(text[at]) == letters.npos || !is_digit(text[at + 1]) ||
         !is_digit(text[at + 2]))
-      throw refused;
+      throw refused();
     program.threads.back().push_back({static_cast<Step>(text[at]), digit(text[at + 1]), digit(text[at + 2])});
     at += 3;
   }
-  if (program.threads.size() > threads_max) throw refused;
+  if (program.threads.size() > threads_max) throw refused();
   std::size_t created[threads_max] = {};
   for (const std::vector<Instruction>& thread : program.threads)
     for (const Instruction& instruction : thread) {
-      if (!is_valid(instruction, program.threads.size())) throw refused;
-      if (instruction.step == Step::create && ++created[instruction.object] > 1) throw refused;
+      if (!is_valid(instruction, program.threads.size())) throw refused();
+      if (instruction.step == Step::create && ++created[instruction.object] > 1) throw refused();
     }
   return program;
 }

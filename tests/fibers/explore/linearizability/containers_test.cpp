@@ -100,6 +100,7 @@ TEST(LinearizableContainers, TwoHundredOperationsOfEightTasks) {
           containers::Queue queue;
           History<Fifo> history;
           std::vector<thread> tasks;
+          tasks.reserve(8);
           for (int task = 0; task < 8; ++task)
             tasks.emplace_back([&, task] {
               for (int i = 1; i <= 25; ++i)
