@@ -76,6 +76,27 @@ static void reuse(void) {
     join(make(lock_and_unlock, made));
     pthread_mutex_destroy(made);
     free(made);
+    // A copy has a state of its own.
+    pthread_mutex_t* grown = malloc(sizeof *grown);
+    pthread_mutex_init(grown, NULL);
+    pthread_mutex_lock(grown);
+    pthread_mutex_unlock(grown);
+    grown = realloc(grown, 4096 * sizeof *grown);
+    pthread_mutex_t copy = *grown;
+    pthread_mutex_lock(grown);
+    pthread_mutex_lock(&copy);
+    pthread_mutex_unlock(&copy);
+    pthread_mutex_unlock(grown);
+    pthread_mutex_destroy(&copy);
+    pthread_cond_t made_condition = PTHREAD_COND_INITIALIZER;
+    pthread_cond_signal(&made_condition);
+    pthread_cond_t* copied = malloc(sizeof *copied);
+    memcpy(copied, &made_condition, sizeof *copied);
+    pthread_cond_t again = *copied;
+    free(copied);
+    pthread_cond_signal(&again);
+    pthread_cond_destroy(&again);
+    free(grown);
     pthread_mutex_t* const zeroed = calloc(1, sizeof *zeroed);
     join(make(lock_and_unlock, zeroed));
     free(zeroed);

@@ -98,8 +98,8 @@ Mutex* mutex_for(const char* does, pthread_mutex_t* bytes) {
 [[gnu::always_inline]] inline bool lock_at_once(const pthread_mutex_t& bytes) {
   Mutex* const mutex = reinterpret_cast<Mutex*>(bytes.__data.__list.__prev);
   kernel::Task* const task = kernel::running;
-  if (mutex == nullptr || mutex->object.owner != nullptr || mutex->robust_state != Mutex::RobustState::consistent ||
-      mutex->is_freed)
+  if (mutex == nullptr || mutex->address != &bytes || mutex->object.owner != nullptr ||
+      mutex->robust_state != Mutex::RobustState::consistent || mutex->is_freed)
     return false;
   if (!pass_at_once(task, kernel::Operation::lock, mutex->object)) return false;
   WAITPOINT_FAST_CHECK(mutex->object.owner == nullptr, "a mutex was taken during a short cut of its lock");
@@ -111,7 +111,7 @@ Mutex* mutex_for(const char* does, pthread_mutex_t* bytes) {
 [[gnu::always_inline]] inline bool unlock_at_once(const pthread_mutex_t& bytes) {
   Mutex* const mutex = reinterpret_cast<Mutex*>(bytes.__data.__list.__prev);
   kernel::Task* const task = kernel::running;
-  if (mutex == nullptr || mutex->object.first_waiter != nullptr || mutex->depth != 1 ||
+  if (mutex == nullptr || mutex->address != &bytes || mutex->object.first_waiter != nullptr || mutex->depth != 1 ||
       mutex->robust_state != Mutex::RobustState::consistent || mutex->object.owner != task)
     return false;
   if (!pass_at_once(task, kernel::Operation::unlock, mutex->object)) return false;
@@ -264,6 +264,7 @@ WAITPOINT_INTERPOSED int pthread_mutex_destroy(pthread_mutex_t* mutex) noexcept 
   auto*& known = reinterpret_cast<Mutex*&>(mutex->__data.__list.__prev);
   if (is_destroyed(*mutex)) return 0;
   if (is_shared(*mutex)) return shared_mutex::destroy(*mutex);
+  if (known != nullptr && known->address != mutex) known = nullptr;  // a copy's is the original's
   if (known != nullptr && !known->idle()) {
     note_misuse("destroys", *known, ", locked by ", known->object.owner);
     return EBUSY;

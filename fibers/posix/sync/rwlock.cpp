@@ -52,7 +52,7 @@ void check(const char* does, const pthread_rwlock_t& bytes) {
   const RwLock* const known = *reinterpret_cast<RwLock* const*>(&bytes);
   if (known == nullptr && bytes.__data.__pad4 == mark_of_destroyed)
     note_misuse(does, RwLock(&bytes), ", which was destroyed");
-  else if (known != nullptr)
+  else if (known != nullptr && known->address == &bytes)
     check_is_there(does, *known);
 }
 
@@ -168,6 +168,7 @@ WAITPOINT_INTERPOSED int pthread_rwlock_init(pthread_rwlock_t* lock, const pthre
 
 WAITPOINT_INTERPOSED int pthread_rwlock_destroy(pthread_rwlock_t* lock) noexcept {
   RwLock*& known = *reinterpret_cast<RwLock**>(lock);
+  if (known != nullptr && known->address != lock) known = nullptr;  // a copy's is the original's
   Waitable* const waitable =
       shared_rwlock::is_shared(*lock) ? find_waitable(lock, Waitable::Kind::rwlock) : static_cast<Waitable*>(known);
   if (waitable != nullptr && !shared_rwlock::is_shared(*lock)) {

@@ -23,10 +23,15 @@ struct SharedBytes {
   Known* known;  ///< of a private one
   std::uint32_t mark;
 
+  /// A copy has no waitable yet.
+  void leave_original() {
+    if (!is_shared() && known != nullptr && known->address != this) known = nullptr;
+  }
   bool is_shared() const { return mark == mark_of_shared; }
   /// Reports its use if it was destroyed, or its memory freed.
   void check(const char* does) {
     if (is_shared()) return;
+    leave_original();
     if (mark == mark_of_destroyed && known == nullptr)
       note_misuse(does, Known(this), ", which was destroyed");
     else if (known != nullptr)
@@ -34,6 +39,7 @@ struct SharedBytes {
   }
   /// Forgets its waitable.
   void destroy(Waitable::Kind kind) {
+    leave_original();
     Waitable* const waitable = is_shared() ? find_waitable(this, kind) : known;
     if (waitable != nullptr && !is_shared() && waitable->object.first_waiter != nullptr)
       note_misuse("destroys", *waitable, ", awaited by ", waitable->object.first_waiter);
