@@ -65,8 +65,8 @@ T& make_waitable(const void* address) {
   return *made;
 }
 
-/// The waitable that `slot`, a word of the primitive at `address`, points to; made at the first use, and for the copy of
-/// a primitive, as of one in an array that has grown: POSIX leaves it undefined, programs do it.
+/// The waitable that `slot`, a word of the primitive at `address`, points to; made at the first use, and for the copy
+/// of a primitive, as of one in an array that has grown: POSIX leaves it undefined, programs do it.
 template <class T>
 T& waitable_at(T*& slot, const void* address) {
   if (__builtin_expect(slot == nullptr || slot->address != address, 0)) slot = &make_waitable<T>(address);
