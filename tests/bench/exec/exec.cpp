@@ -70,31 +70,29 @@ class Bench {
   const std::vector<Row>& rows() const { return rows_; }
 
  private:
-  double run_once(const std::string& before, const std::string& workload, long count) const {
-    const std::string command = before + calls_ + " " + workload + " " + std::to_string(count);
-    std::FILE* const output = popen(command.c_str(), "r");
-    char text[64] = {};
-    const bool answered = output != nullptr && std::fgets(text, sizeof text, output) != nullptr;
-    const bool ended_well = output != nullptr && pclose(output) == 0;
-    double ticks = 0;
-    if (!answered || !ended_well ||
-        !parse_number(std::string(text, std::min<std::size_t>(63, std::string(text).find('\n'))), ticks))
-      throw BadInput(command, "did not answer");
-    return ticks * ns_per_tick_;
-  }
-  // By the rate that the explorer states.
-  double explore_once(const char* workload, int schedules) const {
-    const std::string command = fmt::format("{} --iterations {} -- {} {} 1", explore_, schedules, calls_, workload);
+  // Throws unless the command ends well; `read` takes a number from the line, if it is there.
+  static double number_of(const std::string& command, bool (*read)(const std::string& line, double& number)) {
     std::FILE* const output = popen(command.c_str(), "r");
     char text[256] = {};
     const bool answered = output != nullptr && std::fgets(text, sizeof text, output) != nullptr;
     const bool ended_well = output != nullptr && pclose(output) == 0;
-    const std::string line = text;
-    const std::size_t begin = line.find(" s (") + 4, end = line.find(" a second)");
-    double rate = 0;
-    if (!answered || !ended_well || end == std::string::npos || !parse_number(line.substr(begin, end - begin), rate))
-      throw BadInput(command, "did not answer");
-    return 1e9 / rate;
+    double number = 0;
+    if (!answered || !ended_well || !read(text, number)) throw BadInput(command, "did not answer");
+    return number;
+  }
+  double run_once(const std::string& before, const std::string& workload, long count) const {
+    const auto whole = [](const std::string& line, double& ticks) {
+      return parse_number(line.substr(0, line.find('\n')), ticks);
+    };
+    return number_of(before + calls_ + " " + workload + " " + std::to_string(count), whole) * ns_per_tick_;
+  }
+  // By the rate that the explorer states: "... in 1.0 s (123.4 a second)".
+  double explore_once(const char* workload, int schedules) const {
+    const auto rate = [](const std::string& line, double& number) {
+      const std::size_t begin = line.find(" s (") + 4, end = line.find(" a second)");
+      return end != std::string::npos && parse_number(line.substr(begin, end - begin), number);
+    };
+    return 1e9 / number_of(fmt::format("{} --iterations {} -- {} {} 1", explore_, schedules, calls_, workload), rate);
   }
   void explored(const std::string& what, const char* workload, int schedules) {
     if (!is_asked(what)) return;
