@@ -10,49 +10,9 @@
 #include <cstring>
 
 #include "fibers/posix/base/interposed.hpp"
+#include "fibers/posix/base/tail_call.hpp"
 
-// dlsym() identifies its caller by the return address, so it can be wrapped only by a tail call, not by a C++ function.
-asm(R"(
-  .text
-  .globl dlsym
-  .type dlsym, @function
-dlsym:
-  .cfi_startproc
-  endbr64
-  pushq %rdi
-  .cfi_adjust_cfa_offset 8
-  pushq %rsi
-  .cfi_adjust_cfa_offset 8
-  subq $8, %rsp
-  .cfi_adjust_cfa_offset 8
-  call waitpoint_ours_behind
-  addq $8, %rsp
-  .cfi_adjust_cfa_offset -8
-  popq %rsi
-  .cfi_adjust_cfa_offset -8
-  popq %rdi
-  .cfi_adjust_cfa_offset -8
-  testq %rax, %rax
-  je 1f
-  ret
-1:
-  pushq %rdi
-  .cfi_adjust_cfa_offset 8
-  pushq %rsi
-  .cfi_adjust_cfa_offset 8
-  subq $8, %rsp
-  .cfi_adjust_cfa_offset 8
-  call waitpoint_own_dlsym
-  addq $8, %rsp
-  .cfi_adjust_cfa_offset -8
-  popq %rsi
-  .cfi_adjust_cfa_offset -8
-  popq %rdi
-  .cfi_adjust_cfa_offset -8
-  jmpq *%rax
-  .cfi_endproc
-  .size dlsym, .-dlsym
-)");
+WAITPOINT_TAIL_CALL(dlsym, waitpoint_ours_behind, waitpoint_own_dlsym);
 
 namespace waitpoint::posix {
 

@@ -9,51 +9,10 @@
 #include <cstring>
 
 #include "fibers/posix/base/interposed.hpp"
+#include "fibers/posix/base/tail_call.hpp"
 #include "fibers/posix/members/members.hpp"
 
-// dlopen() identifies its caller by the return address, so it can be wrapped only by a tail call, not by a C++
-// function.
-asm(R"(
-  .text
-  .globl dlopen
-  .type dlopen, @function
-dlopen:
-  .cfi_startproc
-  endbr64
-  pushq %rdi
-  .cfi_adjust_cfa_offset 8
-  pushq %rsi
-  .cfi_adjust_cfa_offset 8
-  subq $8, %rsp
-  .cfi_adjust_cfa_offset 8
-  call waitpoint_open_copy
-  addq $8, %rsp
-  .cfi_adjust_cfa_offset -8
-  popq %rsi
-  .cfi_adjust_cfa_offset -8
-  popq %rdi
-  .cfi_adjust_cfa_offset -8
-  testq %rax, %rax
-  je 1f
-  ret
-1:
-  pushq %rdi
-  .cfi_adjust_cfa_offset 8
-  pushq %rsi
-  .cfi_adjust_cfa_offset 8
-  subq $8, %rsp
-  .cfi_adjust_cfa_offset 8
-  call waitpoint_own_dlopen
-  addq $8, %rsp
-  .cfi_adjust_cfa_offset -8
-  popq %rsi
-  .cfi_adjust_cfa_offset -8
-  popq %rdi
-  .cfi_adjust_cfa_offset -8
-  jmpq *%rax
-  .cfi_endproc
-  .size dlopen, .-dlopen
-)");
+WAITPOINT_TAIL_CALL(dlopen, waitpoint_open_copy, waitpoint_own_dlopen);
 
 namespace waitpoint::posix {
 namespace {
