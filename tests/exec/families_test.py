@@ -265,6 +265,15 @@ class Programs(Families):
                 run = Run(1, *words, static)  # which does not repeat, as such a program does not
                 self.assertEqual((run.status, run.output), (native.returncode, native.stdout), run.errors)
 
+    def test_a_native_program_ends_while_another_waits_at_its_pipe(self):
+        with tempfile.TemporaryDirectory() as folder:
+            source, static = pathlib.Path(folder) / "slow.c", pathlib.Path(folder) / "slow"
+            source.write_text('#include <unistd.h>\nint main(void) { write(1, "a", 1); return usleep(10000); }\n')
+            subprocess.run(["gcc", "-static", source, "-o", static], check=True)
+            for _ in range(20):  # its parent or its reader may be the first to find its end
+                run = Run(1, "dash", "-c", "$0 | cat; echo after", static)
+                self.assertEqual((run.status, run.output), (0, "aafter\n"), run.errors)
+
     def test_a_killed_process_holds_up_nobody(self):
         run = Run(1, "sh", "-c", "sh -c 'kill -KILL $$'; echo $?; sleep 1; date +%S")
         self.assertEqual(run.output, "137\n01\n", run.errors)

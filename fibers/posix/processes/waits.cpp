@@ -78,7 +78,10 @@ int take_note(Process& process, int options) {
   if (process.is_native && process.state == Process::State::alive) {
     if (stays || wait_in_system(process.real_id, &status, WNOHANG | WUNTRACED | WCONTINUED | __WALL) <= 0)
       return status;
-    if (WIFEXITED(status) || WIFSIGNALED(status)) family::remove(process);
+    if (!WIFEXITED(status) && !WIFSIGNALED(status)) return status;
+    // Those that wait at its descriptors' other ends look once more: without natives they wait for each other.
+    family::remove(process);
+    family::ring(family::of_anything);
     return status;
   }
   if (process.state != Process::State::ended) {
