@@ -153,6 +153,16 @@ class Exploring(ExecCase):
         explore("--iterations", "40", "--results", self.folder / "results", "--", program)
         self.assertEqual(lines, set((self.folder / "results").read_text().splitlines()))
 
+    def test_results_are_written_as_they_come(self):
+        results = self.folder / "results"
+        words = [WAITPOINT, "explore", "--exec", "--time-limit", "60", "--results", results, "--", self.compile("lost_update.c"), "locked"]
+        with subprocess.Popen(words, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) as process:
+            while not results.exists() or len(results.read_text().splitlines()) < 20:
+                self.assertIsNone(process.poll())
+            process.kill()
+        lines = results.read_text().splitlines()[1:]
+        self.assertEqual([int(line.split()[0]) for line in lines], list(range(len(lines))))
+
     def test_tells_how_a_run_ended_and_what_its_threads_did_last(self):
         program = self.compile("ends.c", "-rdynamic")
         for way, expected in (("exit", "exit status 3"), ("_exit", "exit status 4"), ("crash", "terminated by signal 11"),
@@ -207,6 +217,18 @@ class Exhaustive(ExecCase):
         self.assertEqual({status + str(order) for order in range(1, 6)} | passed, found)
         self.assertTrue(line.endswith("; exhaustive with at most 3 preemptions"), line)
 
+    def test_search_by_partial_orders_tries_all_results_in_fewer_schedules(self):
+        program = self.compile("lost_update.c")
+        found = {}
+        for strategy in ("dfs", "dpor"):
+            done = explore("--strategy", strategy, "--iterations", "100000", "--", program, "locked")
+            self.assertRegex(done.stdout, "0 failed.*; exhaustive", strategy)
+            found[strategy] = int(re.search(r"(\d+) schedule", done.stdout)[1])
+            failed = explore("--strategy", strategy, "--no-minimize", "--", program)
+            self.assertEqual(failed.returncode, 1, failed.stderr)
+            self.assertIn("the same run as in the record", explore(*replay_words(failed.stdout)).stderr)
+        self.assertLess(10 * found["dpor"], found["dfs"])
+
     def test_that_is_cut_off_says_nothing_of_all(self):
         done = explore("--iterations", "10", "--strategy", "dfs", "--", self.compile("lost_update.c"), "locked")
         self.assertEqual(done.returncode, 0, done.stderr)
@@ -235,11 +257,14 @@ class Exhaustive(ExecCase):
 
     def test_bad_input(self):
         for words, line in (
-            (("--strategy", "dpor"), "--strategy: expected dfs, bounded:K or a strategy that draws its schedules, found 'dpor'"),
-            (("--strategy", "dfs", "--jobs", "2"),
+            (("--strategy", "dfs", "--jobs", "2", "--", self.compile("lost_update.c")),
              "--jobs: cannot be used together with dfs, which derives each schedule from the one before"),
+            (("--strategy", "dpor", "--shard", "1/2", "--", self.compile("lost_update.c")),
+             "--shard: cannot be used together with dpor, which derives each schedule from the one before"),
+            (("--strategy", "dpor", "--", self.compile("two_processes.c"), "locked"),
+             "--strategy: expected dfs or bounded:K, as the program starts processes or other programs, found 'dpor'"),
         ):
-            done = explore(*words, "--", self.compile("lost_update.c"))
+            done = explore(*words)
             self.assertEqual((done.returncode, done.stderr), (2, f"waitpoint: {line}\n"))
 
 

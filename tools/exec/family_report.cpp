@@ -43,9 +43,14 @@ const posix::History* history_of(const posix::Record& record) {
   return static_cast<const posix::History*>(common_of(record, posix::family::Part::history));
 }
 
-Digest digest_of(const posix::Record& record) {
+bool is_single(const posix::Record& record) {
   const Family& family = family_of(record);
-  if (family.made < 2 && family.digest_of_ended == 0) return record.digest();
+  return family.made < 2 && family.digest_of_ended == 0;
+}
+
+Digest digest_of(const posix::Record& record) {
+  if (is_single(record)) return record.digest();
+  const Family& family = family_of(record);
   std::uint64_t of_others = family.digest_of_ended;
   for_each_other(family, [&of_others](const Process& process) {
     of_others += posix::family::share_of_digest(process.id, process.digest);

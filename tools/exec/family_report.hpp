@@ -19,6 +19,8 @@ namespace waitpoint::tools {
 const void* common_of(const posix::Record& record, posix::family::Part part);
 /// The events and choices of all processes; null if none were asked for.
 const posix::History* history_of(const posix::Record& record);
+/// True if the run is of one process that has executed one program.
+bool is_single(const posix::Record& record);
 /// The digest of all processes.
 Digest digest_of(const posix::Record& record);
 /// "2 processes, 3 threads, 2 at once, 40 events, 12 switches, 0.5 s of virtual time".

@@ -33,16 +33,8 @@ class Files {
     if (options.trace) trace_.emplace(*options.trace);
   }
 
-  bool has_results() const { return results_.has_value(); }
-  /// Every shard writes the same head line, so that merged and sorted files have it once.
-  void write_results(const Target& target, const Search& search) {
-    if (!results_) return;
-    const ExploreOptions& options = target.options();
-    results_->write(fmt::format("# waitpoint results 1: scenario {:016x}, strategy {}, seed {}\n", target.fingerprint(),
-                                options.strategy, options.seed));
-    for (const auto& [number, line] : search.lines()) results_->write(line);
-    results_->commit();
-  }
+  /// Null if no results are asked for.
+  ResultsFile* results() { return results_ ? &*results_ : nullptr; }
   void write(const FailureReport& report) {
     if (schedule_) {
       schedule_->write(to_text(report.schedule));
@@ -55,7 +47,8 @@ class Files {
   }
 
  private:
-  std::optional<OutputFile> results_, schedule_, trace_;
+  std::optional<ResultsFile> results_;
+  std::optional<OutputFile> schedule_, trace_;
 };
 
 void tell(const FailureReport& report, Files& files) {
@@ -98,16 +91,16 @@ int search(Target& target, Files& files) {
   Discoveries discoveries(target, progress);
   if (usual && goes_on_after(usual->kind, target.options())) {
     discoveries.take({std::nullopt, *usual});
-  } else if (usual && !usual->passed() && !files.has_results()) {
+  } else if (usual && !usual->passed() && files.results() == nullptr) {
     tell(report_default(target, *usual), files);
     return 1;
   }
   if (usual) target.set_profile(std::move(usual->profile));
-  Search search(target, progress, discoveries);
+  Search search(target, progress, discoveries, files.results());
   const double start_s = progress.seconds();
-  if (usual) search.run(files.has_results());
+  if (usual) search.run();
   const double seconds = progress.seconds() - start_s;
-  files.write_results(target, search);
+  if (usual && files.results() != nullptr) files.results()->commit();
   write_standard_output(sum(target, search, seconds));
   const FailedRun* const gravest = discoveries.gravest();
   if (gravest != nullptr) tell(report_of(target, progress, discoveries), files);

@@ -15,7 +15,6 @@
 #include "tools/command/distinct_files.hpp"
 #include "tools/command/installed_part.hpp"
 #include "tools/command/option_values.hpp"
-#include "tools/explore/depth_first.hpp"
 
 namespace waitpoint::tools {
 namespace {
@@ -148,8 +147,6 @@ void ExploreArguments::check_exhaustive(const std::string& where, const ExploreO
   if (!is_program_)
     refuse(where, "a strategy that draws its schedules (a scenario has too many for an exhaustive search)",
            options.strategy);
-  if (!DepthFirst::of(options.strategy))
-    refuse(where, "dfs, bounded:K or a strategy that draws its schedules", options.strategy);
   for (const auto& [name, value] : {std::pair<const char*, const std::string&>{"--jobs", jobs_}, {"--shard", shard_}})
     if (!value.empty())
       throw BadInput(name, "cannot be used together with " + options.strategy +

@@ -5,8 +5,8 @@
 
 #include <cerrno>
 
+#include "fibers/explore/strategies/factory.hpp"
 #include "tools/command/shell_words.hpp"
-#include "tools/explore/depth_first.hpp"
 
 namespace waitpoint::tools {
 namespace {
@@ -16,7 +16,7 @@ using exploration::token_digest;
 
 // The default order has no number, and exhaustive strategies draw nothing.
 bool is_drawn(const FailedRun& run, const ExploreOptions& options) {
-  return run.number && !DepthFirst::of(options.strategy);
+  return run.number && !exploration::make_strategy(options.strategy)->is_exhaustive();
 }
 
 }  // namespace

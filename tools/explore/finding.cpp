@@ -39,6 +39,8 @@ void pass_fields(Pass& pass, F& finding) {
   pass(finding.switches);
   pass(finding.deviations);
   pass(finding.choices);
+  pass(finding.progress);
+  pass(finding.was_cut);
   pass(finding.cuts_polls_short);
   pass(finding.has_unlearned_code);
   pass(finding.parted);

@@ -45,7 +45,9 @@ struct Finding {
   std::vector<exploration::Switch> switches;       ///< for failures
   std::vector<exploration::Deviation> deviations;  ///< the same switches
   std::vector<exploration::Decision> choices;      ///< if requested: all of them
-  bool cuts_polls_short = false;                   ///< as in exploration::Schedule
+  std::vector<std::uint64_t> progress;  ///< of dpor with the choices: the search after it; empty with several processes
+  bool was_cut = false;                 ///< dpor has ended it before its end: its rest is equivalent to others'
+  bool cuts_polls_short = false;        ///< as in exploration::Schedule
   bool has_unlearned_code = false;  ///< its first accesses to shared memory were no switch points; if choices are asked
   bool parted = false;              ///< the plan did not fit the run
   std::vector<RacingCode> racing;   ///< of its data races, whatever its kind

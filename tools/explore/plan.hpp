@@ -17,6 +17,7 @@ struct Plan {
   bool drawn = true;         ///< by the strategy; false: the default order with the deviations below
   std::vector<exploration::Switch> switches = {};
   std::vector<exploration::Deviation> deviations = {};
+  std::vector<std::uint64_t> progress = {};        ///< of dpor: the search so far, see exploration::Dpor
   std::optional<std::size_t> at_random_from = {};  ///< random alternatives after this decision
   std::uint64_t attempt = 0;                       ///< the number of the random continuation
   Time until = Time::max();                        ///< upper limit besides that of the options

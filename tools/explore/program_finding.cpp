@@ -11,6 +11,7 @@
 #include "core/digest.hpp"
 #include "core/error.hpp"
 #include "fibers/explore/report/reordered_events.hpp"
+#include "fibers/explore/strategies/dpor.hpp"
 #include "fibers/posix/exec/exploration.hpp"
 #include "tools/command/signal_words.hpp"
 #include "tools/exec/family_report.hpp"
@@ -116,6 +117,7 @@ void ask_for_run(RunMemory& memory, const ExploreOptions& options, const Plan& p
   asked.number = plan.at_random_from ? plan.attempt : plan.number;
   asked.switches = copied(record.arena, plan.switches);
   asked.deviations = copied(record.arena, plan.deviations);
+  asked.progress = copied(record.arena, plan.progress);
   asked.at_random_from = plan.at_random_from.value_or(Asked::none);
   if (plan.drawn) tell_profile(record.arena, profile, asked);
   asked.code = copied(record.arena, profile.code);
@@ -186,7 +188,11 @@ Finding finding_of_run(const RunMemory& memory, int status, const std::string& o
   finding.events = events_of(record);
   const exploration::Schedule schedule = schedule_of(record);
   finding.take(schedule, explored.explorer.parted() || has_parted_elsewhere(record));
+  finding.was_cut = explored.explorer.was_cut();
   if (request.choices) finding.choices = schedule.decisions;
+  if (request.choices && std::string_view(record.settings.asked->strategy) == "dpor" && is_single(record))
+    // The run's own process has another table of virtual functions.
+    finding.progress = static_cast<const exploration::Dpor&>(*explored.strategy).progress();
   finding.has_unlearned_code = has_unlearned_code(record);
   if (request.profile) {
     finding.profile = explored.profile;

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/explore/search.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cstdio>
+#include <memory>
 
+#include "fibers/explore/strategies/dfs.hpp"
+#include "fibers/explore/strategies/dpor.hpp"
+#include "fibers/explore/strategies/factory.hpp"
 #include "tools/command/interruption.hpp"
+#include "tools/explore/depth_first.hpp"
+#include "tools/explore/partial_order.hpp"
 
 namespace waitpoint::tools {
 namespace {
@@ -20,6 +24,15 @@ Finding outcome_of(const Children::Ended& ended) {
   finding.kind = Finding::Kind::killed;
   finding.words = death;
   return finding;
+}
+
+// For the name of a strategy; null if that is not exhaustive.
+std::unique_ptr<Exhaustive> make_exhaustive(const std::string& name) {
+  const auto strategy = exploration::make_strategy(name);
+  if (const auto* const dfs = dynamic_cast<const exploration::Dfs*>(strategy.get()))
+    return std::make_unique<DepthFirst>(dfs->preemptions(), dfs->scope());
+  if (dynamic_cast<const exploration::Dpor*>(strategy.get()) != nullptr) return std::make_unique<PartialOrder>();
+  return nullptr;
 }
 
 // A program's run that has gone on for long says what its threads do.
@@ -41,68 +54,63 @@ std::optional<Finding> run_apart(Target& target, const Plan& plan, const Target:
   return std::nullopt;
 }
 
-std::string result_line(std::uint64_t number, const Finding& finding) {
-  return fmt::format("{:020} {} {}\n", number, digest_text(finding.digest),
-                     finding.passed() ? "passed" : "failed: " + finding.headline());
-}
-
-bool Search::may_start(bool all) const {
+bool Search::may_start() const {
   const ExploreOptions& options = target_.options();
   const std::uint64_t number = options.shard.index - 1 + started_ * options.shard.count;
   // Without noise the default order is a single schedule.
   const bool is_one = options.strategy == "fifo" && !target_.has_noise();
-  return number < (is_one ? std::min<std::uint64_t>(options.iterations, 1) : options.iterations) && (all || !last_) &&
+  return number < (is_one ? std::min<std::uint64_t>(options.iterations, 1) : options.iterations) && !last_ &&
          !(options.time_limit_s > 0 && progress_.seconds() >= options.time_limit_s);
 }
 
-void Search::take(std::uint64_t number, Finding finding, bool all) {
+void Search::take(std::uint64_t number, Finding finding) {
   ++schedules_;
-  if (finding.kind != Finding::Kind::killed) digests_.insert(finding.digest);
-  if (all) lines_.emplace(number, result_line(number, finding));
+  if (finding.kind != Finding::Kind::killed && !finding.was_cut) digests_.insert(finding.digest);
   const bool goes_on = finding.passed() || goes_on_after(finding.kind, target_.options());
   if (!finding.passed()) ++failures_;
   if (goes_on && finding.kind == Finding::Kind::race) ++raced_;
-  if (!goes_on && !all && (!last_ || number < *last_)) {
+  if (!goes_on && results_ == nullptr && (!last_ || number < *last_)) {
     last_ = number;
     target_.runs().kill_from(number);
   }
-  const bool is_of_interest = !finding.passed() || !finding.racing.empty();
-  waiting_.emplace(number, is_of_interest ? std::optional(std::move(finding)) : std::nullopt);
-  discover(false);
+  waiting_.emplace(number, std::move(finding));
+  report(false);
 }
 
 // In the order of the numbers; after an interruption lower ones may be missing.
-void Search::discover(bool at_end) {
+void Search::report(bool at_end) {
   const Shard& shard = target_.options().shard;
   while (!waiting_.empty()) {
     const std::uint64_t number = waiting_.begin()->first;
-    if (!at_end && number != shard.index - 1 + discovered_ * shard.count) return;
-    std::optional<Finding> finding = std::move(waiting_.begin()->second);
+    if (!at_end && number != shard.index - 1 + reported_ * shard.count) return;
+    Finding finding = std::move(waiting_.begin()->second);
     waiting_.erase(waiting_.begin());
-    ++discovered_;
-    if (!finding || (last_ && number > *last_)) continue;
-    discoveries_.take({number, std::move(*finding)});
+    ++reported_;
+    if (results_ != nullptr) results_->take(number, finding);
+    if (finding.passed() && finding.racing.empty()) continue;
+    if (!last_ || number <= *last_) discoveries_.take({number, std::move(finding)});
   }
 }
 
-void Search::run(bool all) {
-  if (std::optional<DepthFirst> tree = DepthFirst::of(target_.options().strategy))
-    run_depth_first(std::move(*tree), all);
+void Search::run() {
+  if (results_ != nullptr) results_->begin(target_);
+  if (const std::unique_ptr<Exhaustive> schedules = make_exhaustive(target_.options().strategy))
+    run_exhaustively(*schedules);
   else
-    run_drawn(all);
-  discover(true);
+    run_drawn();
+  report(true);
   progress_.finish();
 }
 
-void Search::run_drawn(bool all) {
+void Search::run_drawn() {
   const ExploreOptions& options = target_.options();
   while (!interrupted_) {
-    while (target_.runs().count() < options.jobs && may_start(all)) {
+    while (target_.runs().count() < options.jobs && may_start()) {
       const std::uint64_t number = options.shard.index - 1 + started_++ * options.shard.count;
       target_.runs().start(number, Target::to_request({.number = number}, {}));
     }
     if (target_.runs().count() == 0) break;
-    if (const auto ended = target_.runs().wait(look_around_ms)) take(ended->number, outcome_of(*ended), all);
+    if (const auto ended = target_.runs().wait(look_around_ms)) take(ended->number, outcome_of(*ended));
     progress_.update(schedules_, distinct(), failures_);
     interrupted_ = interruption() != 0;
   }
@@ -111,17 +119,17 @@ void Search::run_drawn(bool all) {
 }
 
 // Sequential: each schedule is derived from the one before.
-void Search::run_depth_first(DepthFirst tree, bool all) {
-  std::optional<std::vector<exploration::Deviation>> deviations{std::in_place};
-  for (; deviations && may_start(all); ++started_) {
-    std::optional<Finding> found = run_apart(target_, {.drawn = false, .deviations = *deviations}, {.choices = true});
+void Search::run_exhaustively(Exhaustive& schedules) {
+  std::optional<Plan> plan = schedules.first();
+  for (; plan && may_start(); ++started_) {
+    std::optional<Finding> found = run_apart(target_, *plan, {.choices = true});
     interrupted_ = !found;
     if (!found) return;
-    deviations = tree.after(*found);
-    take(started_, std::move(*found), all);
+    plan = schedules.after(*found);
+    take(started_, std::move(*found));
     progress_.update(schedules_, distinct(), failures_);
   }
-  if (!deviations) scope_ = tree.scope();
+  if (!plan) scope_ = schedules.scope();
 }
 
 }  // namespace waitpoint::tools

@@ -10,8 +10,9 @@
 #include <string>
 #include <unordered_set>
 
-#include "tools/explore/depth_first.hpp"
 #include "tools/explore/discoveries.hpp"
+#include "tools/explore/exhaustive.hpp"
+#include "tools/explore/results_file.hpp"
 #include "tools/explore/search_progress.hpp"
 #include "tools/explore/target.hpp"
 
@@ -20,19 +21,15 @@ namespace waitpoint::tools {
 /// One run of the target in a process of its own; nothing if a signal to this process interrupted it.
 std::optional<Finding> run_apart(Target& target, const Plan& plan, const Target::Request& request = {});
 
-/// "00000000000000000017 wp1:0123456789abcdef failed: 2 collisions, expected 0": zero-padded, so that sorting text
-/// sorts by number.
-std::string result_line(std::uint64_t number, const Finding& finding);
-
 class Search {
  public:
-  /// Tells `discoveries` of failed and racing runs.
-  Search(Target& target, SearchProgress& progress, Discoveries& discoveries)
-      : target_(target), progress_(progress), discoveries_(discoveries) {}
+  /// Tells `discoveries` of failed and racing runs, and `results`, unless it is null, of all: then failures do not end
+  /// the search.
+  Search(Target& target, SearchProgress& progress, Discoveries& discoveries, ResultsFile* results)
+      : target_(target), progress_(progress), discoveries_(discoveries), results_(results) {}
 
-  /// Runs the schedules that the options request. With `all`, failures do not end the search; data races only with
-  /// Races::fail.
-  void run(bool all);
+  /// Runs the schedules that the options request.
+  void run();
 
   std::uint64_t schedules() const { return schedules_; }
   std::uint64_t distinct() const { return digests_.size(); }
@@ -42,26 +39,24 @@ class Search {
   bool interrupted() const { return interrupted_; }
   /// The scope of an exhausted search; nothing for strategies that are not exhaustive or did not finish.
   const std::optional<std::string>& scope() const { return scope_; }
-  /// With `all`: the result lines, by number.
-  const std::map<std::uint64_t, std::string>& lines() const { return lines_; }
 
  private:
-  bool may_start(bool all) const;
-  void take(std::uint64_t number, Finding finding, bool all);
-  void discover(bool at_end);
-  void run_drawn(bool all);
-  void run_depth_first(DepthFirst tree, bool all);
+  bool may_start() const;
+  void take(std::uint64_t number, Finding finding);
+  void report(bool at_end);
+  void run_drawn();
+  void run_exhaustively(Exhaustive& schedules);
 
   Target& target_;
   SearchProgress& progress_;
   Discoveries& discoveries_;
+  ResultsFile* results_;
   std::uint64_t started_ = 0;
   std::uint64_t schedules_ = 0, failures_ = 0, raced_ = 0;
   std::unordered_set<std::uint64_t> digests_;
-  std::optional<std::uint64_t> last_;  // the failure that ends the search
-  std::uint64_t discovered_ = 0;       // so many schedules are through, in the order of their numbers
-  std::map<std::uint64_t, std::optional<Finding>> waiting_;  // ended before lower numbers; passed ones without finding
-  std::map<std::uint64_t, std::string> lines_;
+  std::optional<std::uint64_t> last_;         // the failure that ends the search
+  std::uint64_t reported_ = 0;                // so many schedules are through, in the order of their numbers
+  std::map<std::uint64_t, Finding> waiting_;  // ended before lower numbers
   bool interrupted_ = false;
   std::optional<std::string> scope_;
 };

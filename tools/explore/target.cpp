@@ -14,6 +14,7 @@ void pass_fields(Pass& pass, P& plan, R& request) {
   pass(plan.drawn);
   pass(plan.switches);
   pass(plan.deviations);
+  pass(plan.progress);
   pass(plan.at_random_from);
   pass(plan.attempt);
   pass(plan.until);

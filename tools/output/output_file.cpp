@@ -178,6 +178,18 @@ void OutputFile::flush() {
   buffer_.clear();
 }
 
+void OutputFile::show() {
+  flush();
+  errno = error_;
+  if (error_ != 0 || (!temporary_.empty() && !rename_temporary())) fail();
+}
+
+bool OutputFile::rename_temporary() {
+  if (retried([&] { return std::rename(temporary_.c_str(), target_.c_str()); }) != 0) return false;
+  temporary_.clear();
+  return true;
+}
+
 void OutputFile::commit() {
   WAITPOINT_CHECK(descriptor_ >= 0, "a file is committed twice");
   if (!is_own()) {
@@ -191,13 +203,11 @@ void OutputFile::commit() {
   // Some file systems report that they are full only at the closing. The lock is kept until the file has its name.
   const int locked = temporary_.empty() ? -1 : fcntl(descriptor_, F_DUPFD_CLOEXEC, 0);
   const bool is_written = close_checked(std::exchange(descriptor_, -1));
-  const bool is_named = is_written && (temporary_.empty() ||
-                                       retried([&] { return std::rename(temporary_.c_str(), target_.c_str()); }) == 0);
+  const bool is_named = is_written && (temporary_.empty() || rename_temporary());
   const int reason = errno;
   if (locked >= 0) close(locked);
   errno = reason;
   if (!is_named) fail();
-  temporary_.clear();
 }
 
 bool is_standard_output(const fs::path& path) { return path == "-" || path == "/dev/stdout"; }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A file that is written completely or not at all.
+// A file that is written completely or not at all, unless it is to be shown before.
 //
 // Opened before the run starts, so that an unwritable name is reported at once. Data goes to a temporary file beside
 // it, FILE.waitpoint-PROCESS-NUMBER, which commit() renames; without commit() the temporary file is removed and the old
@@ -41,11 +41,15 @@ class OutputFile {
   void write(std::string_view text);
   /// Hands over to the system what was written so far, as write() does with larger parts.
   void flush();
+  /// Renames the file already now, with what was written so far: others can read it while it grows, and it stays if
+  /// this process is killed. Throws BadInput if it cannot be written.
+  void show();
   /// Renames the file; nothing can be written afterwards. Throws BadInput if it could not be written, also earlier.
   void commit();
 
  private:
   void open_temporary();
+  bool rename_temporary();
   bool is_own() const;
   [[noreturn]] void fail() const;
 

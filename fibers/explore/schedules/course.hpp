@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "fibers/explore/schedules/explorer.hpp"
@@ -18,6 +19,7 @@ struct Course {
   std::uint64_t seed = 0;
   std::uint64_t number = 0;                        ///< of the schedule, or of the random continuation
   std::optional<std::size_t> at_random_from = {};  ///< without a strategy: after this decision the choices are random
+  std::span<const std::uint64_t> progress = {};    ///< Dpor::progress() of the search so far; empty at its beginning
 };
 
 /// Its strategy, begun. `explorer`, the run's, and `profile` must outlive it.

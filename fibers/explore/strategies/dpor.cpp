@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "core/error.hpp"
 #include "fibers/explore/strategies/dependence.hpp"
 
 namespace waitpoint::exploration {
@@ -36,17 +37,21 @@ void Dpor::join(Clock& into, const Clock& other) {
   }
 }
 
-bool Dpor::State::is_ready(std::uint64_t task) const {
-  return any(ready, [&](const Event& event) { return event.task == task; });
-}
-
-bool Dpor::State::happens_before(const Clock& at) const {
-  const auto known = at.find(done.task);
-  return known != at.end() && known->second > number;
-}
-
 void Dpor::add(std::vector<std::uint64_t>& to, std::uint64_t task) {
   if (std::find(to.begin(), to.end(), task) == to.end()) to.push_back(task);
+}
+
+std::vector<std::uint64_t> Dpor::progress() const {
+  std::vector<std::uint64_t> numbers = dpor::to_numbers(std::span(path_).first(std::min(depth_, path_.size())));
+  numbers.push_back(was_cut_ ? 1 : 0);
+  return numbers;
+}
+
+void Dpor::resume(std::span<const std::uint64_t> progress) {
+  WAITPOINT_CHECK(!progress.empty(), "a search is resumed from nothing");
+  path_ = dpor::path_of(progress.first(progress.size() - 1));
+  depth_ = path_.size();
+  was_cut_ = progress.back() != 0;
 }
 
 void Dpor::begin(std::uint64_t, const Draws&, const Profile&) {

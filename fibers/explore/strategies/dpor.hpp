@@ -11,7 +11,10 @@
 #pragma once
 
 #include <map>
+#include <span>
+#include <vector>
 
+#include "fibers/explore/strategies/dpor_path.hpp"
 #include "fibers/explore/strategies/schedule.hpp"
 #include "fibers/explore/strategies/strategy.hpp"
 
@@ -25,37 +28,18 @@ class Dpor final : public Strategy {
   bool end() override;
   bool is_exhaustive() const override { return true; }
 
+  /// The search up to now, after a schedule, as numbers: another process may resume it, and continues with end(); or,
+  /// after end(), with begin().
+  std::vector<std::uint64_t> progress() const;
+  void resume(std::span<const std::uint64_t> progress);
+
  private:
-  // The pending event of a task.
-  struct Event {
-    std::uint64_t task = 0;
-    kernel::Operation operation = kernel::Operation::start;
-    std::uint64_t object = 0;             // identity; 0: none
-    bool is_on_shared_processor = false;  // its turn delays the others', by an order that depends on their priorities
-  };
+  using Event = dpor::Event;
+  using Clock = dpor::Clock;
+  using State = dpor::State;
+
   static bool are_dependent(const Event& a, const Event& b);
-
-  // By task, the number of its events that happen before: a vector clock.
-  using Clock = std::map<std::uint64_t, std::uint32_t>;
   static void join(Clock& into, const Clock& other);
-
-  struct State {
-    std::vector<Event> ready;  // empty for a choice that is not between tasks
-    std::vector<std::uint64_t> to_try;
-    std::vector<std::uint64_t> tried;
-    std::vector<Event> asleep;
-    Event done;                 // the event executed in this state
-    std::uint64_t sequence;     // its task's events so far, as the kernel counts them
-    std::uint32_t instant = 0;  // the number of its instant
-    std::uint32_t number;       // its number among its task's events
-    Clock clock;                // after it
-    std::uint32_t count = 0, chosen = 0;
-
-    bool is_of_task() const { return !ready.empty(); }
-    bool is_ready(std::uint64_t task) const;
-    bool happens_before(const Clock& at) const;
-  };
-
   static Event event_of(const Task& task);
   bool choose(State& state, const State* before);
   void execute(State& state, const Task& task);
@@ -65,7 +49,7 @@ class Dpor final : public Strategy {
   void try_those_left_at_the_end();
   static void add(std::vector<std::uint64_t>& to, std::uint64_t task);
 
-  std::vector<State> path_;
+  dpor::Path path_;
   std::size_t depth_ = 0;
   std::uint32_t instants_ = 0;
   std::map<std::uint64_t, std::size_t> last_of_task_;  // the state of each task's last event

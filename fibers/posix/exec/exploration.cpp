@@ -75,7 +75,8 @@ Explored::Explored(kernel::Scheduler& scheduler, const Asked& asked)
 exploration::Course Explored::course_of(const Asked& asked) const {
   const auto id = static_cast<std::uint64_t>(family::own->id);
   const std::uint64_t number = family::is_first() ? asked.number : Digest::mix(asked.number ^ Digest::mix(id));
-  exploration::Course course{asked.strategy, asked.seed, number, {}};
+  exploration::Course course{asked.strategy, asked.seed, number, {}, {}};
+  if (family::is_first()) course.progress = asked.progress;
   if (asked.at_random_from != Asked::none) course.at_random_from = asked.at_random_from;
   return course;
 }

@@ -35,7 +35,8 @@ struct Asked {
   std::uint64_t number = 0;  ///< of the schedule: its random draws follow from this and the seed
   std::span<const exploration::Switch> switches = {};
   std::span<const exploration::Deviation> deviations = {};
-  std::size_t at_random_from = none;  ///< after this decision, alternatives are chosen at random
+  std::span<const std::uint64_t> progress = {};  ///< as in exploration::Course; of the first process only
+  std::size_t at_random_from = none;             ///< after this decision, alternatives are chosen at random
   std::uint32_t steps = 0;
   std::span<const TaskProfile> tasks = {};
   std::span<const std::uint64_t> shared = {};

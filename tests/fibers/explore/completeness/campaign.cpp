@@ -4,7 +4,10 @@
 //   completeness [N] [--from FIRST]    programs number FIRST to FIRST + N - 1 (default: 10000 from 1)
 //   completeness --program TEXT        this one
 //   ... --schedules MOST               of each program by each strategy (default: some thousand)
-//   ... --exec                         on POSIX threads, under waitpoint explore --exec, instead of in this process
+//   ... --strategy NAME                dfs, bounded:1000 or dpor alone (default: all three)
+//   ... --exec                         on POSIX threads, under waitpoint explore --exec, instead of in this process;
+//   all
+//                                      three only for small programs
 //
 // A program that differs is shrunk, and printed with the command that runs it again. Exit status: 0 no program differs,
 // 1 some do, 2 bad input.
@@ -74,7 +77,7 @@ class Folder {
 
 struct Asked {
   std::uint64_t count = 10'000, first = 1, schedules = 0;
-  std::string_view program;
+  std::string_view program, strategy;
   bool is_exec = false;
 };
 
@@ -89,7 +92,8 @@ Asked read(int count, char** arguments) {
   Asked asked;
   for (int i = 1; i < count; ++i) {
     const std::string_view argument = arguments[i];
-    const bool has_value = argument == "--from" || argument == "--program" || argument == "--schedules";
+    const bool has_value =
+        argument == "--from" || argument == "--program" || argument == "--schedules" || argument == "--strategy";
     if (has_value && i + 1 == count) throw BadInput(std::string(argument), "expected a value");
     if (argument == "--exec")
       asked.is_exec = true;
@@ -97,6 +101,8 @@ Asked read(int count, char** arguments) {
       asked.first = number(argument, arguments[++i]);
     else if (argument == "--schedules")
       asked.schedules = number(argument, arguments[++i]);
+    else if (argument == "--strategy")
+      asked.strategy = arguments[++i];
     else if (argument == "--program")
       asked.program = arguments[++i];
     else
@@ -113,14 +119,19 @@ int run(const Asked& asked) {
     return asked.is_exec ? cover_by_exec(tools, program, strategy, most) : cover(program, strategy, most);
   };
   std::vector<Tally> tallies = asked.is_exec
-                                   ? std::vector<Tally>{{"dfs", 1'000}, {"bounded:1000", 500}}
+                                   ? std::vector<Tally>{{"dfs", 1'000}, {"bounded:1000", 500}, {"dpor", 2'000}}
                                    : std::vector<Tally>{{"dfs", 4'000}, {"bounded:1000", 1'000}, {"dpor", 20'000}};
   for (Tally& tally : tallies)
     if (asked.schedules != 0) tally.schedules_max = asked.schedules;
+  if (!asked.strategy.empty())
+    std::erase_if(tallies, [&](const Tally& tally) { return tally.strategy != asked.strategy; });
+  if (tallies.empty())
+    throw BadInput("--strategy", "expected dfs, bounded:1000 or dpor, found '" + std::string(asked.strategy) + "'");
+  const bool are_small = asked.is_exec && asked.strategy != "dpor";
   const bool is_single = !asked.program.empty();
   for (std::uint64_t i = 0; i < (is_single ? 1 : asked.count); ++i) {
-    // Threads take a process for each schedule: only small programs.
-    const std::uint64_t number = asked.is_exec ? 2 * (asked.first + i) : asked.first + i;
+    // Each schedule of threads takes a process: the number of schedules must be small.
+    const std::uint64_t number = are_small ? 2 * (asked.first + i) : asked.first + i;
     const Program program = is_single ? read_program(asked.program) : make_program(number);
     const Enumerated all = enumerate(program, states_max);
     for (Tally& tally : tallies) compare_one(program, all, cover_by, tally, asked.is_exec ? " --exec" : "");

@@ -7,6 +7,7 @@
 #include <cstring>
 #include <fstream>
 #include <iterator>
+#include <sstream>
 
 #include "core/error.hpp"
 #include "tests/fibers/explore/completeness/comparison.hpp"
@@ -73,6 +74,15 @@ std::string text_of(const std::string& file) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
+// By schedule, from the file of results: true if it was cut short.
+std::vector<bool> are_cut(const std::string& results) {
+  std::vector<bool> cut;
+  std::istringstream lines(results);
+  for (std::string line; std::getline(lines, line);)
+    if (!line.starts_with('#')) cut.push_back(line.find("cut short") != line.npos);
+  return cut;
+}
+
 }  // namespace
 
 Covered cover_by_exec(const ExecTools& tools, const Program& program, const std::string& strategy,
@@ -89,9 +99,12 @@ Covered cover_by_exec(const ExecTools& tools, const Program& program, const std:
   covered.is_finished = said.find("exhaustive") != said.npos;
   covered.leaves_turns = said.find("turns of spinning") != said.npos;
   const Outcomes all = enumerate(program, states_max).outcomes;
-  for (std::size_t at = 0; at < records.size(); at += page) {
+  const std::vector<bool> cut = are_cut(text_of(results));
+  const std::size_t before = records.size() / page - std::min(records.size() / page, cut.size());
+  for (std::size_t i = 0; i < records.size() / page; ++i) {
+    if (i >= before && cut[i - before]) continue;
     Record record;
-    std::memcpy(&record, records.data() + at, sizeof record);
+    std::memcpy(&record, records.data() + i * page, sizeof record);
     covered.outcomes.insert(outcome_of(record, program.threads.size(), all));
     ++covered.schedules;
   }
