@@ -4,6 +4,7 @@
 import hashlib
 import pathlib
 import re
+import shlex
 import subprocess
 import sys
 import tempfile
@@ -31,6 +32,16 @@ def execute(seed, *command, stdin=None):
     words = [WAITPOINT, "exec", "--seed", seed, "--", *command]
     done = subprocess.run([str(word) for word in words], stdin=stdin, capture_output=True, timeout=300)
     return done.returncode, hashlib.sha256(done.stdout).hexdigest(), done.stderr.decode(errors="replace")
+
+
+def explore(*words, stdin=subprocess.DEVNULL):
+    command = [str(word) for word in (WAITPOINT, "explore", "--exec", *words)]
+    return subprocess.run(command, stdin=stdin, capture_output=True, text=True, timeout=300)
+
+
+def replay_words(text):
+    """The arguments of the last replay line of a report."""
+    return shlex.split(re.findall(r"^replay: \S+ explore --exec (.*)$", text, re.M)[-1])
 
 
 COUNTER = """

@@ -4,22 +4,11 @@
 import json
 import pathlib
 import re
-import shlex
 import shutil
 import subprocess
 import unittest
 
-from exec_case import ExecCase, WAITPOINT
-
-
-def explore(*words, stdin=subprocess.DEVNULL):
-    command = [str(word) for word in (WAITPOINT, "explore", "--exec", *words)]
-    return subprocess.run(command, stdin=stdin, capture_output=True, text=True, timeout=300)
-
-
-def replay_words(text):
-    """The arguments of the last replay line of a report."""
-    return shlex.split(re.findall(r"^replay: \S+ explore --exec (.*)$", text, re.M)[-1])
+from exec_case import ExecCase, WAITPOINT, explore, replay_words
 
 
 class Exploring(ExecCase):
@@ -57,87 +46,6 @@ class Exploring(ExecCase):
             raw = explore("--strategy", strategy, "--no-minimize", "--", program)
             self.assertIn("the same run as in the record", explore(*replay_words(raw.stdout)).stderr, strategy)
 
-    def test_the_order_of_processes_is_explored(self):
-        program = self.compile("two_processes.c")
-        for strategy in ("random", "bounded:1", "dfs", "portfolio"):
-            done = explore("--strategy", strategy, "--", program)
-            self.assertEqual(done.returncode, 1, strategy)
-            self.assertIn("1 switch away from the default order fails", done.stdout, strategy)
-            self.assertIn("the same run as in the record", explore(*replay_words(done.stdout)).stderr, strategy)
-        done = explore("--strategy", "dfs", "--", program, "locked")
-        self.assertEqual(done.returncode, 0)
-        self.assertTrue(done.stdout.splitlines()[0].endswith("; exhaustive"), done.stdout)
-
-    def test_events_and_switches_of_all_processes_are_told(self):
-        trace = self.folder / "trace.json"
-        done = explore("--strategy", "dfs", "--trace", trace, "--", self.compile("two_processes.c"))
-        self.assertRegex(done.stdout, r"process two_processes(#1001)? goes first instead of process two_processes(#1001)?\n")
-        for thread in ("main#0 of two_processes", "main#0 of two_processes#1001"):
-            self.assertRegex(done.stdout, rf"\n  0\.\d+ [* ] {thread} .*semaphore")
-        self.assertRegex(done.stdout, r"\n  0\.\d+ \* main#0 of two_processes")
-        rows = {event["pid"] for event in json.loads(trace.read_text())["traceEvents"]}
-        self.assertEqual(rows, {1000, 1001})
-
-    def test_siblings_begin_in_any_order(self):
-        file = self.folder / "written by a sibling"
-        for strategy in ("bounded:1", "random"):
-            done = explore("--strategy", strategy, "--", "sh", "-c", f"rm -f '{file}'; (echo a > '{file}') & cat '{file}'")
-            self.assertEqual(done.returncode, 1, done.stdout)
-            self.assertIn("No such file or directory", done.stdout)
-
-    def test_programs_that_a_shell_starts_are_explored(self):
-        program = self.compile("two_processes.c")
-        done = explore("--iterations", "100", "--", "sh", "-c", f"{program} locked & {program}; wait")
-        self.assertEqual(done.returncode, 0, done.stdout)
-        done = explore("--iterations", "200", "--", "sh", "-c", f"{program} locked & {program}")
-        self.assertEqual(done.returncode, 1, done.stdout)
-        self.assertIn("the same run as in the record", explore(*replay_words(done.stdout)).stderr)
-
-    def session(self, how):
-        """A session of three programs, the last two of which start when the first has ended."""
-        program = self.compile("small_session.c")
-        return (f"init={program}", "init", "::", "after:init", f"base={program}", "serve", how, "::", "after:init",
-                f"client={program}", "ask", how)
-
-    def test_all_orders_of_a_session_of_init_server_and_client(self):
-        done = explore("--strategy", "dfs", "--", self.compile("small_session.c"), "all")
-        self.assertEqual(done.returncode, 0, done.stdout)
-        self.assertRegex(done.stdout, r"^small_session: \d\d\d schedules, [4-9] distinct, 0 failed, .*; exhaustive\n$")
-
-    def test_planted_bugs_of_a_session_are_found_and_replayed(self):
-        schedule = self.folder / "of-session"
-        for how in "hasty", "torn":
-            for strategy in "portfolio", "bounded:1":
-                session = self.session(how)
-                done = explore("--strategy", strategy, "--schedule", schedule, "--", *session)
-                self.assertEqual(done.returncode, 1, done.stdout)
-                self.assertRegex(done.stdout, r"\n  waitpoint: exit status: base 0, client 1, init 0\n[1-4] switch\w* away from "
-                                              r"the default order fails?, of \d+ that were found")
-                self.assertRegex(done.stdout, r"\n  0\.\d+ s  process \S+ goes first instead of process \S+\n")
-                for words in (replay_words(done.stdout), ("--replay", schedule, "--", *session)):
-                    self.assertIn("the same run as in the record", explore(*words).stderr)
-        done = explore("--iterations", "50", "--", *self.session("updates"))
-        self.assertEqual(done.returncode, 0, done.stdout)
-
-    def test_processes_left_behind_take_part_up_to_their_end(self):
-        program = self.compile("small_session.c")
-        reports = {explore("--", program, "all", "torn").stdout.split("\n", 1)[1] for _ in range(5)}
-        self.assertEqual(len(reports), 1)
-        done = explore("--", "sh", "-c", "(sleep 4; sleep 100) & exit 1")
-        self.assertRegex(done.stdout, r"\n  4\.000000000 +main#0 of sh#1001")
-        self.assertNotRegex(done.stdout, r"\n  1\d+\.000000000 ")
-
-    def test_processes_that_poll_let_others_go_first(self):
-        program = self.compile("polling.c")
-        for words in ("0", "0"), ("1", "0"):
-            done = explore("--strategy", "dfs", "--", program, *words)
-            self.assertEqual(done.returncode, 0, done.stdout)
-            self.assertTrue(done.stdout.splitlines()[0].endswith("; exhaustive, except for turns of spinning tasks"), done.stdout)
-        for strategy in "fifo", "random":
-            for wait_us in "0", "2000":
-                done = explore("--strategy", strategy, "--iterations", "10", "--", program, "3", wait_us)
-                self.assertEqual(done.returncode, 0, done.stdout)
-
     def test_a_correct_program_passes_under_many_schedules(self):
         done = explore("--iterations", "100", "--", self.compile("lost_update.c"), "locked")
         self.assertEqual(done.returncode, 0, done.stdout)
@@ -162,17 +70,6 @@ class Exploring(ExecCase):
             process.kill()
         lines = results.read_text().splitlines()[1:]
         self.assertEqual([int(line.split()[0]) for line in lines], list(range(len(lines))))
-
-    def test_tells_how_a_run_ended_and_what_its_threads_did_last(self):
-        program = self.compile("ends.c", "-rdynamic")
-        for way, expected in (("exit", "exit status 3"), ("_exit", "exit status 4"), ("crash", "terminated by signal 11"),
-                              ("abort", "terminated by signal 6"), ("kill", "terminated by signal 9"), ("deadlock", "deadlock"),
-                              ("cycle", "deadlock")):
-            done = explore("--", program, way)
-            self.assertEqual(done.returncode, 1, way)
-            self.assertRegex(done.stdout, rf"the default order failed at [24]\.000000000 s: {expected}")
-            self.assertIn("thread 1#1 of ends  timeout sleep", done.stdout)
-            self.assertEqual(explore(*replay_words(done.stdout)).returncode, 1, way)
 
     def test_what_a_run_has_started_ends_with_it(self):
         program = self.compile("parent.c")
@@ -266,52 +163,6 @@ class Exhaustive(ExecCase):
         ):
             done = explore(*words)
             self.assertEqual((done.returncode, done.stderr), (2, f"waitpoint: {line}\n"))
-
-
-class Ends(ExecCase):
-    """Threads beside a process that ends: all that they could still do is found."""
-
-    def test_of_the_process_can_be_preceded_by_each_thread(self):
-        program = self.compile("beside_exit.cpp")
-        for way in ("return", "statics", "atexit", "exit", "_exit", "quick_exit", "abort", "detach"):
-            for strategy in ("dfs", "bounded:1", "random"):
-                done = explore("--strategy", strategy, "--", program, way)
-                self.assertEqual(done.returncode, 1, f"{way} {strategy}: {done.stdout}{done.stderr}")
-                self.assertIn("terminated by signal 4 (Illegal instruction)", done.stdout, way)
-                self.assertIn("1 switch away from the default order fails", done.stdout, way)
-            self.assertIn("the same run as in the record", explore(*replay_words(done.stdout)).stderr, way)
-
-    def test_are_exhausted(self):
-        done = explore("--strategy", "dfs", "--", self.compile("beside_exit.cpp"), "nothing")
-        self.assertEqual(done.returncode, 0, done.stdout)
-        self.assertTrue(done.stdout.splitlines()[0].endswith("; exhaustive"), done.stdout)
-
-
-class Hangs(ExecCase):
-    def test_behind_sockets_of_the_program_are_deadlocks(self):
-        program = self.compile("epoll_thread.c")
-        for strategy in ("portfolio", "dfs"):
-            done = explore("--strategy", strategy, "--", program)
-            self.assertEqual(done.returncode, 1, strategy)
-            self.assertRegex(done.stdout, r" failed at \S+ s: deadlock\n  waitpoint: deadlock at \S+ s of virtual time\n"
-                                          r"    main waits for condition variable received\n"
-                                          r"    thread 1 waits for descriptor \d+\b.*\n1 switch away from the default order fails")
-            self.assertIn("the same run as in the record", explore(*replay_words(done.stdout)).stderr, strategy)
-
-    def test_repeat_where_a_program_connects_to_itself(self):
-        command = [WAITPOINT, "exec", "--", self.compile("epoll_thread.c")]
-        runs = {subprocess.run(command, capture_output=True, text=True).stderr for _ in range(5)}
-        self.assertEqual(len(runs), 1, runs)
-
-    def test_outside_of_the_simulation_end_at_the_limit_and_so_does_their_replay(self):
-        done = explore("--schedule-limit", "2", "--", self.compile("epoll_thread.c"), "native wait", self.folder / "fifo")
-        self.assertRegex(done.stdout, r"failed at \S+ s: exceeded 2 s of wall clock time \(--schedule-limit\) at 0\.0+ s of virtual time\n"
-                                      r"  main waits for something outside\n1 switch away from the default order fails")
-        self.assertNotIn("--replay wx1.0.00000000.", done.stdout)
-        again = explore("--schedule-limit", "2", *replay_words(done.stdout))
-        self.assertEqual(again.returncode, 1)
-        self.assertIn("waitpoint: failed: exceeded 2 s of wall clock time (--schedule-limit)\n"
-                      "waitpoint: the same run as in the record\n", again.stderr)
 
 
 class Conditions(ExecCase):

@@ -47,6 +47,8 @@ OWN_CASES = {
     "exec, ROS": [sys.executable, str(ROOT / "tests/exec/ros_test.py"), BUILD],
     "exec, repeatability": [sys.executable, str(ROOT / "tests/exec/repeatability_test.py"), BUILD],
     "explore --exec": [sys.executable, str(ROOT / "tests/exec/exploring_test.py"), BUILD],
+    "explore --exec, ends": [sys.executable, str(ROOT / "tests/exec/ends_test.py"), BUILD],
+    "explore --exec, processes": [sys.executable, str(ROOT / "tests/exec/exploring_processes_test.py"), BUILD],
     "explore --exec, data races": [sys.executable, str(ROOT / "tests/exec/races_test.py"), BUILD],
     "exec: planted bugs": [sys.executable, str(ROOT / "tests/exec/zoo_test.py"), BUILD],
     "faults": [sys.executable, str(ROOT / "tests/faults/faults_test.py"), BUILD],

@@ -15,6 +15,7 @@
 #include "tools/command/shell_words.hpp"
 #include "tools/command/signal_words.hpp"
 #include "tools/exec/family_report.hpp"
+#include "tools/exec/last_calls_report.hpp"
 #include "tools/exec/misuse_report.hpp"
 #include "tools/exec/program_run.hpp"
 #include "tools/exec/race_report.hpp"
@@ -127,6 +128,7 @@ int exec(const ExecOptions& options) {
   if (memory.record().began) {
     std::fputs(races_of(memory.record()).c_str(), stderr);
     std::fputs(misuses_of(memory.record()).c_str(), stderr);
+    if (failed) std::fputs(last_calls_of(memory.record()).c_str(), stderr);
     if (!options.quiet || failed) print_summary(memory.record(), files.programs.title());
     // Any other status is a failure only to the program's users.
     if (failed || (!options.quiet && run.exit_status() != 0))

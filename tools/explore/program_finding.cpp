@@ -15,6 +15,7 @@
 #include "fibers/posix/exec/exploration.hpp"
 #include "tools/command/signal_words.hpp"
 #include "tools/exec/family_report.hpp"
+#include "tools/exec/last_calls_report.hpp"
 #include "tools/exec/misuse_report.hpp"
 #include "tools/exec/race_report.hpp"
 
@@ -171,6 +172,7 @@ Finding finding_of_run(const RunMemory& memory, int status, const std::string& o
   const posix::Record& record = memory.record();
   finding.racing = racing_code(record);
   if (request.places) tell_races(record, finding);
+  if (request.places && !finding.passed()) finding.details = last_calls_of(record);
   if (const std::string misuse = first_misuse(record); finding.passed() && !misuse.empty()) {
     finding.kind = Finding::Kind::misuse;
     finding.words = "misuse: " + misuse;

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fibers/posix/exec/exploration.hpp"
 
-#include <dlfcn.h>
-
 #include <cstring>
 #include <new>
 
@@ -10,7 +8,7 @@
 #include "fibers/explore/report/choice_text.hpp"
 #include "fibers/explore/report/reordered_events.hpp"
 #include "fibers/explore/schedules/course.hpp"
-#include "fibers/kernel/visit.hpp"
+#include "fibers/posix/exec/program_calls.hpp"
 #include "fibers/posix/family/processes.hpp"
 #include "fibers/posix/program/program.hpp"
 
@@ -27,12 +25,6 @@ exploration::Profile profile_of(const Asked& asked) {
     profile.tasks.push_back({task.task, task.parent, task.events, {task.objects.begin(), task.objects.end()}});
   profile.shared.assign(asked.shared.begin(), asked.shared.end());
   return profile;
-}
-
-// The layer's own module: its frames are left out of call stacks.
-std::string own_module() {
-  Dl_info own{};
-  return dladdr(reinterpret_cast<void*>(&profile_of), &own) != 0 ? own.dli_fname : "";
 }
 
 }  // namespace
@@ -114,13 +106,7 @@ void Explored::note_stop() {
   kernel::Task* const task = stop_ ? stop_->stopped_before() : nullptr;
   if (task == nullptr) return;
   stopped_before = exploration::about_to(*task);
-  void* frames[exploration::frames_searched];
-  const std::size_t count = kernel::call_stack(*task, frames, exploration::frames_searched);
-  WAITPOINT_CHECK(count <= exploration::frames_searched, "a call stack is longer than its room");
-  const std::string own = own_module();
-  for (std::size_t i = 0; i < count; ++i)
-    if (sync::CodePlace place = sync::code_place_of(frames[i]); place.module != own)
-      stopped_calls.push_back(std::move(place));
+  stopped_calls = program_calls(*task);
 }
 
 }  // namespace waitpoint::posix

@@ -20,6 +20,7 @@
 #include "fibers/posix/exec/family_run.hpp"
 #include "fibers/posix/exec/fork_server.hpp"
 #include "fibers/posix/exec/idle_watch.hpp"
+#include "fibers/posix/exec/last_calls.hpp"
 #include "fibers/posix/exec/misuse_log.hpp"
 #include "fibers/posix/exec/race_log.hpp"
 #include "fibers/posix/exec/run_memory.hpp"
@@ -128,6 +129,7 @@ kernel::Scheduler& begin_run() {
       begin_race_log(asked->learn, asked->notes, asked->code);
   }
   begin_misuse_log();
+  begin_crash_log();
   if (!kernel::Scheduler::has_address_space())
     refuse("there is no address space for the run's tables (a limit such as ulimit -v)");
   kernel::Scheduler& scheduler =
@@ -218,7 +220,10 @@ const char* failure_in_words(Ending ending) {
 [[noreturn]] void end_run(const kernel::Scheduler& scheduler, int status) {
   const char* const why = failure_in_words(record->ending);
   std::fflush(nullptr);  // the program's own output comes before the report
-  if (why != nullptr) report_end(scheduler, why);
+  if (why != nullptr) {
+    report_end(scheduler, why);
+    log_waits(scheduler);
+  }
   end_process(why != nullptr ? status_of_deadlock : status);
 }
 

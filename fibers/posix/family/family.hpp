@@ -39,6 +39,7 @@ enum class Part {
   ports,
   races,
   misuses,
+  last_calls,
   history,
   count
 };

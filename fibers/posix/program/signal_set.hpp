@@ -28,6 +28,8 @@ inline constexpr SignalSet unblockable = only(SIGKILL) | only(SIGSTOP) | only(32
 /// Raised by the processor.
 inline constexpr SignalSet faults =
     only(SIGSEGV) | only(SIGBUS) | only(SIGFPE) | only(SIGILL) | only(SIGTRAP) | only(SIGSYS);
+/// Those that end a program that has gone wrong, raised by the processor or abort().
+inline constexpr SignalSet crashes = only(SIGSEGV) | only(SIGBUS) | only(SIGFPE) | only(SIGILL) | only(SIGABRT);
 /// Ignored by default, and those that stop the process.
 inline constexpr SignalSet ignored_by_default = only(SIGCHLD) | only(SIGURG) | only(SIGWINCH) | only(SIGCONT);
 inline constexpr SignalSet stopping = only(SIGSTOP) | only(SIGTSTP) | only(SIGTTIN) | only(SIGTTOU);

@@ -282,7 +282,7 @@ void install(int signal) {
       has_host ||
       (signal == SIGSEGV && record != nullptr && (record->settings.trap_rdtsc || are_processor_features_trapped())) ||
       (signal == SIGSYS && (are_library_calls_trapped() || are_raw_calls_trapped())) || (signal == bell && has_bell) ||
-      ends_run(signal);
+      ends_run(signal) || (on_crash != nullptr && contains(crashes, signal));
   // The system's notices of ends that are events of the family come at any time: they could end a real wait.
   const bool is_left_out = signal == SIGCHLD && family::own != nullptr && !family::has_native_child();
   const bool is_looked_for = is_looked_for_always || contains(signals.ever_blocked & ~faults, signal);
@@ -296,6 +296,8 @@ void install(int signal) {
   WAITPOINT_NEXT(sigaction)(signal, &real, nullptr);
   note_caught_signals();
 }
+
+void (*on_crash)(int signal) = nullptr;
 
 bool is_question(const siginfo_t& information) {
   return information.si_signo == bell && information.si_code == SI_QUEUE && information.si_int == question &&
@@ -329,6 +331,7 @@ void do_default_of_process(int signal) {
     WAITPOINT_NEXT(syscall)(SYS_kill, family::system_id(), SIGSTOP);
     return;
   }
+  if (on_crash != nullptr && kernel::running != nullptr && contains(crashes, signal)) on_crash(signal);
   family::leave(signal);
   struct sigaction real {};
   real.sa_handler = SIG_DFL;

@@ -97,6 +97,9 @@ void do_default(int signal);
 /// The same for the process, whichever its programs.
 void do_default_of_process(int signal);
 
+/// Called, unless null, in the thread in which one of the signals `crashes` ends the process.
+extern void (*on_crash)(int signal);
+
 /// The signals that end the whole run by their default action. In `waitpoint exec` the process that watches the run
 /// ends it, and reports the state of all threads first.
 inline constexpr SignalSet ending = only(SIGINT) | only(SIGTERM) | only(SIGHUP);

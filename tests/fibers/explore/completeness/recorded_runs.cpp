@@ -100,9 +100,9 @@ Covered cover_by_exec(const ExecTools& tools, const Program& program, const std:
   covered.leaves_turns = said.find("turns of spinning") != said.npos;
   const Outcomes all = enumerate(program, states_max).outcomes;
   const std::vector<bool> cut = are_cut(text_of(results));
-  const std::size_t before = records.size() / page - std::min(records.size() / page, cut.size());
+  constexpr std::size_t before = 1;  // the default order, for the profile; after the search come those of the report
   for (std::size_t i = 0; i < records.size() / page; ++i) {
-    if (i >= before && cut[i - before]) continue;
+    if (i >= before && i - before < cut.size() && cut[i - before]) continue;
     Record record;
     std::memcpy(&record, records.data() + i * page, sizeof record);
     covered.outcomes.insert(outcome_of(record, program.threads.size(), all));

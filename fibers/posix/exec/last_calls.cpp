@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fibers/posix/exec/last_calls.hpp"
+
+#include <cstdio>
+#include <new>
+#include <optional>
+#include <string_view>
+#include <utility>
+
+#include "fibers/kernel/call_stack.hpp"
+#include "fibers/posix/exec/memory.hpp"
+#include "fibers/posix/exec/program_calls.hpp"
+#include "fibers/posix/family/family.hpp"
+#include "fibers/posix/family/task_names.hpp"
+#include "fibers/posix/program/program.hpp"
+#include "fibers/posix/signals/signals.hpp"
+#include "fibers/posix/threads/thread_states.hpp"
+
+namespace waitpoint::posix {
+namespace {
+
+constexpr std::size_t threads_max = 100, frames_max = 64;
+
+// Null where there is no memory left.
+std::vector<LastCalls>* logged() {
+  void* memory = family::common(family::Part::last_calls, 0);
+  if (memory == nullptr && (memory = family::common(family::Part::last_calls, sizeof(LastCallsLog))) != nullptr)
+    new (memory) LastCallsLog();
+  return memory != nullptr ? &static_cast<LastCallsLog*>(memory)->threads : nullptr;
+}
+
+// Without the indentation and the end of the line.
+std::string state_of(const kernel::Task& task) {
+  char line[256];
+  BoundedText text(line, sizeof line);
+  add_state(text, task);
+  std::string_view state(line);
+  while (state.starts_with(' ')) state.remove_prefix(1);
+  while (state.ends_with('\n')) state.remove_suffix(1);
+  return std::string(state);
+}
+
+// In the handler of the signal, on the stack of the thread.
+void log_crash(int signal) {
+  static bool is_logging = false;  // a destroyed stack may not be readable
+  std::vector<LastCalls>* const all = logged();
+  if (all == nullptr || std::exchange(is_logging, true)) return;
+  std::optional<InKernel> within;  // the search for handlers of exceptions takes locks
+  if (is_simulated()) within.emplace();
+  void* frames[frames_max];
+  const std::size_t count = kernel::capture_call_stack(frames, frames_max);
+  char line[256];
+  BoundedText text(line, sizeof line);
+  add_name(text, *kernel::running);
+  text.add(" is terminated by signal %d", signal);
+  const NewInFamily in_family;
+  all->push_back({line, program_calls({frames, count})});
+}
+
+}  // namespace
+
+void log_waits(const kernel::Scheduler& scheduler) {
+  std::vector<LastCalls>* const all = logged();
+  if (all == nullptr) return;
+  const NewInFamily in_family;
+  for (kernel::Task* task = scheduler.first_task(); task != nullptr && all->size() < threads_max; task = task->next)
+    all->push_back({state_of(*task), program_calls(*task)});
+}
+
+void begin_crash_log() {
+  on_crash = log_crash;
+  for (SignalSet left = crashes; left != 0; left &= left - 1) install(__builtin_ctzll(left) + 1);
+}
+
+}  // namespace waitpoint::posix
