@@ -74,7 +74,9 @@ ProgramFiles::ProgramFiles(const std::vector<std::string>& given, bool quiet)
     words.insert(words.begin(), programs.title());
   }
   instrumented = is_instrumented(program);
-  if (instrumented) library = find_part("libwaitpoint-exec-races.so");
+  if (!instrumented) return;
+  library = find_part("libwaitpoint-exec-races.so");
+  (void)find_part("libtsan.so.2");  // the program would not start without it
 }
 
 std::vector<std::string> ProgramFiles::named() const {
