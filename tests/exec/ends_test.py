@@ -25,8 +25,8 @@ class Failures(ExecCase):
             "crash": r"  thread 1 is terminated by signal 11\n      at crash at \S*stacks\.c:\d+\n      at run at \S*stacks\.c:\d+\n",
             "abort": r"  thread 1 is terminated by signal 6\n(?:      at .*\n)*      at run at \S*stacks\.c:\d+\n",
             "null": r"  thread 1 is terminated by signal 11\n(?:      at .*\n)*      at run at \S*stacks\.c:\d+\n",
-            "deadlock": r"  main waits for the end of a thread, that is thread 1\n      at main at \S*stacks\.c:\d+\n"
-                        r"  thread 1 waits for semaphore never\n      at wait_in_vain at \S*stacks\.c:\d+\n      at run at \S*stacks\.c:\d+\n",
+            "deadlock": r"  main\n      at main at \S*stacks\.c:\d+\n"
+                        r"  thread 1\n      at wait_in_vain at \S*stacks\.c:\d+\n      at run at \S*stacks\.c:\d+\n",
         }
         for way, expected in stacks.items():
             runs = [subprocess.run([WAITPOINT, "exec", "--", program, way], capture_output=True, text=True) for _ in range(2)]

@@ -9,7 +9,7 @@ namespace waitpoint::tools {
 namespace {
 
 /// A second signal within this time is an echo of the first: timeout(1) sends one to the process and one to its group.
-constexpr double echo_s = 0.2;
+constexpr double echo_of_signal_s = 0.2;
 
 volatile std::sig_atomic_t noted = 0;
 timespec noted_at;
@@ -24,7 +24,7 @@ void note(int signal) {
   if (noted == 0) {
     clock_gettime(CLOCK_MONOTONIC, &noted_at);
     noted = signal;
-  } else if (seconds_since(noted_at) > echo_s) {
+  } else if (seconds_since(noted_at) > echo_of_signal_s) {
     std::signal(signal, SIG_DFL);
     std::raise(signal);  // delivered when the handler has returned
   }

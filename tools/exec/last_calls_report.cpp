@@ -22,7 +22,7 @@ std::string last_calls_of(const posix::Record& record) {
   const auto lines = sync::user_source_lines(calls, calls_shown);
   std::string text = "call stacks:\n";
   for (std::size_t i = 0; i < lines.size(); ++i) {
-    text += "  " + log->threads[i].state + "\n";
+    text += "  " + log->threads[i].thread + "\n";
     for (const std::string& line : lines[i]) text += "      at " + line + "\n";
   }
   return text;

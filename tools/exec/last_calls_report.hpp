@@ -8,8 +8,7 @@
 
 namespace waitpoint::tools {
 
-/// Of each thread that no event could wake, or that crashed, what it did, and its calls in lines below; empty if there
-/// is none.
+/// Each thread that no event could wake, or that crashed, with its calls in lines below; empty if there is none.
 std::string last_calls_of(const posix::Record& record);
 
 }  // namespace waitpoint::tools

@@ -14,6 +14,7 @@
 #include "core/error.hpp"
 #include "core/program_path.hpp"
 #include "tools/command/installed_part.hpp"
+#include "tools/exec/access_instructions.hpp"
 #include "tools/exec/program_file.hpp"
 
 namespace waitpoint::tools {
@@ -57,7 +58,7 @@ std::filesystem::path checked_program(const std::string& name) {
 
 }  // namespace
 
-ProgramFiles::ProgramFiles(const std::vector<std::string>& given, bool quiet)
+ProgramFiles::ProgramFiles(const std::vector<std::string>& given, bool quiet, SwitchAt at)
     : programs(given), library(find_part("libwaitpoint-exec.so")) {
   const std::filesystem::path host = find_part("waitpoint-host");
   for (const ProgramList::Program& one : programs.programs())
@@ -74,9 +75,9 @@ ProgramFiles::ProgramFiles(const std::vector<std::string>& given, bool quiet)
     words.insert(words.begin(), programs.title());
   }
   instrumented = is_instrumented(program);
-  if (!instrumented) return;
-  library = find_part("libwaitpoint-exec-races.so");
-  (void)find_part("libtsan.so.2");  // the program would not start without it
+  if (instrumented) (void)find_part("libtsan.so.2");  // the program would not start without it
+  if (!instrumented && at == SwitchAt::accesses) accesses = access_instructions(program);
+  if (watches_accesses()) library = find_part("libwaitpoint-exec-races.so");
 }
 
 std::vector<std::string> ProgramFiles::named() const {

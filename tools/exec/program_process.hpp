@@ -8,15 +8,17 @@
 #include <string>
 #include <vector>
 
+#include "fibers/posix/traps/access_instruction.hpp"
 #include "tools/exec/program_list.hpp"
 #include "tools/exec/run_memory.hpp"
+#include "tools/exec/switch_at.hpp"
 
 namespace waitpoint::tools {
 
 /// The programs' files and the library. BadInput if they are missing, or a program is linked statically.
 struct ProgramFiles {
   /// `quiet`: a session prints no line about its programs' ends, unless one has failed.
-  explicit ProgramFiles(const std::vector<std::string>& words, bool quiet = false);
+  explicit ProgramFiles(const std::vector<std::string>& words, bool quiet = false, SwitchAt at = SwitchAt::calls);
 
   /// The files of the programs.
   std::vector<std::string> named() const;
@@ -24,7 +26,12 @@ struct ProgramFiles {
   ProgramList programs;
   std::filesystem::path program, library;  ///< of the first process
   std::vector<std::string> words;          ///< its arguments, from its name on
-  bool instrumented = false;  ///< with -fsanitize=thread; the library then includes a race detector's runtime
+  bool instrumented = false;               ///< with -fsanitize=thread
+  /// Of the first process's program, if it is not instrumented and accesses are to be switch points.
+  std::vector<posix::AccessInstruction> accesses;
+
+  /// True if accesses are switch points; the library then includes the runtime of a race detector.
+  bool watches_accesses() const { return instrumented || !accesses.empty(); }
 };
 
 /// Additions to the environment of the process: "NAME=VALUE". The record's descriptor is inherited.

@@ -79,6 +79,14 @@ Races races_of(const std::string& option) {
   return *meant;
 }
 
+SwitchAt switch_at_of(const std::string& option) {
+  std::string where = "--switch-at";
+  const std::string text = text_of(option, "WAITPOINT_SWITCH_AT", where);
+  if (text == "accesses") return SwitchAt::accesses;
+  if (!text.empty() && text != "calls") refuse(where, "calls or accesses", text);
+  return SwitchAt::calls;
+}
+
 std::optional<std::filesystem::path> file(const std::string& name) {
   return name.empty() ? std::nullopt : std::optional<std::filesystem::path>(name);
 }
@@ -126,6 +134,9 @@ ExploreArguments::ExploreArguments(CommandLine& line)
                   "data races of a program compiled with -fsanitize=thread (default: $WAITPOINT_RACES, or\n"
                   "report): failures, each reported once, that do not end the search; failures like any\n"
                   "other, the first of which ends it; or no failures");
+  command_.option("--switch-at", switch_at_, "calls|accesses",
+                  "switch points of a program (default: $WAITPOINT_SWITCH_AT, or calls): simulated\n"
+                  "calls; accesses to shared memory, too, as always with -fsanitize=thread");
   conditions_.add_to(command_);
   command_.flag("--no-minimize", keep_all_, "report the failure as found, without minimisation");
   command_.footer(
@@ -194,6 +205,8 @@ ExploreOptions ExploreArguments::options(const std::vector<std::string>& words) 
     refuse("--jobs", "a whole number from 1 to " + std::to_string(jobs_max), jobs_);
   if (!races_.empty() && !is_program_) throw BadInput("--races", "expected --exec and a program");
   options.races = races_of(races_);
+  if (!switch_at_.empty() && !is_program_) throw BadInput("--switch-at", "expected --exec and a program");
+  options.switch_at = switch_at_of(switch_at_);
   options.until = positive_seconds("--until", until_);
   options.from = positive_seconds("--from", from_);
   if (options.from && options.until && *options.from >= *options.until)

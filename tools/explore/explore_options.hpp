@@ -13,6 +13,7 @@
 #include "tools/command/command_line.hpp"
 #include "tools/command/confinement_options.hpp"
 #include "tools/exec/program_conditions.hpp"
+#include "tools/exec/switch_at.hpp"
 
 namespace waitpoint::tools {
 
@@ -43,8 +44,9 @@ struct ExploreOptions {
   std::optional<std::filesystem::path> results, trace, schedule;  ///< output files
   std::string replay;  ///< a token or a file's name, to run only that schedule
   bool minimize = true;
-  ProgramConditions conditions;  ///< of a program
-  Races races = Races::report;   ///< of a program compiled with -fsanitize=thread
+  ProgramConditions conditions;          ///< of a program
+  Races races = Races::report;           ///< of a program compiled with -fsanitize=thread
+  SwitchAt switch_at = SwitchAt::calls;  ///< of another program
 
   /// The end of a run, for a scenario whose own limit is `own`.
   Time limit(Duration own) const { return Time() + until.value_or(own); }
@@ -67,7 +69,7 @@ class ExploreArguments {
 
   Command command_;
   std::string scenario_, seed_, strategy_, iterations_, time_limit_, schedule_limit_, jobs_, until_, from_, shard_;
-  std::string results_, trace_, schedule_, replay_, races_;
+  std::string results_, trace_, schedule_, replay_, races_, switch_at_;
   std::vector<std::string> assignments_, properties_;
   ConfinementArguments confinement_;
   ConditionArguments conditions_;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <csignal>
 #include <cstring>
+#include <iterator>
 #include <sstream>
 
 #include "core/digest.hpp"
@@ -46,6 +47,18 @@ void tell_profile(posix::Arena& arena, const exploration::Profile& profile, Aske
   asked.steps = profile.steps;
   asked.tasks = copied(arena, tasks);
   asked.shared = copied(arena, profile.shared);
+}
+
+/// The instructions at these offsets.
+std::vector<posix::AccessInstruction> learned(const std::vector<posix::AccessInstruction>& all,
+                                              const std::vector<std::uint64_t>& code) {
+  std::vector<posix::AccessInstruction> found;
+  std::vector<std::uint64_t> offsets = code;
+  std::ranges::sort(offsets);
+  std::ranges::copy_if(all, std::back_inserter(found), [&](const posix::AccessInstruction& one) {
+    return std::ranges::binary_search(offsets, one.offset);
+  });
+  return found;
 }
 
 void judge(const RunMemory& memory, int status, Finding& finding) {
@@ -107,8 +120,8 @@ posix::Settings settings_of(const ExploreOptions& options) {
   return settings;
 }
 
-void ask_for_run(RunMemory& memory, const ExploreOptions& options, const Plan& plan, const Target::Request& request,
-                 const exploration::Profile& profile) {
+void ask_for_run(RunMemory& memory, const ProgramFiles& files, const ExploreOptions& options, const Plan& plan,
+                 const Target::Request& request, const exploration::Profile& profile) {
   posix::Record& record = memory.record();
   Asked& asked = *new (record.arena.take(sizeof(Asked))) Asked();
   const std::string strategy = plan.drawn ? options.strategy : "";
@@ -122,6 +135,8 @@ void ask_for_run(RunMemory& memory, const ExploreOptions& options, const Plan& p
   asked.at_random_from = plan.at_random_from.value_or(Asked::none);
   if (plan.drawn) tell_profile(record.arena, profile, asked);
   asked.code = copied(record.arena, profile.code);
+  if (!files.instrumented)
+    asked.accesses = copied(record.arena, request.learn ? files.accesses : learned(files.accesses, profile.code));
   asked.learn = request.learn;
   asked.notes = request.choices;
   asked.profile = request.profile;

@@ -2,6 +2,7 @@
 // Conversion of a plan into settings of a program's run, and of the run's end into a finding.
 #pragma once
 
+#include "tools/exec/program_process.hpp"
 #include "tools/exec/run_memory.hpp"
 #include "tools/explore/target.hpp"
 
@@ -11,8 +12,8 @@ namespace waitpoint::tools {
 posix::Settings settings_of(const ExploreOptions& options);
 
 /// Before a run, writes its plan into `memory`; `profile` is of the default order.
-void ask_for_run(RunMemory& memory, const ExploreOptions& options, const Plan& plan, const Target::Request& request,
-                 const exploration::Profile& profile);
+void ask_for_run(RunMemory& memory, const ProgramFiles& files, const ExploreOptions& options, const Plan& plan,
+                 const Target::Request& request, const exploration::Profile& profile);
 
 /// The choices of all its processes.
 exploration::Schedule schedule_of(const posix::Record& record);

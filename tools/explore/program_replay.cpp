@@ -9,6 +9,7 @@
 #include "core/error.hpp"
 #include "tools/exec/family_report.hpp"
 #include "tools/exec/program_run.hpp"
+#include "tools/explore/learned_code.hpp"
 #include "tools/explore/program_finding.hpp"
 #include "tools/explore/program_target.hpp"
 #include "tools/explore/replay_record.hpp"
@@ -17,22 +18,26 @@
 namespace waitpoint::tools {
 namespace {
 
-/// The profile of a run in the default order; the program's output is discarded.
-exploration::Profile look(const ProgramFiles& files, const ExploreOptions& options, const Target::Request& request,
-                          const exploration::Profile& known) {
+/// A run; the program's output is discarded.
+Finding look(const ProgramFiles& files, const ExploreOptions& options, const Plan& plan, const Target::Request& request,
+             const exploration::Profile& known) {
   RunMemory memory(settings_of(options));
-  ask_for_run(memory, options, {.drawn = false}, request, known);
+  ask_for_run(memory, files, options, plan, request, known);
   const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
   const ProgramRun run(files, memory, nowhere);
   close(nowhere);
-  return finding_of_run(memory, run.status(), "", request, false, false).profile;
+  return finding_of_run(memory, run.status(), "", request, false, false);
 }
 
 /// The parts of the profile that the schedule depends on.
 exploration::Profile take_profile(const ProgramFiles& files, const ExploreOptions& options, const Plan& plan) {
   exploration::Profile known, profile;
-  if (files.instrumented) known.code = look(files, options, {.learn = true}, {}).code;
-  if (plan.drawn && needs_profile(options.strategy)) profile = look(files, options, {.profile = true}, known);
+  known.code = learn_code(files, [&](const Plan& learning, const std::vector<std::uint64_t>& code) {
+    known.code = code;
+    return look(files, options, learning, {.learn = true}, known);
+  });
+  if (plan.drawn && needs_profile(options.strategy))
+    profile = look(files, options, {.drawn = false}, {.profile = true}, known).profile;
   profile.code = known.code;
   return profile;
 }
@@ -41,7 +46,7 @@ exploration::Profile take_profile(const ProgramFiles& files, const ExploreOption
 
 int replay_program(const ExploreOptions& asked) {
   ExploreOptions options = asked;
-  const ProgramFiles files(options.program);
+  const ProgramFiles files(options.program, false, options.switch_at);
   options.conditions.check(files.named());
   const ReplayRecord record = read_replay_record(options, fingerprint_of(files, options));
   std::optional<OutputFile> trace;
@@ -49,7 +54,7 @@ int replay_program(const ExploreOptions& asked) {
   const exploration::Profile profile = take_profile(files, options, record.plan);
   const Target::Request request{.words = !record.plan.drawn, .places = true, .events = trace.has_value()};
   RunMemory memory(settings_of(options));
-  ask_for_run(memory, options, record.plan, request, profile);
+  ask_for_run(memory, files, options, record.plan, request, profile);
   const double limit_s = options.schedule_limit_s.value_or(least_limit_s);
   const ProgramRun run(files, memory, -1, limit_s);
   Finding finding =

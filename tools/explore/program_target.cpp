@@ -16,6 +16,7 @@
 #include "tools/exec/family_report.hpp"
 #include "tools/exec/program_run.hpp"
 #include "tools/exec/watchdog.hpp"
+#include "tools/explore/learned_code.hpp"
 #include "tools/explore/program_finding.hpp"
 #include "tools/output/progress.hpp"
 
@@ -72,11 +73,15 @@ std::uint64_t fingerprint_of(const ProgramFiles& files, const ExploreOptions& op
   digest.add(options.seed);
   if (options.until) digest.add(static_cast<std::uint64_t>(options.until->ns()));
   digest.add(std::string_view(options.conditions.words()));
+  if (options.switch_at == SwitchAt::accesses) digest.add(std::string_view("accesses"));
   return digest.value();
 }
 
 ProgramTarget::ProgramTarget(const ExploreOptions& options)
-    : options_(options), files_(options.program), fingerprint_(fingerprint_of(files_, options)), input_(open_input()) {
+    : options_(options),
+      files_(options.program, false, options.switch_at),
+      fingerprint_(fingerprint_of(files_, options)),
+      input_(open_input()) {
   options.conditions.check(files_.named());
   if (options.races == Races::ignore) ignore_races();
 }
@@ -87,8 +92,11 @@ void ProgramTarget::prepare() { const ForkServer server(files_, settings_of(opti
 
 // The default order's profile is taken with the switch points that all runs have.
 Finding ProgramTarget::run(const Plan& plan, const Request& request) {
-  if (!request.profile || !files_.instrumented) return run_once(plan, request);
-  profile_.code = run_once(plan, {.learn = true}).profile.code;
+  if (!request.profile || !files_.watches_accesses()) return run_once(plan, request);
+  profile_.code = learn_code(files_, [&](const Plan& learning, const std::vector<std::uint64_t>& code) {
+    profile_.code = code;
+    return run_once(learning, {.learn = true});
+  });
   Finding finding = run_once(plan, request);
   finding.profile.code = profile_.code;
   return finding;
@@ -107,7 +115,7 @@ Finding ProgramTarget::run_once(const Plan& plan, const Request& request) {
     server_.emplace(files_, settings_of(options_));
   }
   RunMemory& memory = server_->begin(settings_of(options_));
-  ask_for_run(memory, options_, plan, request, profile_);
+  ask_for_run(memory, files_, options_, plan, request, profile_);
   const int input = opened_again(input_), output = memfd_create("waitpoint-output", MFD_CLOEXEC);
   const pid_t process = server_->start(input, output);
   Watchdog watchdog(memory.record());
@@ -138,6 +146,8 @@ Finding ProgramTarget::run_once(const Plan& plan, const Request& request) {
   };
   if (stalled.empty() && !request.stop_before) end_others(memory.record(), is_stalled_by_now);
   Finding finding = finding_of_run(memory, *status, end_of(output), request, options_.trace.has_value(), races_fail());
+  // Of other instructions than the learned ones nothing is known.
+  if (request.choices && !files_.accesses.empty()) finding.has_unlearned_code = true;
   if (options_.races == Races::report && !request.learn && !request.places && shows_new_races(finding))
     tell_races(memory.record(), finding);
   if (!stalled.empty()) {

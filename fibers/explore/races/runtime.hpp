@@ -50,6 +50,8 @@ struct Runtime {
   void (*set_outside_apart)();
   void (*order_by_outside)();
   void (*note_unlearned)(bool);
+  /// An access by code that is not instrumented, the next instruction of the running task.
+  void (*accessed)(std::uint64_t address, std::uint32_t size, bool writes, bool is_atomic, std::uint64_t place);
   bool (*noted_unlearned)();
 };
 

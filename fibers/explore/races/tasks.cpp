@@ -12,6 +12,22 @@ std::uint32_t open_runs = 0;
 
 Context& context(void* fiber) { return *static_cast<Context*>(fiber); }
 
+void note_access(std::uint64_t address, std::uint32_t size, bool writes, bool is_atomic, std::uint64_t place) {
+  namespace kind = waitpoint::races::kind;
+  using waitpoint::kernel::Operation;
+  Detector& detector = Detector::the();
+  if (!detector.watching()) return detector.unwatched(1);
+  const auto how = static_cast<std::uint8_t>((writes ? kind::write : kind::read) | (is_atomic ? kind::atomic : 0));
+  const Operation operation = is_atomic ? Operation::modify : writes ? Operation::store : Operation::load;
+  const void* const at = reinterpret_cast<const void*>(place);
+  if (address % 8 + size > 8)
+    detector.access_range(address, size, how, at, operation);
+  else
+    detector.access_word(address, size, how, at, operation);
+  if (is_atomic && detector.watching())
+    detector.atomic_modify(reinterpret_cast<const void*>(address), __ATOMIC_SEQ_CST);
+}
+
 const waitpoint::races::Runtime runtime = {
     [] { Detector::the().begin_run(); },
     [](const waitpoint::races::FoundRace*& races) { return Detector::the().found(races); },
@@ -22,6 +38,7 @@ const waitpoint::races::Runtime runtime = {
     [] { Detector::the().set_outside_apart(); },
     [] { Detector::the().order_by_outside(); },
     [](bool on) { Detector::the().note_unlearned(on); },
+    note_access,
     [] { return Detector::the().noted_unlearned(); },
 };
 

@@ -15,6 +15,7 @@
 #include "fibers/explore/strategies/profile.hpp"
 #include "fibers/posix/exec/history.hpp"
 #include "fibers/posix/exec/process_choices.hpp"
+#include "fibers/posix/traps/access_instruction.hpp"
 #include "fibers/sync/source_lines.hpp"
 
 namespace waitpoint::posix {
@@ -41,6 +42,7 @@ struct Asked {
   std::span<const TaskProfile> tasks = {};
   std::span<const std::uint64_t> shared = {};
   std::span<const std::uint64_t> code = {};
+  std::span<const AccessInstruction> accesses = {};  ///< instructions with breakpoints: begin_access_log()
 
   bool learn = false;    ///< record the code that accesses shared memory
   bool notes = false;    ///< log whether other code does

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fibers/posix/exec/last_calls.hpp"
 
-#include <cstdio>
 #include <new>
 #include <optional>
-#include <string_view>
+#include <string>
 #include <utility>
 
 #include "fibers/kernel/call_stack.hpp"
@@ -14,12 +13,11 @@
 #include "fibers/posix/family/task_names.hpp"
 #include "fibers/posix/program/program.hpp"
 #include "fibers/posix/signals/signals.hpp"
-#include "fibers/posix/threads/thread_states.hpp"
 
 namespace waitpoint::posix {
 namespace {
 
-constexpr std::size_t threads_max = 100, frames_max = 64;
+constexpr std::size_t threads_max = 100, frames_of_crash_max = 64;
 
 // Null where there is no memory left.
 std::vector<LastCalls>* logged() {
@@ -29,15 +27,11 @@ std::vector<LastCalls>* logged() {
   return memory != nullptr ? &static_cast<LastCallsLog*>(memory)->threads : nullptr;
 }
 
-// Without the indentation and the end of the line.
-std::string state_of(const kernel::Task& task) {
-  char line[256];
-  BoundedText text(line, sizeof line);
-  add_state(text, task);
-  std::string_view state(line);
-  while (state.starts_with(' ')) state.remove_prefix(1);
-  while (state.ends_with('\n')) state.remove_suffix(1);
-  return std::string(state);
+std::string name_of(const kernel::Task& task) {
+  char name[128];
+  BoundedText text(name, sizeof name);
+  add_name(text, task);
+  return name;
 }
 
 // In the handler of the signal, on the stack of the thread.
@@ -47,14 +41,11 @@ void log_crash(int signal) {
   if (all == nullptr || std::exchange(is_logging, true)) return;
   std::optional<InKernel> within;  // the search for handlers of exceptions takes locks
   if (is_simulated()) within.emplace();
-  void* frames[frames_max];
-  const std::size_t count = kernel::capture_call_stack(frames, frames_max);
-  char line[256];
-  BoundedText text(line, sizeof line);
-  add_name(text, *kernel::running);
-  text.add(" is terminated by signal %d", signal);
+  void* frames[frames_of_crash_max];
+  const std::size_t count = kernel::capture_call_stack(frames, frames_of_crash_max);
   const NewInFamily in_family;
-  all->push_back({line, program_calls({frames, count})});
+  all->push_back({name_of(*kernel::running) + " is terminated by signal " + std::to_string(signal),
+                  program_calls({frames, count})});
 }
 
 }  // namespace
@@ -64,7 +55,7 @@ void log_waits(const kernel::Scheduler& scheduler) {
   if (all == nullptr) return;
   const NewInFamily in_family;
   for (kernel::Task* task = scheduler.first_task(); task != nullptr && all->size() < threads_max; task = task->next)
-    all->push_back({state_of(*task), program_calls(*task)});
+    all->push_back({name_of(*task), program_calls(*task)});
 }
 
 void begin_crash_log() {

@@ -12,7 +12,7 @@
 namespace waitpoint::posix {
 
 struct LastCalls {
-  std::string state;  ///< "main waits for mutex m, held by thread 1", "thread 1 is terminated by signal 11"
+  std::string thread;  ///< "main", or "thread 1 is terminated by signal 11"
   sync::CodePlaces calls;
 };
 

@@ -8,6 +8,7 @@
 #include "fibers/posix/exec/memory.hpp"
 #include "fibers/posix/family/family.hpp"
 #include "fibers/posix/program/program.hpp"
+#include "fibers/posix/traps/access_breakpoints.hpp"
 
 namespace waitpoint::posix {
 namespace {
@@ -32,9 +33,9 @@ constexpr races::Listener listener = {
 
 }  // namespace
 
-bool has_race_runtime() { return &waitpoint_races_runtime != nullptr; }
+namespace {
 
-void begin_race_log(bool learn, bool notes, std::span<const std::uint64_t> code) {
+void begin_log(bool learn, bool notes, const races::Listener& heard) {
   WAITPOINT_CHECK(has_race_runtime(), "a log of races begins without the runtime that finds them");
   if (family::common(family::Part::races, 0) == nullptr) {
     void* const memory = family::common(family::Part::races, sizeof(RaceLog));
@@ -42,12 +43,36 @@ void begin_race_log(bool learn, bool notes, std::span<const std::uint64_t> code)
     new (memory) RaceLog();
   }
   const races::Runtime& runtime = *waitpoint_races_runtime();
-  for (const std::uint64_t place : code) runtime.know(place);
   runtime.learn(learn);
   runtime.note_unlearned(notes);
-  runtime.tell(listener);
+  runtime.tell(heard);
   runtime.set_outside_apart();
   note_what_came = runtime.order_by_outside;
+}
+
+}  // namespace
+
+bool has_race_runtime() { return &waitpoint_races_runtime != nullptr; }
+
+void begin_race_log(bool learn, bool notes, std::span<const std::uint64_t> code) {
+  begin_log(learn, notes, listener);
+  for (const std::uint64_t place : code) waitpoint_races_runtime()->know(place);
+}
+
+void begin_access_log(bool learn, bool notes, std::span<const AccessInstruction> instructions,
+                      std::span<const std::uint64_t> code) {
+  static constexpr races::Listener without_races = {[](const races::FoundRace&) {}, listener.learned,
+                                                    listener.unlearned};
+  begin_log(learn, notes, without_races);
+  const races::Runtime& runtime = *waitpoint_races_runtime();
+  for (const std::uint64_t offset : code) runtime.know(offset);
+  // By time: a breakpoint takes some microseconds.
+  constexpr std::uint32_t learning_of_one_max = 2'000, learning_max = 200'000, exploring_max = 50'000;
+  trap_accesses({.instructions = instructions,
+                 .report = runtime.accessed,
+                 .missed = [] { log().has_other_code = true; },
+                 .hits_of_one_max = learn ? learning_of_one_max : exploring_max,
+                 .hits_max = learn ? learning_max : exploring_max});
 }
 
 }  // namespace waitpoint::posix

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "fibers/explore/races/located_race.hpp"
+#include "fibers/posix/traps/access_instruction.hpp"
 
 namespace waitpoint::posix {
 
@@ -33,5 +34,9 @@ bool has_race_runtime();
 /// not recorded and `notes`. Called before the scheduler is made, where there is the runtime.
 /// `code` comes from an earlier run.
 void begin_race_log(bool learn, bool notes, std::span<const std::uint64_t> code);
+/// The same for a program that is not instrumented, by breakpoints at these instructions: atomic operations that are
+/// plain instructions cannot be told from others, so that no races are logged. `code` are offsets.
+void begin_access_log(bool learn, bool notes, std::span<const AccessInstruction> instructions,
+                      std::span<const std::uint64_t> code);
 
 }  // namespace waitpoint::posix

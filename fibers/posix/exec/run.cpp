@@ -125,6 +125,8 @@ kernel::Scheduler& begin_run() {
   if (has_race_runtime()) {
     if (asked == nullptr)
       begin_race_log(false, false, {});
+    else if (!asked->accesses.empty())
+      begin_access_log(asked->learn, asked->notes, asked->accesses, asked->code);
     else
       begin_race_log(asked->learn, asked->notes, asked->code);
   }

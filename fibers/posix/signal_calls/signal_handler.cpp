@@ -17,6 +17,7 @@
 #include "fibers/posix/signal_calls/computing.hpp"
 #include "fibers/posix/signals/signals.hpp"
 #include "fibers/posix/timers/notification_threads.hpp"
+#include "fibers/posix/traps/access_breakpoints.hpp"
 #include "fibers/posix/traps/library_calls.hpp"
 #include "fibers/posix/traps/library_range.hpp"
 #include "fibers/posix/traps/library_return.hpp"
@@ -195,6 +196,7 @@ void interrupt_if_computing(const ucontext_t& interrupted) {
 void catch_signal(int signal, siginfo_t* information, void* context) {
   if (signal == SIGSYS && (answer_library_call(*information, context) || answer_raw_call(*information, context)))
     return;
+  if (signal == SIGTRAP && answer_access(context)) return;
   const int error = errno;
   if (is_question(*information)) {
     if (answer_question != nullptr) answer_question();
@@ -282,7 +284,8 @@ void install(int signal) {
       has_host ||
       (signal == SIGSEGV && record != nullptr && (record->settings.trap_rdtsc || are_processor_features_trapped())) ||
       (signal == SIGSYS && (are_library_calls_trapped() || are_raw_calls_trapped())) || (signal == bell && has_bell) ||
-      ends_run(signal) || (on_crash != nullptr && contains(crashes, signal));
+      (signal == SIGTRAP && are_accesses_trapped()) || ends_run(signal) ||
+      (on_crash != nullptr && contains(crashes, signal));
   // The system's notices of ends that are events of the family come at any time: they could end a real wait.
   const bool is_left_out = signal == SIGCHLD && family::own != nullptr && !family::has_native_child();
   const bool is_looked_for = is_looked_for_always || contains(signals.ever_blocked & ~faults, signal);

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/exec/access_instructions.hpp"
+
+#include <Zydis/Zydis.h>
+#include <elf.h>
+#include <ucontext.h>
+
+#include <algorithm>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace waitpoint::tools {
+namespace {
+
+using posix::AccessInstruction;
+
+// A part of the file's code.
+struct Piece {
+  std::uint64_t begin, end;  // addresses as linked
+};
+
+class Code {
+ public:
+  explicit Code(std::string bytes) : bytes_(std::move(bytes)) {
+    Elf64_Ehdr head;
+    if (!get(head, 0) || std::memcmp(head.e_ident, ELFMAG, SELFMAG) != 0 || head.e_machine != EM_X86_64) return;
+    for (std::uint64_t i = 0; i < head.e_shnum; ++i)
+      if (Elf64_Shdr section; get(section, head.e_shoff + i * sizeof section)) sections_.push_back(section);
+    if (head.e_shstrndx >= sections_.size()) return;
+    for (const Elf64_Shdr& section : sections_)
+      if (text_at(sections_[head.e_shstrndx], section.sh_name) == ".text") text_ = section;
+  }
+
+  /// The functions, or else the whole.
+  std::vector<Piece> pieces() const {
+    if (text_.sh_size == 0) return {};
+    std::vector<Piece> functions;
+    for (const Elf64_Shdr& section : sections_)
+      if (section.sh_type == SHT_SYMTAB) add_functions(section, functions);
+    if (functions.empty()) functions.push_back({text_.sh_addr, text_.sh_addr + text_.sh_size});
+    return functions;
+  }
+
+  std::span<const char> bytes(const Piece& piece) const {
+    const std::uint64_t from = text_.sh_offset + (piece.begin - text_.sh_addr), size = piece.end - piece.begin;
+    if (from > bytes_.size() || size > bytes_.size() - from) return {};
+    return std::span(bytes_).subspan(from, size);
+  }
+
+ private:
+  template <class T>
+  bool get(T& to, std::uint64_t from) const {
+    if (from > bytes_.size() || sizeof to > bytes_.size() - from) return false;
+    std::memcpy(&to, bytes_.data() + from, sizeof to);
+    return true;
+  }
+
+  std::string_view text_at(const Elf64_Shdr& names, std::uint64_t at) const {
+    const std::uint64_t from = names.sh_offset + at;
+    if (from >= bytes_.size()) return {};
+    const std::string_view rest = std::string_view(bytes_).substr(from);
+    return rest.substr(0, rest.find('\0'));
+  }
+
+  void add_functions(const Elf64_Shdr& symbols, std::vector<Piece>& functions) const {
+    for (std::uint64_t i = 0; i < symbols.sh_size / sizeof(Elf64_Sym); ++i) {
+      Elf64_Sym symbol;
+      if (!get(symbol, symbols.sh_offset + i * sizeof symbol)) return;
+      const bool is_inside = symbol.st_value >= text_.sh_addr && symbol.st_size <= text_.sh_size &&
+                             symbol.st_value - text_.sh_addr <= text_.sh_size - symbol.st_size;
+      if (ELF64_ST_TYPE(symbol.st_info) == STT_FUNC && symbol.st_size > 0 && is_inside)
+        functions.push_back({symbol.st_value, symbol.st_value + symbol.st_size});
+    }
+  }
+
+  std::string bytes_;
+  std::vector<Elf64_Shdr> sections_;
+  Elf64_Shdr text_{};
+};
+
+// Its number in ucontext_t's gregs.
+std::optional<std::uint8_t> saved_place(ZydisRegister found) {
+  switch (found) {
+    case ZYDIS_REGISTER_NONE:
+    case ZYDIS_REGISTER_RIP: return AccessInstruction::none;
+    case ZYDIS_REGISTER_RAX: return REG_RAX;
+    case ZYDIS_REGISTER_RBX: return REG_RBX;
+    case ZYDIS_REGISTER_RCX: return REG_RCX;
+    case ZYDIS_REGISTER_RDX: return REG_RDX;
+    case ZYDIS_REGISTER_RSI: return REG_RSI;
+    case ZYDIS_REGISTER_RDI: return REG_RDI;
+    case ZYDIS_REGISTER_RBP: return REG_RBP;
+    case ZYDIS_REGISTER_RSP: return REG_RSP;
+    case ZYDIS_REGISTER_R8: return REG_R8;
+    case ZYDIS_REGISTER_R9: return REG_R9;
+    case ZYDIS_REGISTER_R10: return REG_R10;
+    case ZYDIS_REGISTER_R11: return REG_R11;
+    case ZYDIS_REGISTER_R12: return REG_R12;
+    case ZYDIS_REGISTER_R13: return REG_R13;
+    case ZYDIS_REGISTER_R14: return REG_R14;
+    case ZYDIS_REGISTER_R15: return REG_R15;
+    default: return std::nullopt;  // of 32 bits, or of a vector
+  }
+}
+
+bool is_repeated(const ZydisDecodedInstruction& instruction) {
+  return (instruction.attributes & (ZYDIS_ATTRIB_HAS_REP | ZYDIS_ATTRIB_HAS_REPE | ZYDIS_ATTRIB_HAS_REPNE)) != 0;
+}
+
+std::optional<AccessInstruction> access_of(const ZydisDecodedInstruction& instruction,
+                                           std::span<const ZydisDecodedOperand> operands, std::uint64_t address) {
+  if (is_repeated(instruction)) return std::nullopt;
+  for (const ZydisDecodedOperand& operand : operands.first(instruction.operand_count_visible)) {
+    if (operand.type != ZYDIS_OPERAND_TYPE_MEMORY || operand.mem.type != ZYDIS_MEMOP_TYPE_MEM) continue;
+    if (operand.mem.segment == ZYDIS_REGISTER_FS || operand.mem.segment == ZYDIS_REGISTER_GS) continue;
+    const bool writes = (operand.actions & ZYDIS_OPERAND_ACTION_MASK_WRITE) != 0;
+    const bool reads = (operand.actions & ZYDIS_OPERAND_ACTION_MASK_READ) != 0;
+    const unsigned bytes = operand.size / 8;
+    const auto base = saved_place(operand.mem.base), index = saved_place(operand.mem.index);
+    if ((!writes && !reads) || bytes == 0 || bytes > 64 || !base || !index) continue;
+    const bool is_relative = operand.mem.base == ZYDIS_REGISTER_RIP;
+    const std::int64_t next = static_cast<std::int64_t>(address + instruction.length);
+    const bool is_exchange = instruction.mnemonic == ZYDIS_MNEMONIC_XCHG;
+    return AccessInstruction{.offset = address,
+                             .displacement = (is_relative ? next : 0) + operand.mem.disp.value,
+                             .base = *base,
+                             .index = *index,
+                             .scale = operand.mem.scale,
+                             .bytes = static_cast<std::uint8_t>(bytes),
+                             .reads = reads,
+                             .writes = writes,
+                             .is_locked = is_exchange || (instruction.attributes & ZYDIS_ATTRIB_HAS_LOCK) != 0,
+                             .is_absolute = is_relative};
+  }
+  return std::nullopt;
+}
+
+void add_accesses(const ZydisDecoder& decoder, const Piece& piece, std::span<const char> bytes,
+                  std::vector<AccessInstruction>& found) {
+  ZydisDecodedInstruction instruction;
+  ZydisDecodedOperand operands[ZYDIS_MAX_OPERAND_COUNT];
+  for (std::uint64_t at = 0; at < bytes.size(); at += instruction.length) {
+    if (!ZYAN_SUCCESS(ZydisDecoderDecodeFull(&decoder, bytes.data() + at, bytes.size() - at, &instruction, operands)))
+      return;
+    if (const auto access = access_of(instruction, operands, piece.begin + at)) found.push_back(*access);
+  }
+}
+
+}  // namespace
+
+std::vector<AccessInstruction> access_instructions(const std::filesystem::path& program) {
+  std::ifstream file(program, std::ios::binary);
+  const Code code(std::string(std::istreambuf_iterator<char>(file), {}));
+  ZydisDecoder decoder;
+  ZydisDecoderInit(&decoder, ZYDIS_MACHINE_MODE_LONG_64, ZYDIS_STACK_WIDTH_64);
+  std::vector<AccessInstruction> found;
+  for (const Piece& piece : code.pieces()) add_accesses(decoder, piece, code.bytes(piece), found);
+  std::ranges::sort(found, {}, &AccessInstruction::offset);
+  const auto [first, last] = std::ranges::unique(found, {}, &AccessInstruction::offset);
+  found.erase(first, last);
+  return found;
+}
+
+}  // namespace waitpoint::tools

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The instructions of a program's file that access memory, found by disassembling it.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "fibers/posix/traps/access_instruction.hpp"
+
+namespace waitpoint::tools {
+
+/// In the order of their offsets; without those that push, pop and call, repeated ones, and those of thread-local
+/// variables. Functions are told apart by the symbols; without symbols the code is one piece. Empty for a file that is
+/// no program for x86-64.
+std::vector<posix::AccessInstruction> access_instructions(const std::filesystem::path& program);
+
+}  // namespace waitpoint::tools
