@@ -111,6 +111,15 @@ class AsTheyAre(Programs, ExecCase):
         self.check_passes([(specimen, mended, 1, 1, "fifo") for specimen in specimens("") for mended in (False, True)])
 
 
+# The bugs that need a switch at an access, in the programs as they are: by breakpoints.
+class AtBreakpoints(Programs, ExecCase):
+    suffix = ""
+    replayed = {"lost update": "exit status 1", "freed in use": "exit status 1"}
+
+    def wanted(self):
+        return [specimen for specimen in specimens(self.suffix) if specimen.needs == "memory"]
+
+
 # Data races end the search here: even the default order shows them, where they do no harm.
 class Instrumented(Programs, ExecCase):
     suffix = INSTRUMENTED

@@ -15,6 +15,7 @@
 #include "tools/command/distinct_files.hpp"
 #include "tools/command/installed_part.hpp"
 #include "tools/command/option_values.hpp"
+#include "tools/exec/access_instructions.hpp"
 
 namespace waitpoint::tools {
 namespace {
@@ -79,12 +80,12 @@ Races races_of(const std::string& option) {
   return *meant;
 }
 
-SwitchAt switch_at_of(const std::string& option) {
+std::optional<SwitchAt> switch_at_named(const std::string& option) {
   std::string where = "--switch-at";
   const std::string text = text_of(option, "WAITPOINT_SWITCH_AT", where);
-  if (text == "accesses") return SwitchAt::accesses;
-  if (!text.empty() && text != "calls") refuse(where, "calls or accesses", text);
-  return SwitchAt::calls;
+  if (text.empty()) return std::nullopt;
+  if (text != "calls" && text != "accesses") refuse(where, "calls or accesses", text);
+  return text == "calls" ? SwitchAt::calls : SwitchAt::accesses;
 }
 
 std::optional<std::filesystem::path> file(const std::string& name) {
@@ -92,6 +93,11 @@ std::optional<std::filesystem::path> file(const std::string& name) {
 }
 
 }  // namespace
+
+SwitchAt switch_at_of(const std::string& strategy) {
+  const bool is_exhaustive = exploration::make_strategy(strategy)->is_exhaustive();
+  return !is_exhaustive && can_find_access_instructions() ? SwitchAt::accesses : SwitchAt::calls;
+}
 
 ExploreArguments::ExploreArguments(CommandLine& line)
     : command_(line.add_command("explore",
@@ -135,8 +141,9 @@ ExploreArguments::ExploreArguments(CommandLine& line)
                   "report): failures, each reported once, that do not end the search; failures like any\n"
                   "other, the first of which ends it; or no failures");
   command_.option("--switch-at", switch_at_, "calls|accesses",
-                  "switch points of a program (default: $WAITPOINT_SWITCH_AT, or calls): simulated\n"
-                  "calls; accesses to shared memory, too, as always with -fsanitize=thread");
+                  "switch points of a program (default: $WAITPOINT_SWITCH_AT, or accesses; with dfs, bounded\n"
+                  "and dpor: calls): simulated calls; accesses to shared memory, too, as always with\n"
+                  "-fsanitize=thread");
   conditions_.add_to(command_);
   command_.flag("--no-minimize", keep_all_, "report the failure as found, without minimisation");
   command_.footer(
@@ -206,7 +213,7 @@ ExploreOptions ExploreArguments::options(const std::vector<std::string>& words) 
   if (!races_.empty() && !is_program_) throw BadInput("--races", "expected --exec and a program");
   options.races = races_of(races_);
   if (!switch_at_.empty() && !is_program_) throw BadInput("--switch-at", "expected --exec and a program");
-  options.switch_at = switch_at_of(switch_at_);
+  options.switch_at = switch_at_named(switch_at_);
   options.until = positive_seconds("--until", until_);
   options.from = positive_seconds("--from", from_);
   if (options.from && options.until && *options.from >= *options.until)

@@ -22,6 +22,7 @@ std::vector<std::uint64_t> learn_code(
   const std::uint64_t more = files.instrumented ? 0 : learning_runs(usual);
   for (std::uint64_t i = 0; i < more; ++i) {
     const Finding finding = learn({.drawn = false, .at_random_from = 0, .attempt = i}, known);
+    if (finding.kind == Finding::Kind::no_progress) break;  // the next could take as long, too
     known.insert(known.end(), finding.profile.code.begin(), finding.profile.code.end());
   }
   return known;

@@ -24,9 +24,11 @@ Finding look(const ProgramFiles& files, const ExploreOptions& options, const Pla
   RunMemory memory(settings_of(options));
   ask_for_run(memory, files, options, plan, request, known);
   const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
-  const ProgramRun run(files, memory, nowhere);
+  const ProgramRun run(files, memory, nowhere, options.schedule_limit_s.value_or(least_limit_s));
   close(nowhere);
-  return finding_of_run(memory, run.status(), "", request, false, false);
+  Finding finding = finding_of_run(memory, run.status(), "", request, false, false);
+  if (run.is_over_limit()) finding.kind = Finding::Kind::no_progress;
+  return finding;
 }
 
 /// The parts of the profile that the schedule depends on.
@@ -46,9 +48,11 @@ exploration::Profile take_profile(const ProgramFiles& files, const ExploreOption
 
 int replay_program(const ExploreOptions& asked) {
   ExploreOptions options = asked;
-  const ProgramFiles files(options.program, false, options.switch_at);
-  options.conditions.check(files.named());
-  const ReplayRecord record = read_replay_record(options, fingerprint_of(files, options));
+  const ProgramFiles named(options.program);
+  options.conditions.check(named.named());
+  const ReplayRecord record = read_replay_record(options, fingerprint_of(named, options));
+  const std::string& strategy = record.stored.strategy.empty() ? options.strategy : record.stored.strategy;
+  const ProgramFiles files(options.program, false, options.switch_at.value_or(switch_at_of(strategy)));
   std::optional<OutputFile> trace;
   if (options.trace) trace.emplace(*options.trace);
   const exploration::Profile profile = take_profile(files, options, record.plan);

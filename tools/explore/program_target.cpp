@@ -73,13 +73,12 @@ std::uint64_t fingerprint_of(const ProgramFiles& files, const ExploreOptions& op
   digest.add(options.seed);
   if (options.until) digest.add(static_cast<std::uint64_t>(options.until->ns()));
   digest.add(std::string_view(options.conditions.words()));
-  if (options.switch_at == SwitchAt::accesses) digest.add(std::string_view("accesses"));
   return digest.value();
 }
 
 ProgramTarget::ProgramTarget(const ExploreOptions& options)
     : options_(options),
-      files_(options.program, false, options.switch_at),
+      files_(options.program, false, switch_at_of(options)),
       fingerprint_(fingerprint_of(files_, options)),
       input_(open_input()) {
   options.conditions.check(files_.named());
@@ -124,11 +123,13 @@ Finding ProgramTarget::run_once(const Plan& plan, const Request& request) {
   bool has_gone_on = true;  // since the last look
   std::string stalled;
   std::optional<int> status;
+  // The limit is not known yet where code is learned, and only the default order may be assumed to end.
+  const double limit = limit_s() <= 0 && request.learn && plan.at_random_from ? least_limit_s : limit_s();
   const auto is_stalled = [&] {
-    const bool is_over = limit_s() > 0 && wall_clock_s() - start_s >= limit_s();
+    const bool is_over = limit > 0 && wall_clock_s() - start_s >= limit;
     if (is_to_stop != 0 || is_over)
-      stalled = (is_over ? over_limit(limit_s()) : "stopped by a signal") + " at " +
-                to_string(time_of(memory.record())) + " s of virtual time\n" + states_of(memory.record());
+      stalled = (is_over ? over_limit(limit) : "stopped by a signal") + " at " + to_string(time_of(memory.record())) +
+                " s of virtual time\n" + states_of(memory.record());
     else if (std::string words = watchdog.look(); !words.empty())
       stalled = std::move(words);
     else
