@@ -18,10 +18,13 @@ import subprocess
 import sys
 import tempfile
 
-from recipes import RECIPES, CannotBuild, compiled
+from recipes import RECIPES as KNOWN
+from recipes import CannotBuild, compiled
+from unreported import RECIPES as UNREPORTED
 
 SEEDS = range(1, 6)
 SECONDS_MAX = 300
+RECIPES = [*KNOWN, *UNREPORTED]
 NAMES = [recipe.name for recipe in RECIPES]
 
 
@@ -62,14 +65,18 @@ class Campaign:
 
     def __init__(self, waitpoint, program, iterations, seed):
         text = execute([waitpoint, "explore", "--exec", "--iterations", str(iterations), "--seed", str(seed), "--", program])
-        counts = re.search(r": (\d+) schedules?, \d+ distinct, (\d+) failed", text)
-        if not counts:
-            raise CannotBuild(f"no line about the schedules in: {text}")
-        self.schedules = int(counts[1])
-        self.failure = None
-        if int(counts[2]) == 0:
+        failed = re.search(r"^(?:schedule (\d+) of .*|the default order) failed at [0-9.]+ s: (?:terminated by signal \d+ \()?([\w ]+)", text,
+                           re.MULTILINE)
+        if not failed:
+            passed = re.search(r": (\d+) schedules?, \d+ distinct, 0 failed", text)
+            if not passed:
+                raise CannotBuild(f"no line about the schedules in: {text}")
+            self.schedules = int(passed[1])
+            self.failure = None
             return
-        self.failure = re.search(r" failed at [0-9.]+ s: (?:terminated by signal \d+ \()?([\w ]+)", text)[1]
+        # The search goes on after a misuse.
+        self.schedules = int(failed[1] or 0) + 1
+        self.failure = failed[2]
         replay = re.search(r"^replay: (.*)$", text, re.MULTILINE)
         self.replay = replay[1] if replay else ""
         self.replayed = bool(replay) and "the same run as in the record" in execute(shlex.split(self.replay))
