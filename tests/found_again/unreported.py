@@ -2,7 +2,7 @@
 """How the programs with bugs that nobody had reported are built: docs/found.md. A mended library's sources are compiled into the
 program, where they have precedence over Debian's library."""
 
-from recipes import ROSCPP, Recipe, callback_queue
+from recipes import ROSCPP, TF2, Recipe, callback_queue, nng
 
 BUG = "found.md"
 
@@ -41,6 +41,8 @@ RECIPES = [
     Recipe("poco_pool_destroyed.cpp", BUG, "1.11.0", "libpoco-dev", POCO, poco),
     Recipe("openthreads_readers.cpp", BUG, "3.6.5", "libopenthreads-dev", ("OpenThreads",), headers),
     Recipe("openthreads_block.cpp", BUG, "3.6.5", "libopenthreads-dev", ("OpenThreads",), headers),
+    Recipe("nng_close_in_send.c", BUG, "1.5.2", "libnng-dev", ("nng",), nng),
+    Recipe("tf2_filter_answered.cpp", BUG, "0.7.6", "libtf2-ros-dev", TF2, headers),
     Recipe("ignition_worker_pool.cpp", BUG, "4.5.1", "libignition-common-dev", ("ignition-common4",), ignition_common,
            options=("-I/usr/include/ignition/common4", "-I/usr/include/ignition/cmake2")),
     Recipe("roscpp_add_again.cpp", BUG, "1.15.15", "libroscpp-dev", ROSCPP, callback_queue),
