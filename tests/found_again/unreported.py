@@ -51,4 +51,5 @@ RECIPES = [
     Recipe("rtt_timer_destroyed.cpp", BUG, "2.8.99", "", RTT, rtt, packaged=False),
     Recipe("rtt_timer_armed_again.cpp", BUG, "2.8.99", "", RTT, rtt, packaged=False),
     Recipe("yarp_timers.cpp", BUG, "3.9.0", "", ("YARP_os",), yarp, packaged=False),
+    Recipe("yarp_event.cpp", BUG, "3.9.0", "", ("YARP_os",), yarp, packaged=False),
 ]
