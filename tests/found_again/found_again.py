@@ -55,8 +55,9 @@ def arguments():
     return options
 
 
-def execute(command):
-    done = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, text=True, errors="replace", timeout=SECONDS_MAX)
+def execute(command, folder):
+    done = subprocess.run(command, cwd=folder, stdin=subprocess.DEVNULL, capture_output=True, text=True, errors="replace",
+                          timeout=SECONDS_MAX)
     return done.stdout + done.stderr
 
 
@@ -64,9 +65,10 @@ class Campaign:
     """One seed's schedules: their number up to the failure, the failure's kind, and whether its replay is the same run."""
 
     def __init__(self, waitpoint, program, iterations, seed):
-        text = execute([waitpoint, "explore", "--exec", "--iterations", str(iterations), "--seed", str(seed), "--", program])
-        failed = re.search(r"^(?:schedule (\d+) of .*|the default order) failed at [0-9.]+ s: (?:terminated by signal \d+ \()?([\w ]+)", text,
-                           re.MULTILINE)
+        text = execute([waitpoint, "explore", "--exec", "--iterations", str(iterations), "--seed", str(seed), "--", program],
+                       program.parent)
+        failed = re.search(r"^(?:schedule (\d+) of .*|the default order) failed at [0-9.]+ s: "
+                           r"(?:terminated by signal \d+ \()?([\w ]+)", text, re.MULTILINE)
         if not failed:
             passed = re.search(r": (\d+) schedules?, \d+ distinct, 0 failed", text)
             if not passed:
@@ -79,7 +81,7 @@ class Campaign:
         self.failure = failed[2]
         replay = re.search(r"^replay: (.*)$", text, re.MULTILINE)
         self.replay = replay[1] if replay else ""
-        self.replayed = bool(replay) and "the same run as in the record" in execute(shlex.split(self.replay))
+        self.replayed = bool(replay) and "the same run as in the record" in execute(shlex.split(self.replay), program.parent)
 
 
 def row_of(recipe, campaigns):
