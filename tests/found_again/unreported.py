@@ -22,7 +22,8 @@ def ignition_common(sources, _folder):
 # Libraries that Debian does not have: the sources, with the library in their folder `build`.
 def rtt(sources, _folder):
     library = sources / "build/rtt"
-    includes = [f"-I{folder}" for folder in (sources, library, f"{library}/os", f"{library}/os/gnulinux", f"{sources}/rtt/os/gnulinux")]
+    folders = (sources, library, f"{library}/os", f"{library}/os/gnulinux", f"{sources}/rtt/os/gnulinux")
+    includes = [f"-I{folder}" for folder in folders]
     return ["-DOROCOS_TARGET=gnulinux", *includes, f"-L{library}", f"-Wl,-rpath,{library}"]
 
 
