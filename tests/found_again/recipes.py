@@ -57,11 +57,18 @@ def tf2(sources, _folder):
     return [*names, f"-I{sources}/tf2/include", f"-I{sources}/tf2_ros/include", *sorted(sources.glob("tf2/src/*.cpp"))]
 
 
+def installed(sources, _folder):
+    """A library that was installed in a folder, such as a package of another version that dpkg has extracted there."""
+    libraries = sources / "usr/lib/x86_64-linux-gnu"
+    return [f"-I{sources}/usr/include", f"-L{libraries}", f"-Wl,-rpath,{libraries}"]
+
+
 def thread_pool(sources, _folder):
     return [f"-I{sources}", f"-I{sources}/include"]
 
 
 ROSCPP = ("roscpp", "rostime", "rosconsole", "boost_thread", "boost_chrono", "boost_system")
+POCO = ("PocoUtil", "PocoFoundation")
 TF2 = ("tf2_ros", "tf2", "message_filters", "roscpp_serialization", "console_bridge", *ROSCPP)
 
 RECIPES = [
@@ -74,6 +81,19 @@ RECIPES = [
     Recipe("roscpp_first_callback.cpp", "ros_comm #1054", "1.12.7", "libroscpp-dev", ROSCPP, callback_queue, packaged=False),
     Recipe("thread_pool_end.cpp", "BS::thread_pool #93, #107", "3.3.0", "", (), thread_pool, packaged=False,
            options=("-fsanitize=thread",)),
+    Recipe("poco_timer_cancel.cpp", "Poco #3921", "1.11.0", "libpoco-dev", POCO, installed),
+    Recipe("poco_timer_end.cpp", "Poco #3986", "1.11.0", "libpoco-dev", POCO, installed),
+    Recipe("poco_wake_up_all.cpp", "Poco #5213", "1.11.0", "libpoco-dev", POCO, installed),
+    Recipe("poco_remove_observer.cpp", "Poco #4970", "1.11.0", "libpoco-dev", POCO, installed),
+    Recipe("poco_async_close.cpp", "Poco #1039", "1.11.0", "libpoco-dev", POCO, installed),
+    Recipe("poco_file_close.cpp", "Poco #2542", "1.11.0", "libpoco-dev", POCO, installed),
+    Recipe("paho_cpp_callback.cpp", "paho.mqtt.cpp #356, #481", "1.2.0", "libpaho-mqttpp-dev", ("paho-mqttpp3", "paho-mqtt3as"),
+           installed),
+    Recipe("nanomsg_send_in_close.c", "nanomsg #894, #1040", "1.1.5", "libnanomsg-dev", ("nanomsg",), installed),
+    Recipe("czmq_first_sockets.c", "CZMQ #2019, #2196", "4.2.1", "libczmq-dev", ("czmq", "zmq"), installed),
+    Recipe("httplib_stop.cpp", "cpp-httplib #1371", "0.11.4", "libcpp-httplib-dev", ("cpp-httplib",), installed),
+    Recipe("boost_interrupted_lock.cpp", "Boost.Thread #373", "1.74.0", "libboost-thread-dev",
+           ("boost_thread", "boost_chrono", "boost_system"), installed),
 ]
 
 
