@@ -13,6 +13,9 @@ using kernel::Operation;
 
 constexpr std::uint8_t looks_max = 6;
 
+// More than the loops of common libraries poll before they wait.
+constexpr std::uint32_t polls_max = 100;
+
 // The number of turns given while all ready tasks spin, before time advances.
 constexpr std::uint32_t idle_yields_max = 20;
 
@@ -42,7 +45,7 @@ void Explorer::begin(Strategy& strategy, const Played& played) {
   schedule_.cuts_polls_short = false;
   habits_.clear();
   stopped_before_.clear();
-  last_ = nullptr;
+  last_ = poller_ = nullptr;
   of_process_ = {};
   times_ = 0;
   spinning_ = idle_turns_ = step_ = step_of_instant_ = instants_ = 0;
@@ -78,6 +81,7 @@ void Explorer::begin_instant(Time now) {
   step_of_instant_ = 0;
   ++instants_;
   last_ = nullptr;  // its time has advanced like the others': it has no priority to continue
+  poller_ = nullptr;
   if (spinning_ != 0) stop_spinning();
   idle_turns_ = 0;
 }
@@ -128,6 +132,7 @@ std::uint32_t Explorer::next_with_care(Task* const* ready, std::uint32_t count) 
     if (schedule_.decisions.size() == played_.stop_at) return stop({ready, count}, usual_place);
     chosen = choose({ready, count}, usual_place);
   }
+  if (chosen == count && poller_ != nullptr) chosen = place_of_poller({ready, count});
   if (chosen == count) {
     chosen = strategy_->next({offered, last_, can_continue, step_});
     if (some_spin && chosen != Strategy::cut) chosen = places_[chosen];
@@ -172,6 +177,14 @@ std::uint64_t Explorer::spinning_among(std::uint32_t count) const {
   for (const std::uint32_t place : places_)
     if (place < 64) left &= ~(std::uint64_t{1} << place);
   return left;
+}
+
+// The place of the task that goes on alone; the size if its polls are over.
+std::uint32_t Explorer::place_of_poller(std::span<Task* const> ready) {
+  const auto place = static_cast<std::uint32_t>(std::find(ready.begin(), ready.end(), poller_) - ready.begin());
+  if (place < ready.size() && is_look(poller_->operation) && ++polls_ <= polls_max) return place;
+  poller_ = nullptr;
+  return static_cast<std::uint32_t>(ready.size());
 }
 
 void Explorer::stop_spinning() {
@@ -227,8 +240,12 @@ void Explorer::note_look(const Task& task, RecentAccesses& habit) {
     if (habit.looks < looks_max) return;
     habit.looks = 0;
   }
-  spinning_ += !habit.spins;
+  if (habit.spins) return;
   habit.spins = true;
+  ++spinning_;
+  if (poller_ != nullptr || !strategy_->lets_poll_on()) return;
+  poller_ = &task;
+  polls_ = 0;
 }
 
 std::uint32_t Explorer::among(Choice choice, const Task& task, std::uint32_t count) {

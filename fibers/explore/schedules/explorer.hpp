@@ -4,8 +4,9 @@
 //
 // A task that polls the same one or two objects repeatedly, at one instant and without changing anything (load,
 // try_lock, yield, sleeping for no time), waits for others; while any of them can run, it is not offered to the
-// strategy. So polling loops end under every strategy. If all tasks spin and an event is due later, time advances to
-// it: loops take time, if little.
+// strategy. So polling loops end under every strategy. Some loops poll a number of times and then wait otherwise: a
+// strategy may let the task go on alone up to that wait, in at most polls_max turns. If all tasks spin and an event is
+// due later, time advances to it: loops take time, if little.
 #pragma once
 
 #include <cstdint>
@@ -104,6 +105,7 @@ class Explorer final : public kernel::Decisions {
   bool polls_only(std::span<Task* const> ready) const;
   std::span<Task* const> leave_spinning_out(std::span<Task* const> ready);
   std::uint64_t spinning_among(std::uint32_t count) const;
+  std::uint32_t place_of_poller(std::span<Task* const> ready);
   void note(const Task& task);
   void note_look(const Task& task, RecentAccesses& habit);
   std::uint32_t of_deviations(std::uint32_t count);
@@ -126,6 +128,8 @@ class Explorer final : public kernel::Decisions {
   std::uint64_t times_ = 0;
   const Task* last_ = nullptr;
   std::uint32_t spinning_ = 0;
+  const Task* poller_ = nullptr;  // goes on alone
+  std::uint32_t polls_ = 0;       // its turns
   std::uint32_t idle_turns_ = 0;  // turns given since the last effect, while all tasks spin
   std::uint32_t step_ = 0;
   std::uint32_t step_of_instant_ = 0;

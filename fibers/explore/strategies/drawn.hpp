@@ -15,6 +15,8 @@ class Drawn : public Strategy {
   /// Any waiter; now and then a rare alternative; of a computation's costs, the ends as often as all values between:
   /// timing bugs are at the ends.
   std::uint32_t among(Choice choice, const Task& task, std::uint32_t count) override;
+  /// One in four: most loops poll until another task acts, few a number of times before they wait.
+  bool lets_poll_on() override { return draw(4) == 0; }
 
  protected:
   /// Called at the start of a schedule, after its draws are set.

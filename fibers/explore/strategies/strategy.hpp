@@ -43,6 +43,8 @@ class Strategy {
   virtual std::uint32_t next(const SwitchPoint& at) = 0;
   /// One of `count` alternatives, at least two.
   virtual std::uint32_t among(Choice choice, const Task& task, std::uint32_t count) = 0;
+  /// A task polls, while others can continue: whether it goes on alone up to its next event that is no poll.
+  virtual bool lets_poll_on() { return false; }
   /// Ends the schedule; false if no other is left to try.
   virtual bool end() { return true; }
   /// Of an exhaustive strategy: " with at most 2 preemptions", or "" if it tries all.

@@ -88,6 +88,27 @@ TEST(Polling, ExhaustiveStrategiesSayWhatTheyNeverTried) {
   EXPECT_TRUE(explore(take_in_turn, {.strategy = "dfs"}).complete);
 }
 
+// A loop that polls a number of times and then does something else, as those of semaphores do before they sleep.
+TEST(Polling, WhoGivesUpPollingIsThereBeforeTheOthersAct) {
+  for (const bool yields : {false, true}) {
+    const auto give_up = [yields] {
+      atomic<bool> given{false};
+      thread taker([&] {
+        for (int i = 0; i < 16 && !given.load(); ++i)
+          if (yields) this_thread::yield();
+        check(given.load(), "gave up");
+      });
+      given.store(true);
+      taker.join();
+    };
+    for (const char* strategy : {"portfolio", "random", "pct"}) {
+      const ExploreReport report = explore(give_up, {.strategy = strategy});
+      EXPECT_NE(report.text.find("gave up"), std::string::npos) << strategy << ": " << report;
+    }
+    EXPECT_TRUE(explore(give_up, {.strategy = "bounded:2"}).passed);
+  }
+}
+
 TEST(Polling, WhatDoesNotEndIsToldInSeconds) {
   const ExploreReport sleeping = explore([] {
     for (;;) this_thread::sleep_for(100ms);
