@@ -141,6 +141,19 @@ static void free_in_between(void) {
   join(thread);
 }
 
+static void* write_and_lock(void* of) {
+  pthread_rwlock_wrlock(&rwlock);
+  pthread_rwlock_unlock(&rwlock);
+  return lock_and_unlock(of);
+}
+static void destroy_meanwhile(void) {
+  const pthread_t thread = make(write_and_lock, &mutex);
+  pthread_rwlock_destroy(&rwlock);
+  sleep(1);
+  pthread_mutex_destroy(&mutex);
+  join(thread);
+}
+
 int main(int count, char** words) {
   const char* const way = count > 1 ? words[1] : "";
   if (strcmp(way, "unlocked by another") == 0) {
@@ -158,6 +171,8 @@ int main(int count, char** words) {
     if (pthread_mutex_lock(&mutex) != EINVAL) return 1;
   } else if (strcmp(way, "locked when freed") == 0) {
     free_in_between();
+  } else if (strcmp(way, "destroyed meanwhile") == 0) {
+    destroy_meanwhile();
   } else if (strcmp(way, "two mutexes") == 0) {
     const pthread_t one = make(wait_with, &mutex);
     sleep(1);

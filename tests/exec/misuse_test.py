@@ -44,6 +44,11 @@ class Misuse(ExecCase):
             self.assertEqual(done.returncode, 1, way)
             self.assertRegex(done.stdout, rf"failed at \S+ s: misuse: {MISUSES[way][0]}\n", way)
 
+    def test_is_one_of_what_is_destroyed_while_a_thread_comes_to_it(self):
+        done = self.run_it(["explore", "--exec", "--iterations", "300"], "destroyed meanwhile")
+        self.assertRegex(done.stdout, r": 300 schedules, \d+ distinct, \d+ failed")
+        self.assertRegex(done.stdout, "misuse: thread 1 locks (read-write lock rwlock|mutex mutex), which was destroyed")
+
     def test_does_not_end_a_search(self):
         done = self.run_it(["explore", "--exec", "--iterations", "300"], "beside a crash")
         self.assertEqual(done.returncode, 1)

@@ -94,6 +94,14 @@ Mutex* mutex_for(const char* does, pthread_mutex_t* bytes) {
   return &mutex;
 }
 
+// The mutex after the waitpoint of a use: null, with a report, if it was destroyed before that, or meanwhile.
+Mutex* reach(const char* does, kernel::Operation operation, pthread_mutex_t* bytes) {
+  Mutex* const mutex = mutex_for(does, bytes);
+  if (mutex == nullptr) return nullptr;
+  pass(operation, &mutex->object);
+  return !is_destroyed(*bytes) && mutex == &mutex_of(bytes) ? mutex : reach(does, operation, bytes);
+}
+
 // Short cuts for an uncontended lock and unlock, where no event can come between: the most frequent calls of programs.
 [[gnu::always_inline]] inline bool lock_at_once(const pthread_mutex_t& bytes) {
   Mutex* const mutex = reinterpret_cast<Mutex*>(bytes.__data.__list.__prev);
@@ -122,10 +130,9 @@ Mutex* mutex_for(const char* does, pthread_mutex_t* bytes) {
 }
 
 [[gnu::noinline]] int lock_before(pthread_mutex_t* bytes, Time deadline, bool is_valid_deadline) {
-  Mutex* const there = mutex_for("locks", bytes);
+  Mutex* const there = reach("locks", kernel::Operation::lock, bytes);
   if (there == nullptr) return EINVAL;
   Mutex& mutex = *there;
-  pass(kernel::Operation::lock, &mutex.object);
   if (mutex.is_shared) return shared_mutex::lock(*bytes, deadline, is_valid_deadline);
   // A second lock by the owner ignores the deadline, unless it would wait for itself.
   const bool is_known = mutex.object.owner == kernel::running && type_of(*bytes) != PTHREAD_MUTEX_TIMED_NP &&
@@ -135,10 +142,9 @@ Mutex* mutex_for(const char* does, pthread_mutex_t* bytes) {
 }
 
 int try_lock(pthread_mutex_t* bytes) {
-  Mutex* const there = mutex_for("tries to lock", bytes);
+  Mutex* const there = reach("tries to lock", kernel::Operation::try_lock, bytes);
   if (there == nullptr) return EINVAL;
   Mutex& mutex = *there;
-  pass(kernel::Operation::try_lock, &mutex.object);
   if (mutex.is_shared) return shared_mutex::try_lock(*bytes);
   if (mutex.robust_state == Mutex::RobustState::unrecoverable) return ENOTRECOVERABLE;
   if (mutex.object.owner == kernel::running && type_of(*bytes) == PTHREAD_MUTEX_RECURSIVE_NP)
@@ -153,10 +159,9 @@ int try_lock(pthread_mutex_t* bytes) {
 
 [[gnu::noinline]] int unlock(pthread_mutex_t* bytes) {
   const bool is_new = bytes->__data.__list.__prev == nullptr;  // it may have been locked before main()
-  Mutex* const there = mutex_for("unlocks", bytes);
+  Mutex* const there = reach("unlocks", kernel::Operation::unlock, bytes);
   if (there == nullptr) return EINVAL;
   Mutex& mutex = *there;
-  pass(kernel::Operation::unlock, &mutex.object);
   if (mutex.is_shared) return shared_mutex::unlock(*bytes);
   const bool is_mine = mutex.object.owner == kernel::running;
   if (!is_mine && (type_of(*bytes) == PTHREAD_MUTEX_ERRORCHECK_NP || type_of(*bytes) == PTHREAD_MUTEX_RECURSIVE_NP ||

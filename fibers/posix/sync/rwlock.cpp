@@ -56,6 +56,16 @@ void check(const char* does, const pthread_rwlock_t& bytes) {
     check_is_there(does, *known);
 }
 
+// The lock after the waitpoint of a use. One that was destroyed meanwhile is another one from then on, with a
+// waitpoint.
+RwLock& reach(const char* does, kernel::Operation operation, pthread_rwlock_t* bytes) {
+  check(does, *bytes);
+  RwLock& lock = lock_of(bytes);
+  pass(operation, &lock.object);
+  const bool is_there = shared_rwlock::is_shared(*bytes) || *reinterpret_cast<RwLock* const*>(bytes) == &lock;
+  return is_there ? lock : reach(does, operation, bytes);
+}
+
 bool prefers_writers(const pthread_rwlock_t& bytes) {
   return bytes.__data.__flags == PTHREAD_RWLOCK_PREFER_WRITER_NONRECURSIVE_NP;
 }
@@ -66,9 +76,7 @@ bool readers_wait(const pthread_rwlock_t& bytes, const RwLock& lock) {
 }
 
 int read_before(pthread_rwlock_t* bytes, Time deadline, bool valid) {
-  check("locks", *bytes);
-  RwLock& lock = lock_of(bytes);
-  pass(kernel::Operation::lock_shared, &lock.object);
+  RwLock& lock = reach("locks", kernel::Operation::lock_shared, bytes);
   if (shared_rwlock::is_shared(*bytes)) return shared_rwlock::read_before(*bytes, lock.object, deadline, valid);
   if (lock.object.owner == kernel::running) return EDEADLK;
   for (;;) {
@@ -99,9 +107,7 @@ void admit_readers(RwLock& lock) {
 }
 
 int write_before(pthread_rwlock_t* bytes, Time deadline, bool valid) {
-  check("locks", *bytes);
-  RwLock& lock = lock_of(bytes);
-  pass(kernel::Operation::lock, &lock.object);
+  RwLock& lock = reach("locks", kernel::Operation::lock, bytes);
   if (shared_rwlock::is_shared(*bytes)) return shared_rwlock::write_before(*bytes, lock.object, deadline, valid);
   if (lock.object.owner == kernel::running) return EDEADLK;
   for (;;) {
@@ -137,9 +143,7 @@ void hand_on(RwLock& lock, bool prefers_writers) {
 
 int unlock(pthread_rwlock_t* bytes) {
   const bool is_new = *reinterpret_cast<RwLock* const*>(bytes) == nullptr;  // it may have been locked before main()
-  check("unlocks", *bytes);
-  RwLock& lock = lock_of(bytes);
-  pass(kernel::Operation::unlock, &lock.object);
+  RwLock& lock = reach("unlocks", kernel::Operation::unlock, bytes);
   if (shared_rwlock::is_shared(*bytes)) return shared_rwlock::unlock(*bytes, lock.object);
   if (lock.free() && !is_new) note_misuse("unlocks", lock, ", which is not locked");
   if (lock.object.owner != nullptr && lock.object.owner != kernel::running)
