@@ -1,12 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Known bugs of public libraries, found again by `waitpoint explore --exec`:
-found_again.py BUILD [--mended] [--iterations N] [--programs FOLDER] [--sources NAME=FOLDER ...] [NAME ...].
+found_again.py BUILD [--mended | --table] [--iterations N] [--programs FOLDER] [--sources NAME=FOLDER ...] [NAME ...].
 
 Prints for each program of this folder, or those named, the schedules needed (median of five seeds), what is reported, and how
 many of the failures were replayed, with the command that replays the first. With --programs they stay, in that folder.
 A program is built with Debian's package of its library if that has the bug, or with the sources in FOLDER; without both it
 is left out, with a line. With --mended no schedule of the programs may fail: for a library in which the bug is mended, which
-is Debian's package if no sources are given. README.md has the table.
+is Debian's package if no sources are given. With --table the times to the first failure are compared with native ones, in
+minutes. README.md has both tables.
 """
 
 import argparse
@@ -18,6 +19,7 @@ import subprocess
 import sys
 import tempfile
 
+import times
 from recipes import RECIPES as KNOWN
 from recipes import CannotBuild, compiled
 from unreported import RECIPES as UNREPORTED
@@ -46,7 +48,9 @@ def arguments():
     parser.add_argument("names", nargs="*", metavar="NAME")
     parser.add_argument("--sources", type=sources_of, action="append", default=[], metavar="NAME=FOLDER")
     parser.add_argument("--iterations", type=int, default=5000)
-    parser.add_argument("--mended", action="store_true")
+    kinds = parser.add_mutually_exclusive_group()
+    kinds.add_argument("--mended", action="store_true")
+    kinds.add_argument("--table", action="store_true")
     parser.add_argument("--programs", type=pathlib.Path, metavar="FOLDER")
     options = parser.parse_intermixed_args()
     for name in options.names:
@@ -100,30 +104,48 @@ def needs_sources(recipe, options):
 
 
 def explored(recipe, options, folder):
-    """Prints the row of a recipe, and returns whether its schedules failed, or passed, as expected; None if it is left out."""
-    if needs_sources(recipe, options):
-        print(f"{recipe.name}: left out, it needs --sources {recipe.name}=FOLDER, of version {recipe.version}", file=sys.stderr)
-        return None
-    try:
-        program = compiled(recipe, dict(options.sources).get(recipe.name), folder)
-        campaigns = [Campaign(options.build / "tools/waitpoint", program, options.iterations, seed) for seed in SEEDS]
-    except CannotBuild as error:
-        print(f"{recipe.name}: left out: {error} (package {recipe.package or 'none'})", file=sys.stderr)
-        return None
+    """Prints the row of a recipe, and returns whether its schedules failed, or passed, as expected."""
+    program = compiled(recipe, dict(options.sources).get(recipe.name), folder)
+    campaigns = [Campaign(options.build / "tools/waitpoint", program, options.iterations, seed) for seed in SEEDS]
     print(row_of(recipe, campaigns), flush=True)
     if options.mended:
         return not any(campaign.failure for campaign in campaigns)
     return all(campaign.failure and campaign.replayed for campaign in campaigns)
 
 
+def compared(recipe, options, folder):
+    """Prints the row of a recipe in the table of times."""
+    sources = dict(options.sources).get(recipe.name)
+    program = compiled(recipe, sources, folder)
+    (folder / "native").mkdir(exist_ok=True)
+    native = compiled(recipe.uninstrumented(), sources, folder / "native")
+    print(times.row(options.build / "tools/waitpoint", program, native, SEEDS), flush=True)
+
+
+def result_of(recipe, options, folder):
+    """None if the recipe is left out."""
+    if needs_sources(recipe, options):
+        print(f"{recipe.name}: left out, it needs --sources {recipe.name}=FOLDER, of version {recipe.version}", file=sys.stderr)
+        return None
+    try:
+        return (compared if options.table else explored)(recipe, options, folder)
+    except CannotBuild as error:
+        print(f"{recipe.name}: left out: {error} (package {recipe.package or 'none'})", file=sys.stderr)
+        return None
+
+
+def heading(columns):
+    return "| " + " | ".join(columns) + " |\n" + "|---" * len(columns) + "|"
+
+
 def main():
     options = arguments()
-    print("| program | bug | schedules | report | replayed |\n|---|---|---|---|---|")
+    print(heading(times.COLUMNS if options.table else ("program", "bug", "schedules", "report", "replayed")), flush=True)
     with tempfile.TemporaryDirectory() as temporary:
         folder = options.programs or pathlib.Path(temporary)
         folder.mkdir(parents=True, exist_ok=True)
         chosen = [recipe for recipe in RECIPES if not options.names or recipe.name in options.names]
-        results = [explored(recipe, options, folder.resolve()) for recipe in chosen]
+        results = [result_of(recipe, options, folder.resolve()) for recipe in chosen]
     return 1 if False in results else 0
 
 

@@ -31,6 +31,10 @@ class Recipe:
     def name(self):
         return pathlib.Path(self.program).stem
 
+    def uninstrumented(self):
+        options = tuple(option for option in self.options if not option.startswith("-fsanitize"))
+        return dataclasses.replace(self, options=options)
+
 
 def run(*command):
     done = subprocess.run([str(word) for word in command], capture_output=True, text=True, errors="replace")
@@ -60,7 +64,7 @@ def tf2(sources, _folder):
 def installed(sources, _folder):
     """A library that was installed in a folder, such as a package of another version that dpkg has extracted there."""
     libraries = sources / "usr/lib/x86_64-linux-gnu"
-    return [f"-I{sources}/usr/include", f"-L{libraries}", f"-Wl,-rpath,{libraries}"]
+    return [f"-I{sources}/usr/include", f"-L{libraries}", f"-Wl,--disable-new-dtags,-rpath,{libraries}"]
 
 
 def thread_pool(sources, _folder):
@@ -94,6 +98,8 @@ RECIPES = [
     Recipe("httplib_stop.cpp", "cpp-httplib #1371", "0.11.4", "libcpp-httplib-dev", ("cpp-httplib",), installed),
     Recipe("boost_interrupted_lock.cpp", "Boost.Thread #373", "1.74.0", "libboost-thread-dev",
            ("boost_thread", "boost_chrono", "boost_system"), installed),
+    Recipe("std_semaphore.cpp", "GCC #104928", "12.2.0", "libstdc++-12-dev", (), installed,
+           options=("-std=c++20", "-fsanitize=thread")),
 ]
 
 

@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// GCC, bug 104928: two threads take turns by a semaphore of the standard library.
+// GCC, bug 104928: three threads take turns by a semaphore of the standard library.
 #include <semaphore>
 #include <thread>
 
 int main() {
-  std::binary_semaphore turn(1);
+  std::binary_semaphore free(1);
   const auto take_turn = [&] {
-    turn.acquire();
-    turn.release();
+    free.acquire();
+    free.release();
   };
-  std::thread other(take_turn);
+  std::thread second(take_turn);
+  std::thread third(take_turn);
   take_turn();
-  other.join();
+  second.join();
+  third.join();
 }
