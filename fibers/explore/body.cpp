@@ -27,16 +27,19 @@ std::string describe_races(sync::Places places) {
 
 }  // namespace
 
-Body::Body(std::function<void()> function, ExternalChecks* checks, Time until, std::uint32_t steps_max)
+Body::Body(std::function<void()> function, ExternalChecks* checks, Time until, std::uint32_t steps_max, Memory memory)
     : function_(std::move(function)),
       checks_(checks),
       until_(until),
       simulation_(explored()),
       reports_(&simulation_.scheduler()),
-      explorer_(simulation_.scheduler(), steps_max) {
+      explorer_(simulation_.scheduler(), steps_max),
+      memory_(memory) {
   simulation_.scheduler().set_decisions(explorer_);
   tell(sync::Places::left_out);
 }
+
+Body::~Body() { races::set_weak_memory(false); }
 
 void Body::tell(sync::Places places) {
   places_ = places;
@@ -44,6 +47,7 @@ void Body::tell(sync::Places places) {
 }
 
 void Body::start(Strategy& strategy, const Played& played) {
+  races::set_weak_memory(memory_ == Memory::weak);
   if (used_) simulation_.restart(0);
   used_ = true;
   explorer_.begin(strategy, played);

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "fibers/explore/schedules/explorer.hpp"
+#include "fibers/explore/strategies/memory_option.hpp"
 #include "fibers/kernel/fault_reports.hpp"
 #include "fibers/sync/simulation.hpp"
 
@@ -45,8 +46,9 @@ struct Outcome {
 class Body {
  public:
   /// `checks` may be null. The limits of a schedule are `until` in virtual time, and `steps_max` switch points at one
-  /// instant.
-  Body(std::function<void()> function, ExternalChecks* checks, Time until, std::uint32_t steps_max);
+  /// instant. `memory` is that of instrumented code.
+  Body(std::function<void()> function, ExternalChecks* checks, Time until, std::uint32_t steps_max,
+       Memory memory = Memory::sc);
 
   /// Runs it from the beginning: first `played`, then `strategy`, which must have begun this schedule.
   Outcome run(Strategy& strategy, const Played& played = {});
@@ -56,6 +58,9 @@ class Body {
   /// As run() with that schedule, with `decisions` between the kernel and the explorer.
   void run_watched_by(kernel::Decisions& decisions, const Schedule& schedule);
 
+  ~Body();
+
+  Memory memory() const { return memory_; }
   /// Data races no longer count as failures.
   void ignore_races() { fails_on_races_ = false; }
   /// Controls the source locations in failures, off by default: looking them up takes a second.
@@ -75,6 +80,7 @@ class Body {
   kernel::FaultReports reports_;  // installed once, not per schedule
   Explorer explorer_;
   sync::Places places_ = sync::Places::left_out;
+  const Memory memory_;
   bool fails_on_races_ = true;
   bool used_ = false;
 };

@@ -22,6 +22,7 @@ Outcome take_profile(Body& body, Profile& profile) {
   Outcome outcome = body.run(fifo);
   scheduler.set_watch(nullptr);
   profile.finish(body.explorer().steps());
+  profile.memory = body.memory();
   return outcome;
 }
 

@@ -31,7 +31,7 @@ std::uint64_t number_of(const Outcome& outcome) {
 // The token to replay, or that of the campaign's schedules, without their numbers.
 Token first_token(const ExploreOptions& options, std::uint32_t call) {
   if (!options.replay.empty()) return read_token(options.replay);
-  return {call, 0, options.strategy, options.seed, 0, {}};
+  return {call, 0, options.strategy, options.seed, 0, {}, {}, options.memory};
 }
 
 }  // namespace
@@ -41,7 +41,7 @@ Campaign::Campaign(ExternalChecks* checks, std::function<void()> body, const Exp
     : options_(options),
       call_(call),
       command_(command_line(checks)),
-      body_(std::move(body), checks, options.until, options.steps_max),
+      body_(std::move(body), checks, options.until, options.steps_max, options.memory),
       supervisor_({.explored = -1,
                    .token = first_token(options, call),
                    .replay = "replay: WAITPOINT_REPLAY=",
@@ -138,10 +138,11 @@ bool Campaign::fails(Strategy& strategy, std::uint64_t number) {
   ++report_.schedules;
   if (!outcome.was_cut) seen_.insert(outcome.digest);
   if (outcome.passed()) return false;
-  const Found found{{body_.explorer().schedule(), outcome},
-                    {call_, token_digest(outcome.digest), options_.strategy, options_.seed, number, {}},
-                    "schedule " + std::to_string(number) + " of strategy " + options_.strategy + ", seed " +
-                        std::to_string(options_.seed)};
+  const Found found{
+      {body_.explorer().schedule(), outcome},
+      {call_, token_digest(outcome.digest), options_.strategy, options_.seed, number, {}, {}, options_.memory},
+      "schedule " + std::to_string(number) + " of strategy " + options_.strategy + ", seed " +
+          std::to_string(options_.seed)};
   if (goes_on_after(found)) return false;
   report_.failed_at = number;
   tell(found);
@@ -152,6 +153,7 @@ void Campaign::search() {
   const std::unique_ptr<Strategy> strategy = make_strategy(options_.strategy);
   const Clock::time_point start = Clock::now();
   races::note_unlearned(strategy->is_exhaustive());
+  races::forget_left_out_values();
   for (std::uint64_t number = 0; number < options_.iterations; ++number) {
     if (options_.time_limit_s > 0 &&
         std::chrono::duration<double>(Clock::now() - start).count() >= options_.time_limit_s)
@@ -183,12 +185,14 @@ void Campaign::set_scope(const Strategy& strategy) {
   add(left_out.costs, "computing costs between the bounds");
   add(left_out.spurious, "spurious wake-ups");
   add(races::noted_unlearned(), "switches at first accesses to memory that the default order does not share");
+  add(races::left_out_values(), values_left_out);
   report_.scope = "all schedules" + strategy.scope() + but;
-  report_.complete = strategy.scope().empty() && !left_out.turns && !left_out.costs && !races::noted_unlearned();
+  report_.complete = strategy.scope().empty() && !left_out.turns && !left_out.costs && !races::noted_unlearned() &&
+                     !races::left_out_values();
 }
 
 Token Campaign::token_of(const Failure& failure) const {
-  return {call_, token_digest(failure.outcome.digest), "", 0, 0, failure.schedule.deviations()};
+  return {call_, token_digest(failure.outcome.digest), "", 0, 0, failure.schedule.deviations(), {}, options_.memory};
 }
 
 std::string Campaign::replay_line(const Token& token) const {

@@ -19,7 +19,8 @@ namespace {
 constexpr const char *strategy_name = "WAITPOINT_STRATEGY", *seed_name = "WAITPOINT_SEED",
                      *iterations_name = "WAITPOINT_ITERATIONS", *time_limit_name = "WAITPOINT_TIME_LIMIT",
                      *schedule_limit_name = "WAITPOINT_SCHEDULE_LIMIT", *races_name = "WAITPOINT_RACES",
-                     *replay_name = "WAITPOINT_REPLAY", *trace_name = "WAITPOINT_TRACE";
+                     *memory_name = "WAITPOINT_MEMORY", *replay_name = "WAITPOINT_REPLAY",
+                     *trace_name = "WAITPOINT_TRACE";
 
 std::string variable(const char* name) {
   const char* value = std::getenv(name);
@@ -88,6 +89,11 @@ ExploreOptions with_environment(ExploreOptions options) {
     if (!meant) throw BadInput(races_name, std::string("expected ") + races_words + ", found '" + races + "'");
     options.races = *meant;
   }
+  if (const std::string memory = variable(memory_name); !memory.empty()) {
+    const std::optional<Memory> meant = memory_named(memory);
+    if (!meant) throw BadInput(memory_name, std::string("expected ") + memory_words + ", found '" + memory + "'");
+    options.memory = *meant;
+  }
   check_can_be_written(trace_name);
   if (const std::string replay = variable(replay_name); !replay.empty()) {
     options.replay = replay;
@@ -98,7 +104,7 @@ ExploreOptions with_environment(ExploreOptions options) {
 
 void refuse_environment(const BadInput& input) {
   for (const char* name : {strategy_name, seed_name, iterations_name, time_limit_name, schedule_limit_name, races_name,
-                           replay_name, trace_name})
+                           memory_name, replay_name, trace_name})
     if (!variable(name).empty()) refuse(input.what());
 }
 

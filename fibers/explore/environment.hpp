@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Options of exploring tests set by the environment: WAITPOINT_STRATEGY, _SEED, _ITERATIONS, _TIME_LIMIT,
-// _SCHEDULE_LIMIT, _RACES, _REPLAY and _TRACE.
+// _SCHEDULE_LIMIT, _RACES, _MEMORY, _REPLAY and _TRACE.
 #pragma once
 
 #include "core/error.hpp"

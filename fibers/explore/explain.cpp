@@ -5,6 +5,7 @@
 
 #include "fibers/explore/body_watch.hpp"
 #include "fibers/explore/report/choice_text.hpp"
+#include "fibers/explore/report/place_text.hpp"
 #include "fibers/explore/report/reordered_events.hpp"
 #include "fibers/explore/schedules/event_stop.hpp"
 #include "fibers/explore/strategies/fifo.hpp"
@@ -96,6 +97,7 @@ const char* description(Choice choice) {
     case Choice::loss: return "the loss of a datagram";
     case Choice::computing: return "the cost of a computation";
     case Choice::process: return "the next process";
+    case Choice::value: return "the value that a load returns";
   }
   return "";
 }
@@ -112,7 +114,11 @@ std::string describe_last_crossing(Body& body, const Failure& failure, Effort ef
   if (decision.choice != Choice::task) {
     ChoiceWords words(body.explorer(), crossing->decision, crossing->instead);
     body.run_watched_by(words, failure.schedule);
-    return text + ", " + words.text() + describe_pair(body, failure, *crossing);
+    if (!words.chosen().words.empty()) {
+      const std::vector<std::string> told = with_lines({words.chosen(), words.instead()});
+      text += ", " + told[0] + "; it passes if it " + told[1];
+    }
+    return text + describe_pair(body, failure, *crossing);
   }
   Played played{.prefix = failure.schedule.decisions};
   played.stop_at = crossing->decision;
@@ -136,7 +142,7 @@ std::string describe_other_switches(Body& body, const Schedule& schedule) {
     if (decision.choice == Choice::task || !decision.is_switch()) continue;
     ChoiceWords words(body.explorer(), i, decision.usual);
     body.run_watched_by(words, schedule);
-    text += "  " + words.chosen() + "\n";
+    text += "  " + with_lines({words.chosen()}).front() + "\n";
     ++shown;
   }
   return text;

@@ -4,6 +4,7 @@
 #include "core/error.hpp"
 #include "fibers/explore/campaign.hpp"
 #include "fibers/explore/environment.hpp"
+#include "fibers/explore/races/races.hpp"
 #include "fibers/explore/strategies/factory.hpp"
 
 namespace waitpoint {
@@ -23,13 +24,20 @@ void check_can_be_meant(const ExploreOptions& options) {
   if (options.iterations == 0) throw BadInput("iterations", "expected a positive whole number, found 0");
   if (!(options.time_limit_s >= 0))
     throw BadInput("time_limit_s", "expected seconds, or 0 for none, found " + std::to_string(options.time_limit_s));
+  if (options.memory == Memory::weak && !races::present())
+    throw BadInput("memory",
+                   "expected a program linked with waitpoint-races, for code compiled with -fsanitize=thread");
 }
 
 ExploreReport explore_call(exploration::ExternalChecks* checks, std::function<void()> body, ExploreOptions options) {
   const std::uint32_t call = count_call(checks != nullptr ? checks->name() : "");
+  exploration::Token token;
+  if (!options.replay.empty()) {
+    token = exploration::read_token(options.replay);
+    options.memory = token.memory;
+  }
   check_can_be_meant(options);  // before the first run
   if (options.replay.empty()) return exploration::Campaign(checks, std::move(body), options, call).run();
-  const exploration::Token token = exploration::read_token(options.replay);
   if (token.call == 0)
     throw BadInput("replay", "expected a test's token, found a scenario's: '" + options.replay + "'");
   if (token.call == call) {

@@ -12,6 +12,11 @@ void access(Operation operation, Object* memory) {
   running->scheduler->waitpoint(operation, memory);
 }
 
+std::uint32_t choose_value(std::uint32_t count) {
+  if (count < 2 || (running->attention & attention::timer) != 0) return 0;
+  return running->scheduler->chooser().value(*running, count);
+}
+
 void yield_after_computing() {
   Task& task = *running;
   if ((task.attention & attention::timer) != 0) return;

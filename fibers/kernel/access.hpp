@@ -15,6 +15,9 @@ extern const char memory_kind[];
 /// A waitpoint of the running task before `operation` on memory shared with others; `memory` is null for operations
 /// without a location. Returns at once for a timer, which cannot wait, and when the run is over.
 void access(Operation operation, Object* memory);
+/// The store, counted from the newest, whose value a load of the running task returns, of `count`; the newest for a
+/// timer, whose events have no choices of this kind.
+std::uint32_t choose_value(std::uint32_t count);
 /// Yields, after a long computation without a waitpoint. Returns at once for a timer and when the run is over.
 void yield_after_computing();
 

@@ -71,6 +71,11 @@ class Chooser {
     return order_ == Order::explored && decisions_->among(Choice::spurious, task, 2) != 0;
   }
 
+  /// The store, counted from the newest, whose value a load of `task` returns, of `count`, which is at least 2.
+  std::uint32_t value(const Task& task, std::uint32_t count) const {
+    return order_ == Order::explored ? decisions_->among(Choice::value, task, count) : 0;
+  }
+
   /// The cost of a computation of `task`, within [`least`, `greatest`]; each computation has a number of its own.
   Duration computing(Task& task, Duration least, Duration greatest) const {
     if (order_ == Order::fifo) return greatest;

@@ -24,6 +24,7 @@ enum class Choice : std::uint8_t {
   loss,       ///< 1: a datagram is lost
   computing,  ///< the cost of a computation: one of the values offered
   process,    ///< the process, of several with one simulation, that executes the next event
+  value,      ///< the store, counted from the newest, whose value a load returns
 };
 
 class Decisions {

@@ -28,6 +28,7 @@ WAITPOINT_WEAK void waitpoint_races_open_run();
 WAITPOINT_WEAK void waitpoint_races_close_run();
 WAITPOINT_WEAK void waitpoint_races_forget(const void* low, std::size_t size);
 WAITPOINT_WEAK void waitpoint_races_use(const void* object);
+WAITPOINT_WEAK void waitpoint_races_read(const void* word, std::size_t size);
 #undef WAITPOINT_WEAK
 }
 
@@ -185,6 +186,10 @@ void use(const void* object) {
   if (!thread) return;
   __tsan_acquire(const_cast<void*>(object));
   __tsan_release(const_cast<void*>(object));
+}
+
+void read(const void* word, std::size_t size) {
+  if (own_races) waitpoint_races_read(word, size);
 }
 
 }  // namespace waitpoint::kernel::sanitizer

@@ -58,6 +58,8 @@ void release(const void* object);
 void acquire(const void* object);
 /// acquire(), then release().
 void use(const void* object);
+/// The caller has read this word's value in memory: its later atomic loads return no older one.
+void read(const void* word, std::size_t size);
 
 }  // namespace sanitizer
 }  // namespace waitpoint::kernel

@@ -50,6 +50,7 @@ OWN_CASES = {
     "explore --exec, ends": [sys.executable, str(ROOT / "tests/exec/ends_test.py"), BUILD],
     "explore --exec, processes": [sys.executable, str(ROOT / "tests/exec/exploring_processes_test.py"), BUILD],
     "explore --exec, data races": [sys.executable, str(ROOT / "tests/exec/races_test.py"), BUILD],
+    "explore --exec, weak memory": [sys.executable, str(ROOT / "tests/exec/weak_memory_test.py"), BUILD],
     "exec: planted bugs": [sys.executable, str(ROOT / "tests/exec/zoo_test.py"), BUILD],
     "faults": [sys.executable, str(ROOT / "tests/faults/faults_test.py"), BUILD],
     "gdb": [sys.executable, str(ROOT / "tests/programs/gdb_test.py"), BUILD],

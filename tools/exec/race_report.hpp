@@ -26,6 +26,8 @@ std::string races_of(const posix::Record& record);
 bool has_races(const posix::Record& record);
 /// True if other code than that of an earlier run accesses shared memory, if the run notes it.
 bool has_unlearned_code(const posix::Record& record);
+/// True if, in weak memory, a load was not offered a value that it may have returned.
+bool has_left_out_values(const posix::Record& record);
 /// All races as they were found, without the names of source lines.
 std::vector<races::LocatedRace> located_races(const posix::Record& record);
 /// The code that accesses shared memory, if the run recorded it.

@@ -88,6 +88,14 @@ std::optional<SwitchAt> switch_at_named(const std::string& option) {
   return text == "calls" ? SwitchAt::calls : SwitchAt::accesses;
 }
 
+Memory memory_of(const std::string& option) {
+  std::string where = "--memory";
+  const std::string text = text_of(option, "WAITPOINT_MEMORY", where);
+  const std::optional<Memory> meant = memory_named(text.empty() ? "sc" : text);
+  if (!meant) refuse(where, memory_words, text);
+  return *meant;
+}
+
 std::optional<std::filesystem::path> file(const std::string& name) {
   return name.empty() ? std::nullopt : std::optional<std::filesystem::path>(name);
 }
@@ -144,6 +152,10 @@ ExploreArguments::ExploreArguments(CommandLine& line)
                   "switch points of a program (default: $WAITPOINT_SWITCH_AT, or accesses; with dfs, bounded\n"
                   "and dpor: calls): simulated calls; accesses to shared memory, too, as always with\n"
                   "-fsanitize=thread");
+  command_.option("--memory", memory_, "sc|weak",
+                  "memory of a program compiled with -fsanitize=thread (default: $WAITPOINT_MEMORY, or sc):\n"
+                  "atomic loads return the newest value; or, as C++20 allows for their memory orders, older\n"
+                  "ones, too");
   conditions_.add_to(command_);
   command_.flag("--no-minimize", keep_all_, "report the failure as found, without minimisation");
   command_.footer(
@@ -214,6 +226,8 @@ ExploreOptions ExploreArguments::options(const std::vector<std::string>& words) 
   options.races = races_of(races_);
   if (!switch_at_.empty() && !is_program_) throw BadInput("--switch-at", "expected --exec and a program");
   options.switch_at = switch_at_named(switch_at_);
+  if (!memory_.empty() && !is_program_) throw BadInput("--memory", "expected --exec and a program");
+  if (is_program_) options.memory = memory_of(memory_);
   options.until = positive_seconds("--until", until_);
   options.from = positive_seconds("--from", from_);
   if (options.from && options.until && *options.from >= *options.until)

@@ -10,6 +10,7 @@
 
 #include "core/time.hpp"
 #include "fibers/explore/races_option.hpp"
+#include "fibers/explore/strategies/memory_option.hpp"
 #include "tools/command/command_line.hpp"
 #include "tools/command/confinement_options.hpp"
 #include "tools/exec/program_conditions.hpp"
@@ -46,6 +47,7 @@ struct ExploreOptions {
   bool minimize = true;
   ProgramConditions conditions;       ///< of a program
   Races races = Races::report;        ///< of a program compiled with -fsanitize=thread
+  Memory memory = Memory::sc;         ///< the same
   std::optional<SwitchAt> switch_at;  ///< of a program without it; default: by the strategy, see switch_at_of()
 
   /// The end of a run, for a scenario whose own limit is `own`.
@@ -76,7 +78,7 @@ class ExploreArguments {
 
   Command command_;
   std::string scenario_, seed_, strategy_, iterations_, time_limit_, schedule_limit_, jobs_, until_, from_, shard_;
-  std::string results_, trace_, schedule_, replay_, races_, switch_at_;
+  std::string results_, trace_, schedule_, replay_, races_, switch_at_, memory_;
   std::vector<std::string> assignments_, properties_;
   ConfinementArguments confinement_;
   ConditionArguments conditions_;

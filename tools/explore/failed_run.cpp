@@ -33,8 +33,8 @@ Plan plan_of(const FailedRun& run, const ExploreOptions& options) {
 
 Token token_of(const FailedRun& run, const ExploreOptions& options) {
   const std::uint32_t digest = token_digest(run.finding.digest);
-  if (is_drawn(run, options)) return {0, digest, options.strategy, options.seed, *run.number, {}};
-  return {0, digest, "", 0, 0, run.finding.deviations};
+  if (is_drawn(run, options)) return {0, digest, options.strategy, options.seed, *run.number, {}, {}, options.memory};
+  return {0, digest, "", 0, 0, run.finding.deviations, {}, options.memory};
 }
 
 std::string replay_command(const ExploreOptions& options, const std::string& replayed) {
@@ -46,6 +46,7 @@ std::string replay_command(const ExploreOptions& options, const std::string& rep
   if (options.races != Races::report) line += options.races == Races::fail ? " --races fail" : " --races ignore";
   if (!options.program.empty())
     line += switch_at_of(options) == SwitchAt::accesses ? " --switch-at accesses" : " --switch-at calls";
+  if (options.memory == Memory::weak) line += " --memory weak";
   if (options.from) line += " --from " + to_string(Time() + *options.from);
   const std::size_t sets = options.assignments.size() - options.properties.size();
   for (std::size_t i = 0; i < sets; ++i) line += " --set " + quoted(options.assignments[i]);

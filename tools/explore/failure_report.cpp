@@ -66,7 +66,7 @@ FailureReport report_default(Target& target, const Finding& finding) {
                      trail_of(target, {.drawn = false}, finding)};
   tell_run(target, {.drawn = false}, finding, report);
   if (finding.digest != 0) report.text += "digest: " + digest_text(finding.digest) + "\n";
-  const Token token{0, token_digest(finding.digest), "", 0, 0, {}};
+  const Token token{0, token_digest(finding.digest), "", 0, 0, {}, {}, options.memory};
   report.text += "replay: " + replay_command(options, to_text_with(token, report.schedule.trail)) + "\n";
   return report;
 }
@@ -99,7 +99,7 @@ FailureReport report(Target& target, SearchProgress& progress, const FailedRun& 
     if (fewer.is_noise() || fewer.repeats()) {
       least = fewer.least();
       plan = {.number = fewer.number(), .drawn = false, .switches = {}, .deviations = least.deviations};
-      const Token deviating{0, token_digest(least.digest), "", 0, 0, least.deviations};
+      const Token deviating{0, token_digest(least.digest), "", 0, 0, least.deviations, {}, options.memory};
       if (fewer.number() == 0 && to_text(deviating).size() <= exploration::token_length_max) token = deviating;
     }
     Budget explaining(runs_to_explain, seconds_to_explain);

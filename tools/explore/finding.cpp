@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <sstream>
 
+#include "fibers/explore/report/place_text.hpp"
 #include "fibers/explore/report/reordered_events.hpp"
 #include "tools/explore/fields.hpp"
 
@@ -43,6 +44,7 @@ void pass_fields(Pass& pass, F& finding) {
   pass(finding.was_cut);
   pass(finding.cuts_polls_short);
   pass(finding.has_unlearned_code);
+  pass(finding.has_left_out_values);
   pass(finding.parted);
   pass(finding.racing);
   pass(finding.details);
@@ -78,9 +80,9 @@ void Finding::take(const exploration::Schedule& schedule, bool has_parted) {
 
 void Finding::tell(const exploration::Narration& narration, bool decision_asked, bool switches_too) {
   if (const auto& answer = narration.answer; decision_asked && answer)
-    told = "at " + to_string(answer->time) + " s: " + answer->words;
+    told = "at " + to_string(answer->time) + " s: " + exploration::with_lines(std::vector{*answer}).front().words;
   else if (switches_too)
-    told = to_text(narration.switches, lines_of_switches_max);
+    told = to_text(exploration::with_lines(narration.switches), lines_of_switches_max);
 }
 
 void Finding::tell(const exploration::Timeline& timeline, bool trace_too) {

@@ -49,14 +49,15 @@ struct Finding {
   bool was_cut = false;                 ///< dpor has ended it before its end: its rest is equivalent to others'
   bool cuts_polls_short = false;        ///< as in exploration::Schedule
   bool has_unlearned_code = false;  ///< its first accesses to shared memory were no switch points; if choices are asked
-  bool parted = false;              ///< the plan did not fit the run
-  std::vector<RacingCode> racing;   ///< of its data races, whatever its kind
-  std::vector<ToldRace> races;      ///< the same in words, if places are requested, or new to the process
-  std::string details;              ///< for failures, if places are requested: lines specific to the kind
-  std::string told;                 ///< if requested: the switches, a decision or an event, in words
-  std::string system_calls;         ///< with the profile: warnings of calls that leave virtual time
-  std::string last_events;          ///< if requested, in words
-  std::string trace;                ///< if requested
+  bool has_left_out_values = false;         ///< a load was not offered a value that it may have returned
+  bool parted = false;                      ///< the plan did not fit the run
+  std::vector<RacingCode> racing;           ///< of its data races, whatever its kind
+  std::vector<ToldRace> races;              ///< the same in words, if places are requested, or new to the process
+  std::string details;                      ///< for failures, if places are requested: lines specific to the kind
+  std::string told;                         ///< if requested: the switches, a decision or an event, in words
+  std::string system_calls;                 ///< with the profile: warnings of calls that leave virtual time
+  std::string last_events;                  ///< if requested, in words
+  std::string trace;                        ///< if requested
   std::vector<exploration::DoneEvent> log;  ///< if requested
   std::string trail;                        ///< if requested
   exploration::Profile profile;             ///< if requested

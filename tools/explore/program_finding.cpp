@@ -137,6 +137,7 @@ void ask_for_run(RunMemory& memory, const ProgramFiles& files, const ExploreOpti
   asked.code = copied(record.arena, profile.code);
   if (!files.instrumented)
     asked.accesses = copied(record.arena, request.learn ? files.accesses : learned(files.accesses, profile.code));
+  asked.memory = options.memory;
   asked.learn = request.learn;
   asked.notes = request.choices;
   asked.profile = request.profile;
@@ -211,6 +212,7 @@ Finding finding_of_run(const RunMemory& memory, int status, const std::string& o
     // The run's own process has another table of virtual functions.
     finding.progress = static_cast<const exploration::Dpor&>(*explored.strategy).progress();
   finding.has_unlearned_code = has_unlearned_code(record);
+  finding.has_left_out_values = has_left_out_values(record);
   if (request.profile) {
     finding.profile = explored.profile;
     finding.profile.finish(explored.explorer.steps());

@@ -51,6 +51,7 @@ int replay_program(const ExploreOptions& asked) {
   const ProgramFiles named(options.program);
   options.conditions.check(named.named());
   const ReplayRecord record = read_replay_record(options, fingerprint_of(named, options));
+  check_memory(options, named);
   const std::string& strategy = record.stored.strategy.empty() ? options.strategy : record.stored.strategy;
   const ProgramFiles files(options.program, false, options.switch_at.value_or(switch_at_of(strategy)));
   std::optional<OutputFile> trace;

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "core/digest.hpp"
+#include "core/error.hpp"
 #include "tools/exec/accounts.hpp"
 #include "tools/exec/family_report.hpp"
 #include "tools/exec/program_run.hpp"
@@ -73,7 +74,14 @@ std::uint64_t fingerprint_of(const ProgramFiles& files, const ExploreOptions& op
   digest.add(options.seed);
   if (options.until) digest.add(static_cast<std::uint64_t>(options.until->ns()));
   digest.add(std::string_view(options.conditions.words()));
+  if (options.memory == Memory::weak) digest.add(std::string_view("weak memory"));
   return digest.value();
+}
+
+void check_memory(const ExploreOptions& options, const ProgramFiles& files) {
+  if (options.memory == Memory::weak && !files.instrumented)
+    throw BadInput("--memory",
+                   "expected a program compiled with -fsanitize=thread, found '" + files.programs.title() + "'");
 }
 
 ProgramTarget::ProgramTarget(const ExploreOptions& options)
@@ -82,6 +90,7 @@ ProgramTarget::ProgramTarget(const ExploreOptions& options)
       fingerprint_(fingerprint_of(files_, options)),
       input_(open_input()) {
   options.conditions.check(files_.named());
+  check_memory(options, files_);
   if (options.races == Races::ignore) ignore_races();
 }
 

@@ -45,4 +45,7 @@ class ProgramTarget final : public Target {
 /// A digest of the program's file, its words and the settings that its runs share.
 std::uint64_t fingerprint_of(const ProgramFiles& files, const ExploreOptions& options);
 
+/// BadInput if the options ask for weak memory, which only instrumented programs have.
+void check_memory(const ExploreOptions& options, const ProgramFiles& files);
+
 }  // namespace waitpoint::tools

@@ -33,6 +33,7 @@ ReplayRecord of_token(ExploreOptions& options) {
   record.digest = std::uint64_t{token.digest} << 32;
   record.digest_bits = token.digest == 0 ? 0 : 32;
   record.trail = token.trail;
+  options.memory = token.memory;
   if (token.strategy.empty()) {
     record.plan = {.drawn = false, .deviations = token.deviations};
   } else {

@@ -19,7 +19,7 @@ namespace {
 using exploration::Switch;
 using kernel::Choice;
 
-constexpr std::string_view choices[] = {"task", "waiter", "spurious", "loss", "computing", "process"};
+constexpr std::string_view choices[] = {"task", "waiter", "spurious", "loss", "computing", "process", "value"};
 constexpr std::size_t bytes_max = std::size_t{64} << 20;
 constexpr std::size_t words_max = 5;  // an alternative that is not an event is one word, in choices of processes two
 constexpr std::string_view digest_prefix = "wp1:";

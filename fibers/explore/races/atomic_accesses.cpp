@@ -3,7 +3,8 @@
 // (tsan_interface_atomic.h).
 //
 // The operation itself is always sequentially consistent: all tasks run in one OS thread. Its happens-before edges
-// follow the requested order. Values that only a weaker memory could show are not explored.
+// follow the requested order. In weak memory a load may return an older value than that in memory, but not one of more
+// than 8 bytes.
 #include <cstddef>
 #include <cstdint>
 
@@ -61,22 +62,50 @@ inline T replace(volatile T* at, Function function) {
   }
 }
 
+inline std::uint64_t number(const volatile void* at) { return reinterpret_cast<std::uint64_t>(at); }
+
+// True if weak memory keeps the stores to this location. Otherwise, if `writes`, those to parts of it are forgotten.
 template <class T>
-inline T load(const volatile T* at, int order, const void* place) {
-  if (access(at, sizeof(T), false, place, Operation::load)) Detector::the().atomic_load(plain(at), order_of(order));
-  return value_of(at);
+inline bool keeps_stores(const volatile T* at, bool writes) {
+  Detector& detector = Detector::the();
+  if (__builtin_expect(!detector.is_weak(), 1)) return false;
+  if (sizeof(T) <= 8 && number(at) % sizeof(T) == 0) return true;
+  if (writes) detector.weak_overwrite(number(at), sizeof(T));
+  return false;
 }
 
 template <class T>
-inline void store(volatile T* at, T value, int order, const void* place) {
-  if (access(at, sizeof(T), true, place, Operation::store)) Detector::the().atomic_store(plain(at), order_of(order));
-  replace(at, [&](T) { return value; });
+inline T load(const volatile T* at, int order, const void* place) {
+  if (!access(at, sizeof(T), false, place, Operation::load)) return value_of(at);
+  if (keeps_stores(at, false))
+    return static_cast<T>(Detector::the().weak_load(number(at), sizeof(T), static_cast<std::uint64_t>(value_of(at)),
+                                                    order_of(order), place));
+  Detector::the().atomic_load(plain(at), order_of(order));
+  return value_of(at);
 }
 
 template <class T, class Function>
 inline T modify(volatile T* at, int order, const void* place, Operation operation, Function function) {
-  if (access(at, sizeof(T), true, place, operation)) Detector::the().atomic_modify(plain(at), order_of(order));
+  if (!access(at, sizeof(T), true, place, operation)) return replace(at, function);
+  if (keeps_stores(at, true)) {
+    const T before = replace(at, function);
+    Detector::the().weak_modify(number(at), sizeof(T), static_cast<std::uint64_t>(before),
+                                static_cast<std::uint64_t>(static_cast<T>(function(before))), order_of(order), place);
+    return before;
+  }
+  Detector::the().atomic_modify(plain(at), order_of(order));
   return replace(at, function);
+}
+
+template <class T>
+inline void store(volatile T* at, T value, int order, const void* place) {
+  const bool watched = access(at, sizeof(T), true, place, Operation::store);
+  const bool keeps = watched && keeps_stores(at, true);
+  if (watched && !keeps) Detector::the().atomic_store(plain(at), order_of(order));
+  const T before = replace(at, [&](T) { return value; });
+  if (keeps)
+    Detector::the().weak_store(number(at), sizeof(T), static_cast<std::uint64_t>(before),
+                               static_cast<std::uint64_t>(value), order_of(order), place);
 }
 
 template <class T>
@@ -85,8 +114,16 @@ inline bool compare_exchange(volatile T* at, T* expected, T desired, int success
   const T found = swap_if(at, *expected, desired);
   const bool done = found == *expected;
   *expected = found;
-  if (watched && done) Detector::the().atomic_modify(plain(at), order_of(success));
-  if (watched && !done) Detector::the().atomic_load(plain(at), order_of(failure));
+  if (!watched) return done;
+  Detector& detector = Detector::the();
+  if (!keeps_stores(at, done)) {
+    done ? detector.atomic_modify(plain(at), order_of(success)) : detector.atomic_load(plain(at), order_of(failure));
+  } else if (done) {
+    detector.weak_modify(number(at), sizeof(T), static_cast<std::uint64_t>(found), static_cast<std::uint64_t>(desired),
+                         order_of(success), place);
+  } else {
+    detector.weak_compare(number(at), sizeof(T), static_cast<std::uint64_t>(found), order_of(failure), place);
+  }
   return done;
 }
 

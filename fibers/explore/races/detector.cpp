@@ -31,7 +31,7 @@ void Detector::touch(std::uint64_t word, Seen seen) {
 // record() for an empty cell.
 inline void Detector::begin_cell(Cell& cell, const Seen& seen) {
   current_->accessed = current_->epoch();
-  cell.touched = true;
+  cell.touched = cell.is_private = true;
   cell.owner = current_->index;
   cell.written = seen.writes() && seen.is_atomic();
   cell.latest = describe(seen);
@@ -111,13 +111,16 @@ void Detector::unwatched(std::uint32_t weight) {
   Context& self = *current_;
   const Epoch epoch = self.epoch();
   const MemoryAccess& latest = cell.latest;
+  if (__builtin_expect(cell.locations != no_location, 0) && seen.writes() && !seen.is_atomic())
+    weak_.overwrite(cell, seen.footprint & footprint::bytes);
   if (latest.task == self.index && latest.epoch == epoch && footprint::covers(latest.footprint, seen.footprint)) return;
   self.accessed = epoch;
   if (__builtin_expect(!cell.touched, 0)) {
-    cell.touched = true;
+    cell.touched = cell.is_private = true;
     cell.owner = self.index;
   }
   cell.several |= cell.owner != self.index;
+  cell.is_private &= !cell.several;
   cell.written |= seen.writes() && (cell.several || seen.is_atomic());
 
   // The earlier accesses that this one does not cover, one bit each.

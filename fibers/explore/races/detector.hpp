@@ -23,6 +23,7 @@
 #include "fibers/explore/races/runtime.hpp"
 #include "fibers/explore/races/shadow.hpp"
 #include "fibers/explore/races/vector_clock.hpp"
+#include "fibers/explore/races/weak_memory.hpp"
 
 namespace waitpoint::races {
 
@@ -83,6 +84,29 @@ class Detector {
   void atomic_modify(const void* at, int order);
   void fence(int order);
 
+  // --- weak memory ---
+
+  /// Whether later runs have it.
+  void set_weak(bool on) { is_weak_ = on; }
+  bool is_weak() const { return is_weak_; }
+  /// An atomic operation of at most 8 bytes at their natural alignment, in place of the above. `found` is the value in
+  /// memory before it. A load returns the value to use: the newest, or an older one by choice.
+  std::uint64_t weak_load(std::uint64_t address, std::uint32_t size, std::uint64_t found, int order, const void* place);
+  void weak_store(std::uint64_t address, std::uint32_t size, std::uint64_t found, std::uint64_t value, int order,
+                  const void* place);
+  void weak_modify(std::uint64_t address, std::uint32_t size, std::uint64_t found, std::uint64_t value, int order,
+                   const void* place);
+  /// A compare-and-exchange that has failed: reads the newest value.
+  void weak_compare(std::uint64_t address, std::uint32_t size, std::uint64_t found, int order, const void* place);
+  /// Code that is not instrumented has read the value in memory, without an order.
+  void weak_read(const void* word, std::size_t size);
+  /// Another atomic operation has written: the value in memory is the only one.
+  void weak_overwrite(std::uint64_t address, std::uint32_t size);
+  /// During a choice of the value of a load: the store with `newer` newer ones.
+  ReadableStore readable_store(std::uint32_t newer);
+  bool left_out_values() const { return weak_.left_out(); }
+  void forget_left_out_values() { weak_.forget_left_out(); }
+
   // --- accesses ---
 
   bool watching() const { return watching_; }
@@ -95,7 +119,7 @@ class Detector {
                     .size = static_cast<std::uint8_t>(size),
                     .operation = operation};
     if (cell == nullptr) return touch(address / 8, seen);
-    if (cell->owner != current_->index || !cell->touched || cell->several || (kind & kind::atomic) != 0 ||
+    if (cell->owner != current_->index || !cell->is_private || (kind & kind::atomic) != 0 ||
         weight_ + 1 >= weight_max || is_learned(seen.place))
       return access_shared(*cell, seen);
     ++weight_;
@@ -151,9 +175,12 @@ class Detector {
   };
 
   VectorClock& sync_point(const void* at);
+  Location& location_of(std::uint64_t address, std::uint32_t size, std::uint64_t found);
+  void acquire_from(const Store& store, int order);
   Context& fresh_context();
   void take_index(Context& context, const Context& maker);
-  void next_epoch(Context& context);
+  // Later events of the task are unknown to those that acquired its earlier releases.
+  static void next_epoch(Context& context) { ++context.clock.epochs[context.index]; }
   void leave_outside();
   void enter_outside();
   void update_watching();
@@ -191,6 +218,9 @@ class Detector {
   void describe(Side& side, const MemoryAccess& access);
 
   Shadow shadow_;
+  WeakMemory weak_;
+  Location* read_location_ = nullptr;  // of the last choice of a value
+  int read_order_ = 0;
   CallPaths paths_;
   Arena clocks_;
   HashTable<SyncPoint> sync_points_;
@@ -213,6 +243,7 @@ class Detector {
   std::uint32_t indices_ = 0;
   std::uint32_t weight_ = 0;  // of the accesses since the last switch point
   bool watching_ = false;
+  bool is_weak_ = false;
   bool learning_ = false;
   bool noting_ = false, unlearned_ = false;
   const Listener* listener_ = nullptr;

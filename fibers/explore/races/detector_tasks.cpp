@@ -4,6 +4,7 @@
 #include <new>
 
 #include "fibers/explore/races/detector.hpp"
+#include "fibers/explore/races/memory_order.hpp"
 #include "fibers/kernel/scheduler.hpp"
 
 namespace waitpoint::races {
@@ -12,9 +13,6 @@ namespace {
 constexpr std::uint32_t indices_max = 65'535;
 // The number of ended tasks' indices examined for reuse.
 constexpr std::uint32_t free_indices_tried = 8;
-
-bool acquires(int order) { return order != __ATOMIC_RELAXED && order != __ATOMIC_RELEASE; }
-bool releases(int order) { return order == __ATOMIC_RELEASE || order == __ATOMIC_ACQ_REL || order == __ATOMIC_SEQ_CST; }
 
 void clear(Context& context) {
   context.clock = context.released = context.acquirable = VectorClock();
@@ -30,6 +28,7 @@ void clear(Context& context) {
 void Detector::begin_run() {
   ++run_;
   shadow_.reset();
+  weak_.begin_run();
   clocks_.reset();
   tasks_.reset();
   free_indices_.reset();
@@ -155,9 +154,6 @@ VectorClock& Detector::sync_point(const void* at) {
   return point.clock;
 }
 
-// Later events of the task are unknown to those that acquired its earlier releases.
-inline void Detector::next_epoch(Context& context) { ++context.clock.epochs[context.index]; }
-
 void Detector::release(const void* at) {
   join(sync_point(at), current_->clock, clocks_);
   next_epoch(*current_);
@@ -192,6 +188,7 @@ void Detector::atomic_modify(const void* at, int order) {
 
 void Detector::fence(int order) {
   if (acquires(order)) join(current_->clock, current_->acquirable, clocks_);
+  if (is_weak_ && is_seq_cst(order)) weak_.fence({current_->clock, current_->index, current_->record, 0, order});
   if (!releases(order)) return;
   assign(current_->released, current_->clock, clocks_);
   next_epoch(*current_);

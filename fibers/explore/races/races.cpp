@@ -5,6 +5,7 @@
 #include <ostream>
 #include <set>
 
+#include "core/error.hpp"
 #include "fibers/explore/races/located_race.hpp"
 
 namespace waitpoint::races {
@@ -97,6 +98,17 @@ void note_unlearned(bool on) {
 }
 
 bool noted_unlearned() { return present() && runtime()->noted_unlearned(); }
+
+void set_weak_memory(bool on) {
+  WAITPOINT_CHECK(present() || !on, "weak memory is asked for without the runtime that has it");
+  if (present()) runtime()->set_weak(on);
+}
+
+void forget_left_out_values() {
+  if (present()) runtime()->forget_left_out_values();
+}
+
+bool left_out_values() { return present() && runtime()->left_out_values(); }
 
 std::string headline(const Race& race) {
   const auto words = [](const Access& access) {

@@ -80,4 +80,11 @@ void forget_learned();
 void note_unlearned(bool on);
 bool noted_unlearned();
 
+/// Whether later runs have weak memory (weak_memory.hpp). Only explored runs return older values; needs the runtime.
+void set_weak_memory(bool on);
+
+/// Controls the note that a load was not offered a value that it may have returned, by the bounds of weak memory.
+void forget_left_out_values();
+bool left_out_values();
+
 }  // namespace waitpoint::races

@@ -36,6 +36,16 @@ struct Listener {
   void (*found)(const FoundRace& race);
   void (*learned)(std::uint64_t place);  ///< a new place of code that accesses shared memory
   void (*unlearned)();                   ///< the first such place of a run that only notes them
+  void (*left_out_value)();              ///< a load was not offered a value that it may have returned: once a run
+};
+
+/// A store that a load may read.
+struct ReadableStore {
+  std::uint64_t value;
+  std::uint64_t place;           ///< its code; 0: the value before the first atomic access
+  char task[kernel::name_size];  ///< that made it
+  std::uint32_t record;          ///< as in Side
+  int order;                     ///< of the load
 };
 
 struct Runtime {
@@ -53,6 +63,11 @@ struct Runtime {
   /// An access by code that is not instrumented, the next instruction of the running task.
   void (*accessed)(std::uint64_t address, std::uint32_t size, bool writes, bool is_atomic, std::uint64_t place);
   bool (*noted_unlearned)();
+  void (*set_weak)(bool);  ///< whether later runs have weak memory: weak_memory.hpp
+  /// During a choice of the value of a load: the store with `newer` newer ones.
+  ReadableStore (*readable_store)(std::uint32_t newer);
+  bool (*left_out_values)();  ///< a load was not offered a value that it may have returned
+  void (*forget_left_out_values)();
 };
 
 }  // namespace waitpoint::races

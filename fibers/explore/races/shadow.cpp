@@ -26,7 +26,7 @@ Cell& Shadow::new_cell(std::uint64_t word) {
   page->groups |= std::uint64_t{1} << word % words_per_page / words_per_group;
   const std::uint32_t index = cells_.add();
   page->cells[word % words_per_page] = index;
-  return cells_[index] = Cell{word, nullptr, no_more, 0, 0, false, false, false, {}};
+  return cells_[index] = Cell{word, nullptr, no_more, no_location, 0, 0, false, false, false, false, {}};
 }
 
 void Shadow::forget(const void* low, std::size_t size) {

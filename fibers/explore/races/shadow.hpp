@@ -63,22 +63,25 @@ static_assert(sizeof(MemoryAccess) == 24);
 inline constexpr int more_max = 3;
 
 struct alignas(64) Cell {
-  std::uint64_t word;      ///< address / 8; 0: forgotten
-  kernel::Object* object;  ///< the kernel's object for it; null before its first switch point
-  std::uint32_t more;      ///< index of the accesses older than `latest`; no_more until needed
-  std::uint16_t owner;     ///< the task with the first access
+  std::uint64_t word;       ///< address / 8; 0: forgotten
+  kernel::Object* object;   ///< the kernel's object for it; null before its first switch point
+  std::uint32_t more;       ///< index of the accesses older than `latest`; no_more until needed
+  std::uint32_t locations;  ///< in weak memory, index of the first atomic one; no_location until needed
+  std::uint16_t owner;      ///< the task with the first access
   std::uint8_t more_count;
   bool touched;
-  bool several;  ///< accessed by other tasks, too
-  bool written;  ///< written while shared, accessed atomically, or part of a race: its order may matter
+  bool is_private;  ///< touched, by its owner alone, and without locations: plain accesses of the owner need no care
+  bool several;     ///< accessed by other tasks, too
+  bool written;     ///< written while shared, accessed atomically, or part of a race: its order may matter
   MemoryAccess latest;
 };
+static_assert(sizeof(Cell) == 64);
 
 struct MoreAccesses {
   MemoryAccess access[more_max];
 };
 
-inline constexpr std::uint32_t no_more = ~std::uint32_t{0};
+inline constexpr std::uint32_t no_more = ~std::uint32_t{0}, no_location = no_more;
 
 class Shadow {
  public:

@@ -40,6 +40,10 @@ const waitpoint::races::Runtime runtime = {
     [](bool on) { Detector::the().note_unlearned(on); },
     note_access,
     [] { return Detector::the().noted_unlearned(); },
+    [](bool on) { Detector::the().set_weak(on); },
+    [](std::uint32_t newer) { return Detector::the().readable_store(newer); },
+    [] { return Detector::the().left_out_values(); },
+    [] { Detector::the().forget_left_out_values(); },
 };
 
 }  // namespace
@@ -59,6 +63,7 @@ void waitpoint_races_open_run();
 void waitpoint_races_close_run();
 void waitpoint_races_forget(const void* low, std::size_t size);
 void waitpoint_races_use(const void* object);
+void waitpoint_races_read(const void* word, std::size_t size);
 
 void* __tsan_get_current_fiber() { return &Detector::the().current(); }
 void* __tsan_create_fiber(unsigned) { return &Detector::the().make(); }
@@ -79,6 +84,9 @@ void waitpoint_races_open_run() {
 void waitpoint_races_close_run() { --open_runs; }
 void waitpoint_races_use(const void* object) {
   if (Detector::the().has_current()) Detector::the().use(object);
+}
+void waitpoint_races_read(const void* word, std::size_t size) {
+  if (Detector::the().is_weak() && Detector::the().watching()) Detector::the().weak_read(word, size);
 }
 void waitpoint_races_forget(const void* low, std::size_t size) { Detector::the().forget(low, size); }
 

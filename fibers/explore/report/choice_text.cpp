@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fibers/explore/report/choice_text.hpp"
 
+#include <utility>
+
+#include "core/error.hpp"
+#include "fibers/explore/races/runtime.hpp"
 #include "fibers/sync/object_names.hpp"
 
 namespace waitpoint::exploration {
@@ -17,6 +21,23 @@ std::string wakes(const Task& task, std::uint32_t chosen, std::uint32_t count) {
   return "wakes waiter " + std::to_string(chosen + 1) + " of " + std::to_string(count);
 }
 
+// The names of the memory orders, as compilers number them.
+const char* name_of_order(int order) {
+  constexpr const char* names[] = {"relaxed", "consume", "acquire", "release", "acq_rel", "seq_cst"};
+  return names[order];
+}
+
+ChoiceText reads(std::uint32_t newer) {
+  WAITPOINT_CHECK(&waitpoint_races_runtime != nullptr, "a load chooses its value without the runtime for it");
+  const races::ReadableStore store = waitpoint_races_runtime()->readable_store(newer);
+  std::string words = newer == 0 ? "reads the newest value"
+                                 : std::string("reads an older value, as C++ allows for ") + name_of_order(store.order);
+  words += ": " + std::to_string(store.value);
+  if (store.place == 0) return {words + ", the one before the first atomic store"};
+  const sync::CodePlace place = sync::code_place_of(reinterpret_cast<const void*>(store.place));
+  return {words + ", stored by " + store.task + "#" + std::to_string(store.record - 1), place};
+}
+
 }  // namespace
 
 std::string title_of(const Task& task) {
@@ -30,26 +51,29 @@ std::string about_to(const Task& task) {
   return text;
 }
 
-std::string in_words(Choice choice, const Task& task, std::uint32_t chosen, std::uint32_t count) {
+ChoiceText in_words(Choice choice, const Task& task, std::uint32_t chosen, std::uint32_t count) {
   switch (choice) {
-    case Choice::waiter: return wakes(task, chosen, count);
-    case Choice::spurious: return chosen != 0 ? "wakes up spuriously" : "waits";
-    case Choice::loss: return chosen != 0 ? "loses the datagram" : "delivers the datagram";
-    case Choice::process: return chosen != 0 ? "waits for another process" : "or its process goes first";
-    default: return "takes alternative " + std::to_string(chosen) + " of " + std::to_string(count);
+    case Choice::waiter: return {wakes(task, chosen, count)};
+    case Choice::spurious: return {chosen != 0 ? "wakes up spuriously" : "waits"};
+    case Choice::loss: return {chosen != 0 ? "loses the datagram" : "delivers the datagram"};
+    case Choice::process: return {chosen != 0 ? "waits for another process" : "or its process goes first"};
+    case Choice::value: return reads(chosen);
+    default: return {"takes alternative " + std::to_string(chosen) + " of " + std::to_string(count)};
   }
 }
 
-void ChoiceWords::say(const Task& task, const std::string& chosen, const std::string& instead) {
-  text_ = "at " + to_string(task.scheduler->global_time()) + " s: " + about_to(task) + ", " + chosen;
-  other_ = instead;
+void ChoiceWords::say(const Task& task, ChoiceText chosen, ChoiceText instead) {
+  chosen_ = std::move(chosen);
+  chosen_.words = "at " + to_string(task.scheduler->global_time()) + " s: " + about_to(task) + ", " + chosen_.words;
+  other_ = std::move(instead);
 }
 
 std::uint32_t ChoiceWords::among(Choice choice, const Task& task, std::uint32_t count) {
   const bool is_asked = is_it();
-  const std::string instead = is_asked ? in_words(choice, task, instead_, count) : "";
+  ChoiceText instead;
+  if (is_asked) instead = in_words(choice, task, instead_, count);
   const std::uint32_t chosen = explorer_.among(choice, task, count);
-  if (is_asked) say(task, in_words(choice, task, chosen, count), instead);
+  if (is_asked) say(task, in_words(choice, task, chosen, count), std::move(instead));
   return chosen;
 }
 
@@ -57,8 +81,8 @@ Duration ChoiceWords::computing(const Task& task, Duration least, Duration great
   const bool is_asked = is_it();
   const Duration chosen = explorer_.computing(task, least, greatest);
   if (is_asked)
-    say(task, "computes " + to_string(Time() + chosen) + " s",
-        "computes " + to_string(Time() + Explorer::cost(least, greatest, instead_)) + " s");
+    say(task, {"computes " + to_string(Time() + chosen) + " s"},
+        {"computes " + to_string(Time() + Explorer::cost(least, greatest, instead_)) + " s"});
   return chosen;
 }
 

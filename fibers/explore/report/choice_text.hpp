@@ -5,6 +5,7 @@
 #include <string>
 
 #include "fibers/explore/schedules/explorer.hpp"
+#include "fibers/sync/code_place.hpp"
 
 namespace waitpoint::exploration {
 
@@ -13,8 +14,15 @@ std::string title_of(const Task& task);
 /// "consumer#2, about to lock mutex #1".
 std::string about_to(const Task& task);
 
-/// The effect of an alternative other than one between tasks: "wakes thread#3", "wakes up spuriously".
-std::string in_words(Choice choice, const Task& task, std::uint32_t alternative, std::uint32_t count);
+/// An alternative in words, and the code that they name at their end; none without its module.
+struct ChoiceText {
+  std::string words;
+  sync::CodePlace place = {};
+};
+
+/// The effect of an alternative other than one between tasks: "wakes thread#3", "wakes up spuriously". During the
+/// choice.
+ChoiceText in_words(Choice choice, const Task& task, std::uint32_t alternative, std::uint32_t count);
 
 /// Sits between the kernel and an explorer for one run, and describes one decision: the choice, and the alternative to
 /// it.
@@ -24,11 +32,11 @@ class ChoiceWords final : public kernel::Decisions {
   ChoiceWords(Explorer& explorer, std::size_t number, std::uint32_t instead)
       : explorer_(explorer), number_(number), instead_(instead) {}
 
-  /// "at 0.010000000 s: thread#1 (notify_one condition variable #2) wakes thread#3; it passes if it wakes thread#4".
-  /// Empty until the run has reached the decision.
-  std::string text() const { return text_.empty() ? "" : text_ + "; it passes if it " + other_; }
-  /// The same without the alternative.
-  const std::string& chosen() const { return text_; }
+  /// "at 0.010000000 s: thread#1 (notify_one condition variable #2) wakes thread#3". Empty until the run has reached
+  /// the decision.
+  const ChoiceText& chosen() const { return chosen_; }
+  /// "wakes thread#4".
+  const ChoiceText& instead() const { return other_; }
 
   std::uint32_t next(Task* const* ready, std::uint32_t count) override { return explorer_.next(ready, count); }
   std::uint32_t among(Choice choice, const Task& task, std::uint32_t count) override;
@@ -36,12 +44,12 @@ class ChoiceWords final : public kernel::Decisions {
 
  private:
   bool is_it() const { return explorer_.schedule().decisions.size() == number_; }
-  void say(const Task& task, const std::string& chosen, const std::string& instead);
+  void say(const Task& task, ChoiceText chosen, ChoiceText instead);
 
   Explorer& explorer_;
   std::size_t number_;
   std::uint32_t instead_;
-  std::string text_, other_;
+  ChoiceText chosen_, other_;
 };
 
 }  // namespace waitpoint::exploration

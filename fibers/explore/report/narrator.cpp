@@ -37,17 +37,18 @@ void Narrator::tell(std::size_t decisions_before, const Words& words) {
   const Decision& decision = explorer_.schedule().decisions.back();
   const bool is_answer = asked_ && *asked_ + 1 == decisions();
   if (!is_answer && !decision.is_switch()) return;
-  keep({scheduler_.global_time(), scheduler_.events(), words(decision)}, decision.is_switch(), is_answer);
+  const ChoiceText text = words(decision);
+  keep({scheduler_.global_time(), scheduler_.events(), text.words, text.place}, decision.is_switch(), is_answer);
 }
 
 std::uint32_t Narrator::next(Task* const* ready, std::uint32_t count) {
   const std::size_t before = decisions();
   const std::uint32_t chosen = explorer_.next(ready, count);
   if (count > 1 && chosen < count)
-    tell(before, [&](const Decision& decision) {
+    tell(before, [&](const Decision& decision) -> ChoiceText {
       const std::string one = in_brackets(*ready[decision.chosen]);
-      if (decision.is_switch()) return one + " goes first instead of " + in_brackets(*ready[decision.usual]);
-      return one + " goes first, the default of " + counted(count, "task");
+      if (decision.is_switch()) return {one + " goes first instead of " + in_brackets(*ready[decision.usual])};
+      return {one + " goes first, the default of " + counted(count, "task")};
     });
   return chosen;
 }
@@ -56,7 +57,9 @@ std::uint32_t Narrator::among(Choice choice, const Task& task, std::uint32_t cou
   const std::size_t before = decisions();
   const std::uint32_t chosen = explorer_.among(choice, task, count);
   tell(before, [&](const Decision& decision) {
-    return in_brackets(task) + " " + in_words(choice, task, decision.chosen, count);
+    ChoiceText text = in_words(choice, task, decision.chosen, count);
+    text.words = in_brackets(task) + " " + text.words;
+    return text;
   });
   return chosen;
 }
@@ -64,9 +67,9 @@ std::uint32_t Narrator::among(Choice choice, const Task& task, std::uint32_t cou
 Duration Narrator::computing(const Task& task, Duration least, Duration greatest) {
   const std::size_t before = decisions();
   const Duration chosen = explorer_.computing(task, least, greatest);
-  tell(before, [&](const Decision& decision) {
-    return title_of(task) + " computes " + milliseconds(chosen) +
-           (decision.is_switch() ? " instead of " + milliseconds(greatest) : ", the default");
+  tell(before, [&](const Decision& decision) -> ChoiceText {
+    return {title_of(task) + " computes " + milliseconds(chosen) +
+            (decision.is_switch() ? " instead of " + milliseconds(greatest) : ", the default")};
   });
   return chosen;
 }
@@ -76,10 +79,10 @@ std::uint32_t Narrator::process(const Task& task, std::span<const char* const> n
   const std::size_t before = decisions();
   const auto count = static_cast<std::uint32_t>(names.size());
   const std::uint32_t chosen = explorer_.process(task, count, spinning, can_continue);
-  tell(before, [&](const Decision& decision) {
+  tell(before, [&](const Decision& decision) -> ChoiceText {
     const std::string one = std::string("process ") + names[decision.chosen];
-    if (decision.is_switch()) return one + " goes first instead of process " + names[decision.usual];
-    return one + " goes first, the default of " + std::to_string(names.size()) + " processes";
+    if (decision.is_switch()) return {one + " goes first instead of process " + names[decision.usual]};
+    return {one + " goes first, the default of " + std::to_string(names.size()) + " processes"};
   });
   return chosen;
 }

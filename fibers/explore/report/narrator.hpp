@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "fibers/explore/schedules/explorer.hpp"
+#include "fibers/sync/code_place.hpp"
 
 namespace waitpoint::exploration {
 
@@ -17,6 +18,7 @@ struct Told {
   Time time;
   std::uint64_t event;  ///< number of events before it
   std::string words;
+  sync::CodePlace place = {};  ///< named at their end; none without its module
 };
 
 struct Narration {

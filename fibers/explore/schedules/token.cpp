@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::string_view version = "wx1";
 constexpr std::size_t digest_digits = 8;
-constexpr char before_trail = '-';
+constexpr char before_trail = '-', weak = 'w';
 
 [[noreturn]] void refuse(const std::string& text, const std::string& expected) {
   throw BadInput("replay", "expected " + expected + " in the token '" + text + "'");
@@ -57,7 +57,9 @@ bool is_token(const std::string& text) { return text.starts_with("wx") && text.f
 
 std::string to_text(const Token& token) {
   std::string text(version);
-  text += "." + std::to_string(token.call) + "." + digest_text(token.digest);
+  text += "." + std::to_string(token.call);
+  if (token.memory == Memory::weak) text += weak;
+  text += "." + digest_text(token.digest);
   if (const std::string trail = to_text(token.trail); !trail.empty()) text += before_trail + trail;
   text += ".";
   if (!token.strategy.empty())
@@ -82,7 +84,12 @@ Token read_token(const std::string& text) {
   if (const std::string_view first = take(rest, '.'); first != version)
     refuse(text, "the version " + std::string(version) + ", not '" + std::string(first) + "',");
   Token token;
-  token.call = take_number<std::uint32_t>(take(rest, '.'), text, "the number of the call of explore()");
+  std::string_view call = take(rest, '.');
+  if (call.ends_with(weak)) {
+    token.memory = Memory::weak;
+    call.remove_suffix(1);
+  }
+  token.call = take_number<std::uint32_t>(call, text, "the number of the call of explore()");
   std::string_view end = take(rest, '.');
   const bool has_trail = end.find(before_trail) != std::string_view::npos;
   token.digest = take_digest(take(end, before_trail), text);

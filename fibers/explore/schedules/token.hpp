@@ -4,6 +4,7 @@
 //   wx1.1.9f3a2c1b.pct:3.7.1234      schedule 1234 of strategy pct:3 with seed 7
 //   wx1.1.9f3a2c1b.=12-1,40-2        the default order, but at its 12th choice alternative 1, at its 40th alternative 2
 //   wx1.1.9f3a2c1b-4Fx0s.=12-1       the same, with a trail
+//   wx1.1w.9f3a2c1b.=12-1,15-1       in weak memory
 //
 // The second field is the number of the call of explore() in the test, the third the leading digits of the run's
 // digest, which detects tokens of another program; zeros if the run was cut off by a crash. If there is room, a trail
@@ -15,6 +16,7 @@
 #include <vector>
 
 #include "fibers/explore/schedules/trail.hpp"
+#include "fibers/explore/strategies/memory_option.hpp"
 #include "fibers/explore/strategies/schedule.hpp"
 
 namespace waitpoint::exploration {
@@ -27,6 +29,7 @@ struct Token {
   std::uint64_t number = 0;
   std::vector<Deviation> deviations;
   Trail trail = {};
+  Memory memory = Memory::sc;
 
   friend bool operator==(const Token&, const Token&) = default;
 };

@@ -58,6 +58,24 @@ inline bool is_of_lock(kernel::Operation operation) {
   }
 }
 
+/// In weak memory, events whose order may change what loads return, though they do not change memory: two loads of one
+/// location, since a seq_cst one has its place in the order of all; and a fence with each access to memory.
+inline bool are_dependent_in_weak_memory(kernel::Operation a, std::uint64_t x, kernel::Operation b, std::uint64_t y) {
+  const auto is_access = [](kernel::Operation operation) {
+    switch (operation) {
+      case kernel::Operation::load:
+      case kernel::Operation::store:
+      case kernel::Operation::exchange:
+      case kernel::Operation::compare_exchange:
+      case kernel::Operation::modify:
+      case kernel::Operation::fence: return true;
+      default: return false;
+    }
+  };
+  const bool has_fence = a == kernel::Operation::fence || b == kernel::Operation::fence;
+  return is_access(a) && is_access(b) && (has_fence || x == y);
+}
+
 /// True if it acts on something that the kernel does not know as an object, if it is given none: a descriptor, a file,
 /// a signal, memory between processes.
 inline bool acts_on_unknown(kernel::Operation operation) {

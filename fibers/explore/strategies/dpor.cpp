@@ -20,13 +20,15 @@ Dpor::Event Dpor::event_of(const Task& task) {
   return {task.id, task.operation, task.at != nullptr ? task.at->identity : 0, task.seat != nullptr};
 }
 
-bool Dpor::are_dependent(const Event& a, const Event& b) {
+bool Dpor::are_dependent(const Event& a, const Event& b) const {
   if (acts_on_any(a.operation) || acts_on_any(b.operation)) return true;
   if (is_of_channel(a.operation) && is_of_channel(b.operation)) return true;
   if (is_of_timer(a.operation) && is_of_timer(b.operation)) return true;
   if (a.is_on_shared_processor && b.is_on_shared_processor) return true;
   if (releases_unseen(a.operation) && is_of_lock(b.operation)) return true;
   if (releases_unseen(b.operation) && is_of_lock(a.operation)) return true;
+  if (memory_ == Memory::weak && are_dependent_in_weak_memory(a.operation, a.object, b.operation, b.object))
+    return true;
   return exploration::are_dependent(a.operation, a.object, b.operation, b.object);
 }
 
@@ -54,7 +56,8 @@ void Dpor::resume(std::span<const std::uint64_t> progress) {
   was_cut_ = progress.back() != 0;
 }
 
-void Dpor::begin(std::uint64_t, const Draws&, const Profile&) {
+void Dpor::begin(std::uint64_t, const Draws&, const Profile& profile) {
+  memory_ = profile.memory;
   depth_ = 0;
   instants_ = 0;
   last_of_task_.clear();

@@ -38,7 +38,7 @@ class Dpor final : public Strategy {
   using Clock = dpor::Clock;
   using State = dpor::State;
 
-  static bool are_dependent(const Event& a, const Event& b);
+  bool are_dependent(const Event& a, const Event& b) const;
   static void join(Clock& into, const Clock& other);
   static Event event_of(const Task& task);
   bool choose(State& state, const State* before);
@@ -54,6 +54,7 @@ class Dpor final : public Strategy {
   std::uint32_t instants_ = 0;
   std::map<std::uint64_t, std::size_t> last_of_task_;  // the state of each task's last event
   bool was_cut_ = false;
+  Memory memory_ = Memory::sc;
 };
 
 }  // namespace waitpoint::exploration

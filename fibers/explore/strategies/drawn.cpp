@@ -15,6 +15,9 @@ std::uint32_t Drawn::among(Choice choice, const Task&, std::uint32_t count) {
         default: break;
       }
       break;
+    case Choice::value:
+      if (draws_.below(2) == 0) return 0;
+      return 1 + draw(count - 1);
     case Choice::task:
     case Choice::waiter:
     case Choice::process: break;

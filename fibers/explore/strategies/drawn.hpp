@@ -13,7 +13,7 @@ class Drawn : public Strategy {
     start(profile);
   }
   /// Any waiter; now and then a rare alternative; of a computation's costs, the ends as often as all values between:
-  /// timing bugs are at the ends.
+  /// timing bugs are at the ends; the newest value as often as all older ones.
   std::uint32_t among(Choice choice, const Task& task, std::uint32_t count) override;
   /// One in four: most loops poll until another task acts, few a number of times before they wait.
   bool lets_poll_on() override { return draw(4) == 0; }

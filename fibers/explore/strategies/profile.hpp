@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "fibers/explore/strategies/memory_option.hpp"
 #include "fibers/kernel/scheduler.hpp"
 
 namespace waitpoint::exploration {
@@ -19,7 +20,8 @@ struct Profile {
     std::vector<std::uint64_t> objects;  ///< identity of each event's object, in order; 0: none
   };
 
-  std::uint32_t steps = 0;  ///< switch points
+  std::uint32_t steps = 0;     ///< switch points
+  Memory memory = Memory::sc;  ///< of instrumented code
   std::vector<TaskEvents> tasks;
   std::vector<std::uint64_t> shared;  ///< identities of objects that more than one task used
   std::vector<std::uint64_t> code;    ///< of another process: code addresses that access shared memory

@@ -51,6 +51,7 @@ const Asked* shared_copy(const Asked& asked) {
   copy.deviations = shared_copy(asked.deviations);
   copy.at_random_from = asked.at_random_from;
   copy.steps = asked.steps;
+  copy.memory = asked.memory;
   copy.words = asked.words;
   copy.events = asked.events;
   copy.events_from = asked.events_from;

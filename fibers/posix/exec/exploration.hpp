@@ -44,6 +44,8 @@ struct Asked {
   std::span<const std::uint64_t> code = {};
   std::span<const AccessInstruction> accesses = {};  ///< instructions with breakpoints: begin_access_log()
 
+  Memory memory = Memory::sc;  ///< of instrumented code
+
   bool learn = false;    ///< record the code that accesses shared memory
   bool notes = false;    ///< log whether other code does
   bool profile = false;  ///< record the profile

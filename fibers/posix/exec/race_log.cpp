@@ -29,6 +29,7 @@ constexpr races::Listener listener = {
       log().code.push_back(place);
     },
     [] { log().has_other_code = true; },
+    [] { log().has_left_out_values = true; },
 };
 
 }  // namespace
@@ -54,8 +55,9 @@ void begin_log(bool learn, bool notes, const races::Listener& heard) {
 
 bool has_race_runtime() { return &waitpoint_races_runtime != nullptr; }
 
-void begin_race_log(bool learn, bool notes, std::span<const std::uint64_t> code) {
+void begin_race_log(bool learn, bool notes, Memory memory, std::span<const std::uint64_t> code) {
   begin_log(learn, notes, listener);
+  waitpoint_races_runtime()->set_weak(memory == Memory::weak);
   for (const std::uint64_t place : code) waitpoint_races_runtime()->know(place);
 }
 
@@ -65,6 +67,7 @@ void begin_access_log(bool learn, bool notes, std::span<const AccessInstruction>
                                                     listener.unlearned};
   begin_log(learn, notes, without_races);
   const races::Runtime& runtime = *waitpoint_races_runtime();
+  runtime.set_weak(false);
   for (const std::uint64_t offset : code) runtime.know(offset);
   // By time: a breakpoint takes some microseconds.
   constexpr std::uint32_t learning_of_one_max = 2'000, learning_max = 200'000, exploring_max = 50'000;

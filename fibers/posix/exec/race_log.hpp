@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "fibers/explore/races/located_race.hpp"
+#include "fibers/explore/strategies/memory_option.hpp"
 #include "fibers/posix/traps/access_instruction.hpp"
 
 namespace waitpoint::posix {
@@ -24,16 +25,17 @@ struct RaceOfProcess {
 /// family::Part::races.
 struct RaceLog {
   std::vector<RaceOfProcess> races;
-  std::vector<std::uint64_t> code;  ///< that accesses shared memory, if the run records it
-  bool has_other_code = false;      ///< other code accesses shared memory than that of the earlier run
+  std::vector<std::uint64_t> code;   ///< that accesses shared memory, if the run records it
+  bool has_other_code = false;       ///< other code accesses shared memory than that of the earlier run
+  bool has_left_out_values = false;  ///< in weak memory, a load was not offered a value that it may have returned
 };
 
 /// True if this library is the one with the runtime, which instrumented programs load.
 bool has_race_runtime();
 /// From now on races of this process are logged; and whether other code than `code` accesses shared memory, if that is
-/// not recorded and `notes`. Called before the scheduler is made, where there is the runtime.
+/// not recorded and `notes`. Called before the scheduler is made, where there is the runtime. Atomics have `memory`.
 /// `code` comes from an earlier run.
-void begin_race_log(bool learn, bool notes, std::span<const std::uint64_t> code);
+void begin_race_log(bool learn, bool notes, Memory memory, std::span<const std::uint64_t> code);
 /// The same for a program that is not instrumented, by breakpoints at these instructions: atomic operations that are
 /// plain instructions cannot be told from others, so that no races are logged. `code` are offsets.
 void begin_access_log(bool learn, bool notes, std::span<const AccessInstruction> instructions,

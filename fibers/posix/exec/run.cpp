@@ -124,11 +124,11 @@ kernel::Scheduler& begin_run() {
   const Asked* const asked = record->settings.asked;
   if (has_race_runtime()) {
     if (asked == nullptr)
-      begin_race_log(false, false, {});
+      begin_race_log(false, false, Memory::sc, {});
     else if (!asked->accesses.empty())
       begin_access_log(asked->learn, asked->notes, asked->accesses, asked->code);
     else
-      begin_race_log(asked->learn, asked->notes, asked->code);
+      begin_race_log(asked->learn, asked->notes, asked->memory, asked->code);
   }
   begin_misuse_log();
   begin_crash_log();

@@ -17,6 +17,7 @@
 #include "fibers/posix/sync/futex_vectors.hpp"
 #include "fibers/posix/sync/shared_futexes.hpp"
 #include "fibers/posix/time/clocks.hpp"
+#include "fibers/switch/sanitizer.hpp"
 
 namespace waitpoint::posix {
 namespace {
@@ -45,6 +46,7 @@ long wait(std::uint32_t* address, std::uint32_t expected, Time deadline, std::ui
     WAITPOINT_CHECK(thread.shared_futex == nullptr, "a thread that waits at a shared futex begins another wait");
     thread.shared_futex = of == Of::family ? begin_to_wait(address) : nullptr;
     const bool is_other = __atomic_load_n(address, __ATOMIC_SEQ_CST) != expected;
+    kernel::sanitizer::read(address, sizeof *address);
     thread.futex_mask = mask;
     Wait ended = Wait::timed_out;
     if (!is_other && deadline > kernel::running->local_time) ended = wait_at(word, deadline);
