@@ -29,6 +29,7 @@ WAITPOINT_WEAK void waitpoint_races_close_run();
 WAITPOINT_WEAK void waitpoint_races_forget(const void* low, std::size_t size);
 WAITPOINT_WEAK void waitpoint_races_use(const void* object);
 WAITPOINT_WEAK void waitpoint_races_read(const void* word, std::size_t size);
+WAITPOINT_WEAK void waitpoint_races_barrier();
 #undef WAITPOINT_WEAK
 }
 
@@ -190,6 +191,10 @@ void use(const void* object) {
 
 void read(const void* word, std::size_t size) {
   if (own_races) waitpoint_races_read(word, size);
+}
+
+void barrier() {
+  if (own_races) waitpoint_races_barrier();
 }
 
 }  // namespace waitpoint::kernel::sanitizer

@@ -60,6 +60,8 @@ void acquire(const void* object);
 void use(const void* object);
 /// The caller has read this word's value in memory: its later atomic loads return no older one.
 void read(const void* word, std::size_t size);
+/// The system has made all threads of the process pass a fence: no later atomic load of any misses an earlier store.
+void barrier();
 
 }  // namespace sanitizer
 }  // namespace waitpoint::kernel

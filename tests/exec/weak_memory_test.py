@@ -53,7 +53,7 @@ class WeakMemory(ExecCase):
         self.assertIn("; exhaustive", self.passes("--memory", "weak", "--strategy", "dfs", "--iterations", "20000", "--", self.program, "pass"))
 
     def test_the_c_library_and_the_system_order_accesses(self):
-        for way in ("mutex", "futex"):
+        for way in ("mutex", "futex", "barrier"):
             self.passes("--memory", "weak", "--iterations", "300", "--", self.program, way)
 
     def test_a_loop_that_reads_older_values_ends(self):

@@ -100,6 +100,8 @@ class Detector {
   void weak_compare(std::uint64_t address, std::uint32_t size, std::uint64_t found, int order, const void* place);
   /// Code that is not instrumented has read the value in memory, without an order.
   void weak_read(const void* word, std::size_t size);
+  /// All stores made so far hide older ones from all loads.
+  void weak_barrier() { weak_.barrier(); }
   /// Another atomic operation has written: the value in memory is the only one.
   void weak_overwrite(std::uint64_t address, std::uint32_t size);
   /// During a choice of the value of a load: the store with `newer` newer ones.

@@ -64,6 +64,7 @@ void waitpoint_races_close_run();
 void waitpoint_races_forget(const void* low, std::size_t size);
 void waitpoint_races_use(const void* object);
 void waitpoint_races_read(const void* word, std::size_t size);
+void waitpoint_races_barrier();
 
 void* __tsan_get_current_fiber() { return &Detector::the().current(); }
 void* __tsan_create_fiber(unsigned) { return &Detector::the().make(); }
@@ -87,6 +88,9 @@ void waitpoint_races_use(const void* object) {
 }
 void waitpoint_races_read(const void* word, std::size_t size) {
   if (Detector::the().is_weak() && Detector::the().watching()) Detector::the().weak_read(word, size);
+}
+void waitpoint_races_barrier() {
+  if (Detector::the().is_weak() && Detector::the().watching()) Detector::the().weak_barrier();
 }
 void waitpoint_races_forget(const void* low, std::size_t size) { Detector::the().forget(low, size); }
 

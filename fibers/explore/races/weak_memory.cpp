@@ -25,6 +25,7 @@ void WeakMemory::begin_run() {
   locations_.reset();
   fences_.reset();
   fenced_ = VectorClock();
+  barriers_ = 0;
 }
 
 // --- locations ---
@@ -73,6 +74,7 @@ void WeakMemory::restart(Location& location, std::uint64_t value, const VectorCl
   Store& only = location.stores[0];
   only.value = value;
   only.strong = only.record = 0;
+  only.barriers = barriers_;
   only.place = 0;
   join(only.released, known, clocks_);
   if (synchronised != nullptr) join(only.released, *synchronised, clocks_);
@@ -98,7 +100,7 @@ std::uint32_t WeakMemory::readable(Location& location, const Operator& reader) {
   std::uint32_t fence_number = 0;
   const Fence* const fence = last_fence_before(reader.clock, fence_number);
   const auto hides_older = [&](const Store& store) {
-    if (knows(reader.clock, store.seen)) return true;
+    if (store.barriers != barriers_ || knows(reader.clock, store.seen)) return true;
     if (is_strong && (store.strong != 0 || knows(fenced_, store.seen))) return true;
     return fence != nullptr &&
            ((store.strong != 0 && store.strong - 1 <= fence_number) || knows(fence->before, store.seen));
@@ -137,6 +139,7 @@ Store& WeakMemory::store(Location& location, std::uint64_t value, const Operator
   Store& store = location.newest();
   store.value = value;
   store.released.size = store.seen.size = store.strong = 0;
+  store.barriers = barriers_;
   store.record = writer.record;
   store.place = writer.place;
   note_access(store, writer);

@@ -23,6 +23,9 @@
 // proof are those of the operational semantics of Lahav, Giannarakis, Vafeiadis ("Taming release-acquire consistency",
 // POPL 2016) and of C11Tester (Luo, Demsky, ASPLOS 2021).
 //
+// Beyond C++, a barrier of the system (membarrier()) makes all stores before it hide older ones from all loads after
+// it.
+//
 // Happens-before is the detector's. Memory itself holds the newest value: of plain accesses, and of code that is not
 // instrumented. Where such code has written, the value in memory is the only one.
 #pragma once
@@ -42,11 +45,12 @@ inline constexpr std::uint32_t repeats_max = 4;
 
 struct Store {
   std::uint64_t value;
-  VectorClock released;  ///< acquired by those who read it
-  VectorClock seen;      ///< by task: its epoch at its first access to the store, the making included; 0: none
-  std::uint32_t strong;  ///< one more than the number of seq_cst fences before its first seq_cst access; 0: none
-  std::uint32_t record;  ///< the record of the task that made it
-  std::uint64_t place;   ///< the code; 0: the value in memory before the first atomic access
+  VectorClock released;    ///< acquired by those who read it
+  VectorClock seen;        ///< by task: its epoch at its first access to the store, the making included; 0: none
+  std::uint32_t strong;    ///< one more than the number of seq_cst fences before its first seq_cst access; 0: none
+  std::uint32_t barriers;  ///< number of barriers before it
+  std::uint32_t record;    ///< the record of the task that made it
+  std::uint64_t place;     ///< the code; 0: the value in memory before the first atomic access
 };
 
 /// A naturally aligned range of at most 8 bytes that is accessed atomically as a whole.
@@ -97,6 +101,8 @@ class WeakMemory {
   /// Whoever reads the store knows what has this clock, too.
   void release(Store& store, const VectorClock& clock) { join(store.released, clock, clocks_); }
   void fence(const Operator& fencing);
+  /// All stores made so far hide older ones from all later loads.
+  void barrier() { ++barriers_; }
 
   /// True if a load was not offered a store that it may have read, by the two limits.
   bool left_out() const { return left_out_; }
@@ -118,6 +124,7 @@ class WeakMemory {
   Table<Location> locations_;
   Table<Fence> fences_;
   VectorClock fenced_;  // the events that happen before some fence
+  std::uint32_t barriers_ = 0;
   bool left_out_ = false;
 };
 

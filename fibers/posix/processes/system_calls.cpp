@@ -47,6 +47,7 @@ extern "C" {
 #include "fibers/posix/signals/cancellation.hpp"
 #include "fibers/posix/sync/futex.hpp"
 #include "fibers/posix/sync/futex_vectors.hpp"
+#include "fibers/posix/sync/membarrier.hpp"
 #include "fibers/posix/time/clocks.hpp"
 
 namespace waitpoint::posix {
@@ -75,6 +76,7 @@ std::optional<long> call_about_threads(long number, const CallWords& words) {
   switch (number) {
     case SYS_futex: return words.call(futex);
     case SYS_futex_waitv: return is_simulated() ? wait_for_any_futex(words) : call_system(number, words);
+    case SYS_membarrier: return words.call(membarrier);
     case SYS_gettid: return gettid();
     case SYS_getpid: return getpid();
     case SYS_getppid: return getppid();
