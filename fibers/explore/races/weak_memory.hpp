@@ -19,9 +19,9 @@
 //
 // 2 to 5 are [atomics.order] paragraph 4 of C++20 with the order of execution of seq_cst operations as S. So every
 // execution is one that the standard allows; the others, whose modification orders, S or reads (of later stores) go
-// against every order of execution, are left out. A store's clock is that of its release sequence. The model and its
-// proof are those of the operational semantics of Lahav, Giannarakis, Vafeiadis ("Taming release-acquire consistency",
-// POPL 2016) and of C11Tester (Luo, Demsky, ASPLOS 2021).
+// against every order of execution, are left out. A store's clock is that of its release sequence. The method is that
+// of tsan11 (Lidbury, Donaldson, "Dynamic race detection for C++11", POPL 2017) and C11Tester (Luo, Demsky, ASPLOS
+// 2021).
 //
 // Beyond C++, a barrier of the system (membarrier()) makes all stores before it hide older ones from all loads after
 // it.
