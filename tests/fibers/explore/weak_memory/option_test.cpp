@@ -24,7 +24,7 @@ TEST(MemoryOption, ExplainsTheOlderValues) {
                        "reads an older value, as C++ allows for relaxed: 0, the one before the first atomic store"))
       << report;
   EXPECT_TRUE(contains(report.text, "; it passes if it reads the newest value: 1, stored by thread#1 at ")) << report;
-  EXPECT_TRUE(contains(report.text, "algorithms.cpp:")) << report;
+  EXPECT_TRUE(contains(report.text, "memory_uses.cpp:")) << report;
 }
 
 TEST(MemoryOption, IsInTheToken) {
