@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/explore/exhaustive.hpp"
 
+#include "fibers/explore/strategies/memory_option.hpp"
+
 namespace waitpoint::tools {
 
 using exploration::Decision;
@@ -32,7 +34,7 @@ std::optional<std::string> Exhaustive::scope() const {
   add(left_out_costs_, "computing costs between minimum and maximum");
   add(left_out_spurious_, "spurious wake-ups");
   add(left_out_accesses_, "switches at first accesses to memory that the default order does not share");
-  add(left_out_values_, exploration::values_left_out);
+  add(left_out_values_, values_left_out);
   return scope_ + but;
 }
 
