@@ -21,4 +21,14 @@ std::optional<Found> Search::find(const std::string& strategy, std::uint64_t see
   return std::nullopt;
 }
 
+std::uint64_t Search::failures(const std::string& strategy, std::uint64_t seed, std::uint64_t count) {
+  const auto drawn = exploration::make_strategy(strategy);
+  std::uint64_t failed = 0;
+  for (std::uint64_t number = 0; number < count; ++number) {
+    drawn->begin(number, exploration::Draws(seed, strategy, number), profile_);
+    failed += !body_.run(*drawn).passed();
+  }
+  return failed;
+}
+
 }  // namespace waitpoint::zoo

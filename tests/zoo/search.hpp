@@ -24,6 +24,8 @@ class Search {
   const exploration::Outcome& usual() const { return usual_; }
   /// The first failure among `most` schedules of `strategy`; nothing if there is none, or an exhaustive search ended.
   std::optional<Found> find(const std::string& strategy, std::uint64_t seed, std::uint64_t most);
+  /// The number of failures among the first `count` schedules of `strategy`, which draws them.
+  std::uint64_t failures(const std::string& strategy, std::uint64_t seed, std::uint64_t count);
   /// The run of that token.
   exploration::Outcome play(const exploration::Token& token) { return exploration::play(body_, token, profile_); }
   exploration::Body& body() { return body_; }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Writes the table of docs/zoo.md: schedules that each strategy needs for each specimen, the median of 20 seeds.
+// Writes the table of docs/zoo.md: for each specimen the share of uniformly random schedules that fail, and the
+// schedules that each strategy needs, the median of 20 seeds.
 //
 //   zoo-table [--seed=N] [NAME ...]    only these specimens, with seeds from N (default: 1)
 //
@@ -19,6 +20,8 @@ namespace {
 constexpr const char* strategies[] = {"portfolio", "random", "pct:2", "pct:3", "pos", "urw", "surw", "bounded:2"};
 constexpr std::uint64_t seeds = 20, schedules_max = 10'000;
 
+constexpr std::uint64_t schedules_of_share = 20'000;
+
 struct Repeats {
   std::uint64_t failures = 0, same = 0;
 };
@@ -27,6 +30,15 @@ bool is_repeated(waitpoint::zoo::Search& search, const waitpoint::exploration::F
   waitpoint::exploration::Fifo rest;
   const auto deviations = failure.schedule.deviations();
   return search.body().run(rest, {.deviations = deviations}).digest == failure.outcome.digest;
+}
+
+// Of the random walk's schedules.
+std::string share(waitpoint::zoo::Search& search, std::uint64_t seed) {
+  const std::uint64_t failed = search.failures("random", seed, schedules_of_share);
+  if (failed == 0) return "< 1/20 000";
+  char text[16];
+  std::snprintf(text, sizeof text, "%.2g %%", 100.0 * static_cast<double>(failed) / schedules_of_share);
+  return text;
 }
 
 // "median (number of successful seeds)"; exhaustive strategies have no seed.
@@ -63,9 +75,9 @@ int main(int count, char** arguments) {
     --count;
     ++arguments;
   }
-  std::printf("| specimen | kind | switches |");
+  std::printf("| specimen | kind | switches | share |");
   for (const char* strategy : strategies) std::printf(" %s |", strategy);
-  std::printf("\n|---|---|---|");
+  std::printf("\n|---|---|---|---|");
   for (std::size_t i = 0; i < std::size(strategies); ++i) std::printf("---|");
   std::printf("\n");
   Repeats repeats;
@@ -73,7 +85,7 @@ int main(int count, char** arguments) {
     const auto is_name = [&](const char* argument) { return std::strcmp(argument, specimen.name) == 0; };
     if (count > 1 && std::none_of(arguments + 1, arguments + count, is_name)) continue;
     waitpoint::zoo::Search search(specimen.buggy);
-    std::printf("| %s | %s | %u |", specimen.name, specimen.kind, specimen.switches);
+    std::printf("| %s | %s | %u | %s |", specimen.name, specimen.kind, specimen.switches, share(search, first).c_str());
     for (const char* strategy : strategies) {
       std::printf(" %s |", cell(search, strategy, first, repeats).c_str());
       std::fflush(stdout);

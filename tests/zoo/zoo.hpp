@@ -21,6 +21,7 @@ struct Specimen {
   void (*correct)();
   std::uint32_t switches;  ///< the minimum of switches away from the default order
   const char* kind;
+  bool is_rare = false;  ///< in so few schedules that no strategy is expected to find it in 10 000
 };
 
 /// All specimens, by kind.
@@ -36,6 +37,7 @@ Specimens signals();
 Specimens endings();
 Specimens robots();
 Specimens timings();
+Specimens hard();
 
 /// The threads of a specimen; join before its end.
 class Crew {

@@ -3,4 +3,4 @@
 
 #include "tests/exec/zoo/zoo.h"
 
-const struct specimen* const tables[] = {lock_free, orders, endings, robots, NULL};
+const struct specimen* const tables[] = {lock_free, orders, endings, robots, hard, NULL};

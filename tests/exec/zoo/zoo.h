@@ -20,13 +20,15 @@ struct specimen {
   void (*run)(int threads);
 };
 
-// The switch points needed: library calls only, or also accesses to variables.
+// The switch points needed: library calls only, or also accesses to variables; or these in so few schedules that it is
+// not expected to be found.
 #define SYNCHRONIZATION "synchronization"
 #define MEMORY "memory"
+#define RARE "rare"
 
 // One table per file, terminated by a specimen without a name; the list of tables is terminated by null.
 extern const struct specimen deadlocks[], atomicities[], signals[], timings[];
-extern const struct specimen lock_free[], orders[], endings[], robots[];
+extern const struct specimen lock_free[], orders[], endings[], robots[], hard[];
 extern const struct specimen* const tables[];
 
 extern int mended;
