@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fibers/explore/play.hpp"
 
+#include <algorithm>
+
 #include "core/error.hpp"
 #include "fibers/explore/strategies/factory.hpp"
 #include "fibers/explore/strategies/fifo.hpp"
@@ -13,8 +15,8 @@ Outcome play(Body& body, const Token& token, const Profile& profile) {
     return body.run(rest, {.deviations = token.deviations});
   }
   const std::unique_ptr<Strategy> strategy = make_strategy(token.strategy);
-  // An exhaustive strategy reaches a schedule only through those before it.
-  for (std::uint64_t number = strategy->is_exhaustive() ? 0 : token.number;; ++number) {
+  const auto from = [&](std::uint64_t number) { return std::min(strategy->first_learned(number), token.number); };
+  for (std::uint64_t number = from(0);; number = from(number + 1)) {
     strategy->begin(number, Draws(token.seed, token.strategy, number), profile);
     const Outcome outcome = body.run(*strategy);
     if (number == token.number) return outcome;

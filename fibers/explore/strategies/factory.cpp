@@ -13,6 +13,7 @@
 #include "fibers/explore/strategies/portfolio.hpp"
 #include "fibers/explore/strategies/pos.hpp"
 #include "fibers/explore/strategies/random.hpp"
+#include "fibers/explore/strategies/rff.hpp"
 #include "fibers/explore/strategies/urw.hpp"
 
 namespace waitpoint::exploration {
@@ -22,7 +23,7 @@ using Made = std::unique_ptr<Strategy>;
 
 Made make_portfolio() {
   std::vector<Made> parts;
-  for (const char* name : {"random", "pct:2", "pos", "surw", "pct:3", "urw", "pos", "surw"})
+  for (const char* name : {"random", "pct:2", "pos", "surw", "pos", "urw", "rff", "pos", "pct:3", "surw"})
     parts.push_back(make_strategy(name));
   return std::make_unique<Portfolio>(std::move(parts));
 }
@@ -43,6 +44,7 @@ constexpr Known known[] = {
     {"pos", nullptr, 0, 0, [](std::uint32_t) -> Made { return std::make_unique<Pos>(); }},
     {"urw", nullptr, 0, 0, [](std::uint32_t) -> Made { return std::make_unique<Urw>(false); }},
     {"surw", nullptr, 0, 0, [](std::uint32_t) -> Made { return std::make_unique<Urw>(true); }},
+    {"rff", nullptr, 0, 0, [](std::uint32_t) -> Made { return std::make_unique<Rff>(); }},
     {"bounded", "K", 2, 0, [](std::uint32_t most) -> Made { return std::make_unique<Dfs>(most); }},
     {"dfs", nullptr, 0, 0, [](std::uint32_t) -> Made { return std::make_unique<Dfs>(); }},
     {"dpor", nullptr, 0, 0, [](std::uint32_t) -> Made { return std::make_unique<Dpor>(); }},

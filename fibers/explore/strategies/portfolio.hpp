@@ -17,6 +17,14 @@ class Portfolio final : public Strategy {
     part_ = parts_[number % parts_.size()].get();
     part_->begin(number / parts_.size(), draws, profile);
   }
+  std::uint64_t first_learned(std::uint64_t from) const override {
+    for (std::uint64_t number = from; number - from < parts_.size(); ++number) {
+      const std::uint64_t of_part = number / parts_.size();
+      if (parts_[number % parts_.size()]->first_learned(of_part) == of_part) return number;
+    }
+    return none;
+  }
+  bool end() override { return part_->end(); }
   Strategy& deciding() override { return *part_; }
   std::uint32_t next(const SwitchPoint& at) override { return part_->next(at); }
   std::uint32_t among(Choice choice, const Task& task, std::uint32_t count) override {

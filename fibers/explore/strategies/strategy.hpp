@@ -4,7 +4,7 @@
 // A strategy picks the next of the ready tasks at each switch point, and the alternative of each other choice. It knows
 // the kernel's view of the tasks: the pending operation of each, and its object. Its random numbers come from the
 // schedule's own stream. Its knowledge of the body is the Profile, the same for every schedule of a campaign; only
-// exhaustive strategies carry state from one schedule to the next.
+// exhaustive strategies and those with feedback carry state from one schedule to the next.
 #pragma once
 
 #include <cstdint>
@@ -45,6 +45,9 @@ class Strategy {
   virtual std::uint32_t among(Choice choice, const Task& task, std::uint32_t count) = 0;
   /// A task polls, while others can continue: whether it goes on alone up to its next event that is no poll.
   virtual bool lets_poll_on() { return false; }
+  /// The first schedule, `from` or a later one, whose course those after it depend on: it must be run before them.
+  virtual std::uint64_t first_learned(std::uint64_t from) const { return is_exhaustive() ? from : none; }
+  static constexpr std::uint64_t none = ~std::uint64_t{0};
   /// Ends the schedule; false if no other is left to try.
   virtual bool end() { return true; }
   /// Of an exhaustive strategy: " with at most 2 preemptions", or "" if it tries all.
