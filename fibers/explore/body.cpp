@@ -70,6 +70,7 @@ Outcome Body::run(Strategy& strategy, const Played& played) {
   if (outcome.failure.empty() && sync::has_started_outside_of_virtual_time())
     outcome.failure = sync::started_outside_of_virtual_time;
   outcome.digest = simulation_.digest().value();
+  outcome.trace = explorer_.trace();
   outcome.end_time = simulation_.global_time();
   outcome.events = simulation_.scheduler().events();
   simulation_.unwind();

@@ -36,6 +36,7 @@ struct Outcome {
   bool only_raced = false;  ///< the failure is a data race: otherwise it passed
   bool was_cut = false;     ///< abandoned, since nothing new could follow; counts as passed
   std::uint64_t digest = 0;
+  std::uint64_t trace = 0;  ///< see Explorer::trace()
   Time end_time;
   std::uint64_t events = 0;
   std::vector<std::string> abandoned;

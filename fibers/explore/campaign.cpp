@@ -67,7 +67,7 @@ bool Campaign::begins_well() {
   supervisor_.begin_default();
   const Outcome first = take_profile(body_, profile_);
   usual_digest_ = first.digest;
-  seen_.insert(first.digest);
+  seen_.insert(first.trace);
   report_.schedules = 1;
   if (!first.passed()) {
     const Failure failure{body_.explorer().schedule(), first};
@@ -136,7 +136,7 @@ bool Campaign::fails(Strategy& strategy, std::uint64_t number) {
   strategy.begin(number, Draws(options_.seed, options_.strategy, number), profile_);
   const Outcome outcome = body_.run(strategy);
   ++report_.schedules;
-  if (!outcome.was_cut) seen_.insert(outcome.digest);
+  if (!outcome.was_cut) seen_.insert(outcome.trace);
   if (outcome.passed()) return false;
   const Found found{
       {body_.explorer().schedule(), outcome},

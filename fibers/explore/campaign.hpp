@@ -57,9 +57,9 @@ class Campaign {
   Body body_;
   Profile profile_;
   Supervisor supervisor_;
-  std::uint64_t usual_digest_ = 0;  // of the default schedule
-  Timeline usual_;                  // its first run
-  std::unordered_set<std::uint64_t> seen_;
+  std::uint64_t usual_digest_ = 0;          // of the default schedule
+  Timeline usual_;                          // its first run
+  std::unordered_set<std::uint64_t> seen_;  // traces
   RaceFindings races_;
   std::optional<Found> first_race_;
   ExploreReport report_;

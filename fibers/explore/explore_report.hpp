@@ -16,7 +16,7 @@ struct ExploreReport {
   bool passed = false;
   std::string text;  ///< of a failure: its description, location, explanation and replay line; else empty
   std::uint64_t schedules = 0;
-  std::uint64_t distinct = 0;
+  std::uint64_t distinct = 0;    ///< that differ in more than the order of independent events
   bool complete = false;         ///< an exhaustive strategy has tried all schedules, except spurious wake-ups
   std::string scope = {};        ///< after an exhaustive search: the space searched, as text
   std::size_t leaked_bytes = 0;  ///< heap bytes leaked by each default schedule

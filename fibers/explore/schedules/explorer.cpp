@@ -43,6 +43,7 @@ void Explorer::begin(Strategy& strategy, const Played& played) {
   schedule_.decisions.clear();
   schedule_.switches.clear();
   schedule_.cuts_polls_short = false;
+  trace_.clear();
   habits_.clear();
   stopped_before_.clear();
   last_ = poller_ = nullptr;
@@ -218,6 +219,7 @@ std::span<Task* const> Explorer::leave_spinning_out(std::span<Task* const> ready
 }
 
 inline void Explorer::note(const Task& task) {
+  trace_.add(task);
   if (__builtin_expect(task.number >= habits_.size(), 0)) habits_.resize(task.number + 1);
   RecentAccesses& habit = habits_[task.number];
   if (habit.instant != instants_) habit = {.at = {}, .instant = instants_};
@@ -292,6 +294,7 @@ std::uint32_t Explorer::alternative(Decision decision, const Task& task, std::ui
   if (chosen == count) chosen = offered > 1 ? strategy_->among(choice, task, offered) : 0;
   WAITPOINT_CHECK(chosen < count, "a strategy chose an alternative that does not exist");
   decision.chosen = chosen;
+  trace_.add(choice, task, chosen);
   schedule_.decisions.push_back(decision);
   if (decision.is_switch()) schedule_.switches.push_back({choice, event_of(task), {chosen, time}});
   return chosen;

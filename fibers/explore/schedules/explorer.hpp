@@ -13,6 +13,7 @@
 #include <span>
 #include <vector>
 
+#include "fibers/explore/schedules/trace_hash.hpp"
 #include "fibers/explore/strategies/schedule.hpp"
 #include "fibers/explore/strategies/strategy.hpp"
 #include "fibers/kernel/scheduler.hpp"
@@ -57,6 +58,8 @@ class Explorer final : public kernel::Decisions {
 
   /// The choices of this schedule so far.
   const Schedule& schedule() const { return schedule_; }
+  /// Equal for schedules that differ in the order of independent events only; of this process.
+  std::uint64_t trace() const { return trace_.value(); }
   /// Switch points so far.
   std::uint32_t steps() const { return step_; }
   /// True if the run diverged from the prefix: a decision had other alternatives.
@@ -120,6 +123,7 @@ class Explorer final : public kernel::Decisions {
   bool plays_ = false;
   std::vector<Switch> switches_;  // those to play, in order: indexed, since a long run searches them often
   Schedule schedule_;
+  TraceHash trace_;
   std::vector<RecentAccesses> habits_;
   std::vector<Task*> offered_;  // the ready tasks that do not spin, and their indices
   std::vector<std::uint32_t> places_;
