@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fibers/kernel/calendar.hpp"
 
-#include <sys/mman.h>
-
 #include <algorithm>
 #include <bit>
 #include <cstring>
 #include <utility>
 
 #include "core/error.hpp"
+#include "fibers/switch/reserved_pages.hpp"
 
 namespace waitpoint::kernel {
 namespace {
@@ -39,15 +38,15 @@ void sort_crowd(EventEntry* first, EventEntry* last) {
 }  // namespace
 
 Calendar::Calendar(std::uint32_t capacity) : reserved_(bytes(capacity)) {
-  void* memory = mmap(nullptr, reserved_, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
-  WAITPOINT_CHECK(memory != MAP_FAILED, "no address space for the event list");
+  void* const memory = reserve_pages(reserved_);
+  WAITPOINT_CHECK(memory != nullptr, "no address space for the event list");
   chunks_ = static_cast<Chunk*>(memory);
   buckets_ = reinterpret_cast<Bucket*>(chunks_ + chunks(capacity));
   occupied_ = reinterpret_cast<std::uint64_t*>(reinterpret_cast<char*>(buckets_) + heads_bytes);
   ends_ = reinterpret_cast<std::uint32_t*>(occupied_ + buckets_max / 64);
 }
 
-Calendar::~Calendar() { munmap(chunks_, reserved_); }
+Calendar::~Calendar() { release_pages(chunks_, reserved_); }
 
 void Calendar::add_chunk(Bucket& to, std::uint32_t bucket) {
   std::uint32_t chunk = free_;

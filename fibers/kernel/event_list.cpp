@@ -1,21 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fibers/kernel/event_list.hpp"
 
-#include <sys/mman.h>
-
 #include <algorithm>
 #include <bit>
 
 #include "core/error.hpp"
 #include "fibers/kernel/fetch.hpp"
+#include "fibers/switch/reserved_pages.hpp"
 
 namespace waitpoint::kernel {
 namespace {
 
 EventEntry* reserve(std::size_t entries) {
-  void* memory = mmap(nullptr, entries * sizeof(EventEntry), PROT_READ | PROT_WRITE,
-                      MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
-  WAITPOINT_CHECK(memory != MAP_FAILED, "no address space for the event list");
+  void* const memory = reserve_pages(entries * sizeof(EventEntry));
+  WAITPOINT_CHECK(memory != nullptr, "no address space for the event list");
   return static_cast<EventEntry*>(memory);
 }
 
@@ -45,13 +43,13 @@ EventList::EventList(std::uint32_t capacity)
 
 bool EventList::has_address_space(std::uint32_t capacity) {
   const std::size_t size = entries(capacity) * sizeof(EventEntry) + Calendar::bytes(capacity);
-  void* memory = mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
-  if (memory == MAP_FAILED) return false;
-  munmap(memory, size);
+  void* const memory = reserve_pages(size);
+  if (memory == nullptr) return false;
+  release_pages(memory, size);
   return true;
 }
 
-EventList::~EventList() { munmap(memory_, entries(capacity_) * sizeof(EventEntry)); }
+EventList::~EventList() { release_pages(memory_, entries(capacity_) * sizeof(EventEntry)); }
 
 void EventList::restart() {
   WAITPOINT_CHECK(size_ == 0, "a non-empty event list is restarted");

@@ -2,11 +2,10 @@
 //
 // The explored order: the events of all tasks due at the present instant are moved from the event list to the ready
 // set, and a strategy chooses among them.
-#include <sys/mman.h>
-
 #include "core/error.hpp"
 #include "fibers/kernel/scheduler.hpp"
 #include "fibers/kernel/scheduler_steps.hpp"
+#include "fibers/switch/reserved_pages.hpp"
 
 namespace waitpoint::kernel {
 namespace {
@@ -24,15 +23,24 @@ bool is_of_tasks(const EventKey& key) {
 }  // namespace
 
 void ReadySet::reserve(std::uint32_t capacity) {
-  void* memory =
-      mmap(nullptr, capacity * entry_size, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
-  WAITPOINT_CHECK(memory != MAP_FAILED, "no address space for the tasks that are ready");
+  void* const memory = reserve_pages(capacity * entry_size);
+  WAITPOINT_CHECK(memory != nullptr, "no address space for the tasks that are ready");
   tasks_ = static_cast<Task**>(memory);
   capacity_ = capacity;
 }
 
 ReadySet::~ReadySet() {
-  if (tasks_ != nullptr) munmap(tasks_, capacity_ * entry_size);
+  if (tasks_ != nullptr) release_pages(tasks_, capacity_ * entry_size);
+}
+
+void Scheduler::reserve_ahead() {
+  if (!has_address_space()) return;
+  const PagesKept kept;
+  const EventList events(events_max);
+  StackArena stacks;
+  ReadySet ready;
+  ready.reserve(tasks_max);
+  stacks.reserve_all();
 }
 
 void Scheduler::set_decisions(Decisions& decisions) {

@@ -28,6 +28,7 @@
 #include "fibers/kernel/wait_graph.hpp"
 #include "fibers/kernel/watch.hpp"
 #include "fibers/switch/departure.hpp"
+#include "fibers/switch/reserved_pages.hpp"
 #include "fibers/switch/stack_arena.hpp"
 
 namespace waitpoint::kernel {
@@ -42,7 +43,11 @@ class Scheduler {
   Scheduler& operator=(const Scheduler&) = delete;
 
   /// True if there is enough address space to construct a scheduler (ulimit -v).
-  static bool has_address_space() { return EventList::has_address_space(events_max); }
+  static bool has_address_space() { return !kept_pages().empty() || EventList::has_address_space(events_max); }
+
+  /// Reserves the address space of a scheduler of the explored order, which the next one in this process, or in a
+  /// forked one, gets: as it would have reserved it.
+  static void reserve_ahead();
 
   /// Sets the strategy of the explored order, before the first run_before(). It must outlive the run.
   void set_decisions(Decisions& decisions);

@@ -5,6 +5,7 @@
 #include <sys/resource.h>
 
 #include "core/error.hpp"
+#include "fibers/switch/reserved_pages.hpp"
 #include "fibers/switch/sanitizer.hpp"
 
 namespace waitpoint::kernel {
@@ -37,15 +38,18 @@ StackArena::StackArena() {
   for (const StackSize size : {StackSize::small, StackSize::medium, StackSize::large}) reserve(range_of(size), size);
 }
 
+void StackArena::reserve_all() {
+  if (Range& programs = range_of(StackSize::program); programs.base == nullptr) reserve(programs, StackSize::program);
+}
+
 void StackArena::reserve(Range& range, StackSize of) {
   const std::size_t most = bytes_max();
   // With little address space (limits, strict overcommit) there are fewer slots, not a failure.
   for (range.slots = slots_max[static_cast<int>(of)]; range.slots > 0; range.slots /= 2) {
     const std::size_t size = range.slots * bytes(of);
     if (size > most) continue;
-    void* base =
-        mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE | MAP_STACK, -1, 0);
-    if (base == MAP_FAILED) continue;
+    void* const base = reserve_pages(size, MAP_STACK);
+    if (base == nullptr) continue;
     range.base = static_cast<char*>(base);
     break;
   }
@@ -53,7 +57,7 @@ void StackArena::reserve(Range& range, StackSize of) {
 
 StackArena::~StackArena() {
   for (int i = 0; i < stack_sizes; ++i)
-    if (ranges_[i].base != nullptr) munmap(ranges_[i].base, ranges_[i].slots * bytes(static_cast<StackSize>(i)));
+    if (ranges_[i].base != nullptr) release_pages(ranges_[i].base, ranges_[i].slots * bytes(static_cast<StackSize>(i)));
 }
 
 bool StackArena::install_guard(char* at) {

@@ -29,6 +29,8 @@ class StackArena {
   StackArena(const StackArena&) = delete;
   StackArena& operator=(const StackArena&) = delete;
 
+  /// Reserves address space for stacks of every size, also of sizes that have it from their first use on only.
+  void reserve_all();
   /// Takes a stack of bytes(size), minus the guard page and the shift, which is less than a page. False if all slots
   /// are in use.
   bool take(StackSize size, Stack& stack);

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fibers/switch/reserved_pages.hpp"
+
+#include <sys/mman.h>
+
+#include "core/error.hpp"
+
+namespace waitpoint::kernel {
+namespace {
+
+constexpr std::size_t kept_max = 8;
+constinit ReservedPages kept[kept_max] = {};
+constinit std::size_t kept_count = 0;
+constinit bool keeps = false;
+
+}  // namespace
+
+void* reserve_pages(std::size_t bytes, int flags) {
+  for (std::size_t i = 0; !keeps && i < kept_count; ++i) {
+    if (kept[i].is_taken || kept[i].bytes != bytes) continue;
+    kept[i].is_taken = true;
+    return kept[i].memory;
+  }
+  void* const memory =
+      mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE | flags, -1, 0);
+  if (memory == MAP_FAILED) return nullptr;
+  if (keeps) {
+    WAITPOINT_CHECK(kept_count < kept_max, "more pages are kept than there is room for");
+    kept[kept_count++] = {memory, bytes, false};
+  }
+  return memory;
+}
+
+void release_pages(void* memory, std::size_t bytes) {
+  if (!keeps) munmap(memory, bytes);
+}
+
+PagesKept::PagesKept() {
+  WAITPOINT_CHECK(!keeps && kept_count == 0, "pages are kept a second time");
+  keeps = true;
+}
+PagesKept::~PagesKept() { keeps = false; }
+
+std::span<const ReservedPages> kept_pages() { return {kept, kept_count}; }
+
+}  // namespace waitpoint::kernel
