@@ -2,17 +2,22 @@
 #include "tools/exec/fork_server.hpp"
 
 #include <fcntl.h>
+#include <linux/futex.h>
 #include <poll.h>
 #include <sys/socket.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <cerrno>
 #include <csignal>
 #include <cstring>
+#include <ctime>
 
 #include "core/error.hpp"
 #include "fibers/posix/exec/fork_server.hpp"
+#include "fibers/posix/exec/rerun_control.hpp"
 #include "tools/command/interruption.hpp"
 #include "tools/command/signal_words.hpp"
 
@@ -52,6 +57,22 @@ void ask(int socket, const int (&descriptors)[posix::run_descriptors]) {
   (void)sendmsg(socket, &message, MSG_NOSIGNAL);  // a missing receiver is noticed when no answer arrives
 }
 
+long futex(std::atomic<std::uint32_t>& word, int operation, std::uint32_t value, const timespec* timeout) {
+  return syscall(SYS_futex, &word, operation, value, timeout, nullptr, 0);
+}
+
+void ask_again(posix::RerunControl& control) {
+  control.asked.fetch_add(1);
+  futex(control.asked, FUTEX_WAKE, 1, nullptr);
+}
+
+bool has_ended(posix::RerunControl& control, int timeout_ms) {
+  const timespec patience{timeout_ms / 1000, timeout_ms % 1000 * 1'000'000L};
+  if (control.ended.load() == posix::RerunControl::not_yet)
+    futex(control.ended, FUTEX_WAIT, posix::RerunControl::not_yet, &patience);
+  return control.ended.load() != posix::RerunControl::not_yet;
+}
+
 }  // namespace
 
 ForkServer::ForkServer(const ProgramFiles& files, const posix::Settings& settings) : memory_(settings) {
@@ -80,27 +101,58 @@ ForkServer::~ForkServer() {
 }
 
 RunMemory& ForkServer::begin(const posix::Settings& settings) {
-  memory_.begin_anew(settings);
+  memory_.begin_anew(settings, was_orderly_);
   return memory_;
 }
 
 pid_t ForkServer::start(int input, int output) {
+  posix::RerunControl& control = memory_.rerun_control();
+  control.ended.store(posix::RerunControl::not_yet);
+  if (waiting_ != 0) {
+    waiting_ = 0;
+    ask_again(control);
+    return run_;
+  }
   ask(socket_, {input, output});
   posix::RunStarted started{};
   if (!receive(socket_, started)) throw BadInput("exec", "the program has ended");
   if (started.process < 0) throw BadInput("exec", "cannot create a process");
-  return started.process;
+  return run_ = started.process;
 }
 
 std::optional<int> ForkServer::wait(int timeout_ms) {
-  pollfd one{socket_, POLLIN, 0};
-  if (poll(&one, 1, timeout_ms) <= 0) return std::nullopt;
-  posix::RunEnded ended{SIGKILL};  // the server is gone
+  posix::RerunControl& control = memory_.rerun_control();
+  if (!has_ended(control, timeout_ms)) {
+    pollfd one{socket_, 0, 0};
+    if (poll(&one, 1, 0) <= 0) return std::nullopt;
+    return SIGKILL;  // the server is gone
+  }
+  if (control.ended.load() == posix::RerunControl::in_place) {
+    waiting_ = run_;
+    was_orderly_ = true;
+    return control.status;
+  }
+  posix::RunEnded ended{SIGKILL};
   (void)receive(socket_, ended);
+  was_orderly_ = WIFEXITED(ended.status);
   return ended.status;
 }
 
+void ForkServer::fork_next() {
+  if (waiting_ == 0) return;
+  posix::RerunControl& control = memory_.rerun_control();
+  control.ended.store(posix::RerunControl::not_yet);
+  control.is_to_leave = true;
+  ask_again(control);
+  posix::RunEnded ended;
+  (void)receive(socket_, ended);
+  waiting_ = 0;
+  control.is_to_leave = false;
+  end();
+}
+
 void ForkServer::end() {
+  if (waiting_ != 0) return;
   const char byte = 0;
   (void)send(socket_, &byte, 1, MSG_NOSIGNAL);
   posix::RunGone gone;

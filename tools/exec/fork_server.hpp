@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Loads a program once, and runs it any number of times by forks from just before main().
+// Loads a program once, and runs it any number of times from just before main(): by forks, and in a forked process that
+// can be put back to that state after its run (fibers/posix/exec/rerun.hpp).
 #pragma once
 
 #include <optional>
@@ -20,8 +21,13 @@ class ForkServer {
 
   /// The memory of the next run, with these settings. There is one run at a time.
   RunMemory& begin(const posix::Settings& settings);
-  /// Starts the run, with descriptors for its input and output; returns its process.
+  /// Starts the run; returns its process. Its input and output are these descriptors, in a process of the last run's
+  /// the ones that it has.
   pid_t start(int input, int output);
+  /// True if the next run is made in the process of the last one.
+  bool is_rerun() const { return waiting_ != 0; }
+  /// Ends that process: the next run is made by a fork.
+  void fork_next();
   /// Waits for its end, for at most `timeout_ms`; the status is as from waitpid().
   std::optional<int> wait(int timeout_ms);
   /// After its end: kills the processes that it has left behind.
@@ -31,6 +37,9 @@ class ForkServer {
   RunMemory memory_;
   int socket_;
   pid_t process_;
+  pid_t run_ = 0;      ///< the process of the present or last run
+  pid_t waiting_ = 0;  ///< the same, if it can make the next run
+  bool was_orderly_ = false;
 };
 
 }  // namespace waitpoint::tools

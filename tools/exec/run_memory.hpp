@@ -2,6 +2,7 @@
 // The memory that a program's run shares with its supervisor: settings and results.
 #pragma once
 
+#include "fibers/posix/exec/rerun_control.hpp"
 #include "fibers/posix/program/record.hpp"
 
 namespace waitpoint::tools {
@@ -15,8 +16,9 @@ class RunMemory {
  public:
   explicit RunMemory(const posix::Settings& settings);
   ~RunMemory();
-  /// For another run, after the end of the one before.
-  void begin_anew(const posix::Settings& settings);
+  /// For another run, after the end of the one before, which may have written anywhere unless it `was_orderly`.
+  void begin_anew(const posix::Settings& settings, bool was_orderly);
+  posix::RerunControl& rerun_control() const { return posix::rerun_control(); }
   RunMemory(const RunMemory&) = delete;
   RunMemory& operator=(const RunMemory&) = delete;
 
@@ -26,6 +28,9 @@ class RunMemory {
 
  private:
   void begin(const posix::Settings& settings);
+  void discard() const;
+  /// Zeroes what the last run has used; false if that is much.
+  bool clear() const;
 
   int descriptor_;
   posix::Record* record_;

@@ -27,32 +27,42 @@ constexpr double between_looks_s = 0.5;
 
 [[noreturn]] void fail(const char* what) { throw std::system_error(errno, std::generic_category(), what); }
 
-// A message is its size and its bytes. Both return false if the other end is gone.
-bool send_all(int socket, const void* bytes, std::size_t size) {
-  for (std::size_t at = 0; at < size;) {
-    const ssize_t sent = send(socket, static_cast<const char*>(bytes) + at, size - at, MSG_NOSIGNAL);
+// A message is its size and its bytes, in one piece as far as it fits: there may be thousands a second.
+std::string message_of(const std::string& bytes) {
+  const std::size_t size = bytes.size();
+  std::string message(sizeof size + size, '\0');
+  std::memcpy(message.data(), &size, sizeof size);
+  std::memcpy(message.data() + sizeof size, bytes.data(), size);
+  return message;
+}
+// True if these are a whole message.
+bool is_message(const std::string& so_far) {
+  std::size_t size = 0;
+  if (so_far.size() < sizeof size) return false;
+  std::memcpy(&size, so_far.data(), sizeof size);
+  return so_far.size() == sizeof size + size;
+}
+
+// Both return false if the other end is gone.
+bool send_message(int socket, const std::string& bytes) {
+  const std::string message = message_of(bytes);
+  for (std::size_t at = 0; at < message.size();) {
+    const ssize_t sent = send(socket, message.data() + at, message.size() - at, MSG_NOSIGNAL);
     if (sent < 0 && errno != EINTR) return false;
     if (sent > 0) at += static_cast<std::size_t>(sent);
   }
   return true;
 }
-bool send_message(int socket, const std::string& bytes) {
-  const std::size_t size = bytes.size();
-  return send_all(socket, &size, sizeof size) && send_all(socket, bytes.data(), size);
-}
-bool receive_all(int socket, void* bytes, std::size_t size) {
-  for (std::size_t at = 0; at < size;) {
-    const ssize_t got = recv(socket, static_cast<char*>(bytes) + at, size - at, 0);
-    if (got == 0 || (got < 0 && errno != EINTR)) return false;
-    if (got > 0) at += static_cast<std::size_t>(got);
-  }
-  return true;
-}
+// The next one is sent only after the answer to this one.
 bool receive_message(int socket, std::string& bytes) {
-  std::size_t size = 0;
-  if (!receive_all(socket, &size, sizeof size)) return false;
-  bytes.resize(size);
-  return receive_all(socket, bytes.data(), size);
+  char part[4096];
+  for (bytes.clear(); !is_message(bytes);) {
+    const ssize_t got = recv(socket, part, sizeof part, 0);
+    if (got == 0 || (got < 0 && errno != EINTR)) return false;
+    if (got > 0) bytes.append(part, static_cast<std::size_t>(got));
+  }
+  bytes.erase(0, sizeof(std::size_t));
+  return true;
 }
 
 void make_sockets(int (&ends)[2]) {
@@ -122,6 +132,7 @@ void Children::drain(int socket, std::string& to, std::size_t most, bool& at_end
     at_end = got == 0;
     if (got <= 0) return;
     to.append(part, std::min(static_cast<std::size_t>(got), most - std::min(most, to.size())));
+    if (static_cast<std::size_t>(got) < sizeof part) return;
   }
 }
 
@@ -137,19 +148,10 @@ Children::Ended Children::reap(std::size_t index) {
   return std::move(running.so_far);
 }
 
-bool Children::is_complete(const Ended& so_far) const {
-  std::size_t size = 0;
-  if (so_far.bytes.size() < sizeof size) return false;
-  std::memcpy(&size, so_far.bytes.data(), sizeof size);
-  return so_far.bytes.size() == sizeof size + size;
-}
-
 // The result of a child that has done its job.
 Children::Ended Children::take(std::size_t index) {
   Ended ended = limits_.is_reused ? running_[index].so_far : reap(index);
   if (limits_.is_reused) {
-    bool at_end = false;
-    drain(running_[index].errors, ended.errors, errors_max, at_end);
     free_.push_back(std::move(running_[index]));
     running_.erase(running_.begin() + static_cast<std::ptrdiff_t>(index));
   }
@@ -170,7 +172,8 @@ std::optional<Children::Ended> Children::wait(int timeout_ms) {
     bool at_end = false, errors_end = false;
     if (sockets[2 * i + 1].revents != 0) drain(running_[i].errors, running_[i].so_far.errors, errors_max, errors_end);
     if (sockets[2 * i].revents != 0) drain(running_[i].jobs, running_[i].so_far.bytes, std::string::npos, at_end);
-    if (is_complete(running_[i].so_far)) return take(i);
+    // What it has written to its standard error before is there, too.
+    if (is_message(running_[i].so_far.bytes)) return take(i);
     if (at_end) return reap(i);
   }
   return std::nullopt;

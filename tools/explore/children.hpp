@@ -61,7 +61,6 @@ class Children {
   static void drain(int socket, std::string& to, std::size_t most, bool& at_end);
   Running make() const;
   [[noreturn]] void carry_out(int jobs, int errors) const;
-  bool is_complete(const Ended& so_far) const;
   Ended take(std::size_t index);
   Ended reap(std::size_t index);
   void end_those_beyond_limits();

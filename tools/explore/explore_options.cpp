@@ -156,6 +156,9 @@ ExploreArguments::ExploreArguments(CommandLine& line)
                   "memory of a program compiled with -fsanitize=thread (default: $WAITPOINT_MEMORY, or sc):\n"
                   "atomic loads return the newest value; or, as C++20 allows for their memory orders, older\n"
                   "ones, too");
+  command_.flag("--fork-each", forks_each_,
+                "of a program: a process of its own for each schedule (default: most schedules are run\n"
+                "by a process whose memory is put back to its state before main())");
   conditions_.add_to(command_);
   command_.flag("--no-minimize", keep_all_, "report the failure as found, without minimisation");
   command_.footer(
@@ -194,6 +197,8 @@ ExploreOptions ExploreArguments::options(const std::vector<std::string>& words) 
     options.conditions = conditions_.conditions(true);
   } else if (scenario_.empty()) {
     throw BadInput("explore", "expected a scenario's file, or --exec and a program");
+  } else if (forks_each_) {
+    throw BadInput("--fork-each", "cannot be used without --exec");
   } else if (const std::string given = conditions_.first_given(); !given.empty()) {
     throw BadInput(given, "expected --exec and a program: for a scenario, its file sets this");
   }
@@ -242,6 +247,7 @@ ExploreOptions ExploreArguments::options(const std::vector<std::string>& words) 
   options.trace = file(trace_);
   options.schedule = file(schedule_);
   options.minimize = !keep_all_;
+  options.forks_each = forks_each_;
   where = "--replay";
   options.replay = text_of(replay_, "WAITPOINT_REPLAY", where);
   if (options.replay.empty()) return options;

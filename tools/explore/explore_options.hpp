@@ -45,6 +45,7 @@ struct ExploreOptions {
   std::optional<std::filesystem::path> results, trace, schedule;  ///< output files
   std::string replay;  ///< a token or a file's name, to run only that schedule
   bool minimize = true;
+  bool forks_each = false;            ///< each schedule of a program has a process of its own
   ProgramConditions conditions;       ///< of a program
   Races races = Races::report;        ///< of a program compiled with -fsanitize=thread
   Memory memory = Memory::sc;         ///< the same
@@ -82,7 +83,7 @@ class ExploreArguments {
   std::vector<std::string> assignments_, properties_;
   ConfinementArguments confinement_;
   ConditionArguments conditions_;
-  bool is_program_ = false, keep_all_ = false;
+  bool is_program_ = false, keep_all_ = false, forks_each_ = false;
 };
 
 }  // namespace waitpoint::tools

@@ -88,13 +88,15 @@ ProgramTarget::ProgramTarget(const ExploreOptions& options)
     : options_(options),
       files_(options.program, false, switch_at_of(options)),
       fingerprint_(fingerprint_of(files_, options)),
-      input_(open_input()) {
+      given_input_(open_input()) {
   options.conditions.check(files_.named());
   check_memory(options, files_);
   if (options.races == Races::ignore) ignore_races();
 }
 
-ProgramTarget::~ProgramTarget() { close(input_); }
+ProgramTarget::~ProgramTarget() {
+  for (const int each : {given_input_, input_, output_}) close(each);
+}
 
 void ProgramTarget::prepare() { const ForkServer server(files_, settings_of(options_)); }
 
@@ -117,15 +119,36 @@ bool ProgramTarget::shows_new_races(const Finding& finding) {
   return told_.size() > before;
 }
 
+// A process that makes another run has those of the last one.
+void ProgramTarget::open_streams() {
+  if (server_->is_rerun()) {
+    lseek(input_, 0, SEEK_SET);
+    if (lseek(output_, 0, SEEK_END) > 0 && ftruncate(output_, 0) == 0) lseek(output_, 0, SEEK_SET);
+    return;
+  }
+  for (const int each : {input_, output_}) close(each);
+  input_ = opened_again(given_input_);
+  output_ = memfd_create("waitpoint-output", MFD_CLOEXEC);
+}
+
 Finding ProgramTarget::run_once(const Plan& plan, const Request& request) {
   if (!server_) {
     std::signal(SIGTERM, note_stop);
     server_.emplace(files_, settings_of(options_));
   }
+  const bool is_rerun = server_->is_rerun();
+  Finding finding = run_in_process(plan, request);
+  // A failure is reported as it happens in a process of its own.
+  if (!is_rerun || finding.kind <= Finding::Kind::misuse || is_to_stop != 0) return finding;
+  server_->fork_next();
+  return run_in_process(plan, request);
+}
+
+Finding ProgramTarget::run_in_process(const Plan& plan, const Request& request) {
   RunMemory& memory = server_->begin(settings_of(options_));
   ask_for_run(memory, files_, options_, plan, request, profile_);
-  const int input = opened_again(input_), output = memfd_create("waitpoint-output", MFD_CLOEXEC);
-  const pid_t process = server_->start(input, output);
+  open_streams();
+  const pid_t process = server_->start(input_, output_);
   Watchdog watchdog(memory.record());
   const double start_s = wall_clock_s();
   std::uint64_t events = 0;
@@ -155,7 +178,7 @@ Finding ProgramTarget::run_once(const Plan& plan, const Request& request) {
     return is_stalled();
   };
   if (stalled.empty() && !request.stop_before) end_others(memory.record(), is_stalled_by_now);
-  Finding finding = finding_of_run(memory, *status, end_of(output), request, options_.trace.has_value(), races_fail());
+  Finding finding = finding_of_run(memory, *status, end_of(output_), request, options_.trace.has_value(), races_fail());
   // Of other instructions than the learned ones nothing is known.
   if (request.choices && !files_.accesses.empty()) finding.has_unlearned_code = true;
   if (options_.races == Races::report && !request.learn && !request.places && shows_new_races(finding))
@@ -167,8 +190,6 @@ Finding ProgramTarget::run_once(const Plan& plan, const Request& request) {
     if (has_gone_on) finding.digest = 0;  // how far it came is the wall clock's
   }
   server_->end();
-  close(input);
-  close(output);
   return finding;
 }
 

@@ -32,12 +32,15 @@ class ProgramTarget final : public Target {
  private:
   bool has_processes() const override { return true; }
   bool shows_new_races(const Finding& finding);
+  void open_streams();
   Finding run_once(const Plan& plan, const Request& request);
+  Finding run_in_process(const Plan& plan, const Request& request);
 
   const ExploreOptions& options_;
   ProgramFiles files_;
   std::uint64_t fingerprint_;
-  int input_;                         // of the runs: each reads it from its beginning
+  int given_input_;                   // of the runs: each reads it from its beginning
+  int input_ = -1, output_ = -1;      // of the present or last run
   std::set<RacingCode> told_;         // the races of this process's findings so far
   std::optional<ForkServer> server_;  // of the process that runs schedules
 };

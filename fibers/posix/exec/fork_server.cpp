@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fibers/posix/exec/fork_server.hpp"
 
+#include <linux/futex.h>
 #include <poll.h>
 #include <signal.h>
 #include <sys/prctl.h>
@@ -9,11 +10,14 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <cerrno>
 #include <cstring>
 #include <iterator>
 #include <type_traits>
 
+#include "fibers/posix/base/direct_call.hpp"
+#include "fibers/posix/exec/rerun_control.hpp"
 #include "fibers/posix/program/program.hpp"
 
 namespace waitpoint::posix {
@@ -71,6 +75,13 @@ int await_end(pid_t run, int socket) {
   return end.si_status | (end.si_code == CLD_DUMPED ? WCOREFLAG : 0);
 }
 
+// The explorer waits for both kinds of ends in one place.
+void tell_of_end() {
+  std::atomic<std::uint32_t>& ended = rerun_control().ended;
+  ended.store(RerunControl::as_process);
+  call_directly(SYS_futex, reinterpret_cast<long>(&ended), FUTEX_WAKE, 1);
+}
+
 // Once it is asked for, ends those that the first process has left behind.
 void end_others(pid_t run, int socket) {
   char byte = 0;
@@ -95,6 +106,7 @@ void serve_runs(int socket) {
     answer(socket, RunStarted{run});
     if (run < 0) continue;
     answer(socket, RunEnded{await_end(run, socket)});
+    tell_of_end();
     end_others(run, socket);
     answer(socket, RunGone{});
   }

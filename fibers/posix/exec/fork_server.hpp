@@ -4,7 +4,8 @@
 // The explorer requests each run by a packet over a socket, with the descriptors of its input and its output in it. The
 // record, which all runs use in turn, holds the run's settings by then. The answers are the run's process id and, at
 // its end, its status, as of waitpid(). The processes of its group that it has left behind are killed at a further
-// packet, which is answered. All are killed, and the server ends, when the other end of the socket is closed.
+// packet, which is answered. A run whose process can make further ones ends otherwise: see rerun_control.hpp. All are
+// killed, and the server ends, when the other end of the socket is closed.
 #pragma once
 
 #include <sys/types.h>

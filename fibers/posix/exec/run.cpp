@@ -23,6 +23,7 @@
 #include "fibers/posix/exec/last_calls.hpp"
 #include "fibers/posix/exec/misuse_log.hpp"
 #include "fibers/posix/exec/race_log.hpp"
+#include "fibers/posix/exec/rerun.hpp"
 #include "fibers/posix/exec/run_memory.hpp"
 #include "fibers/posix/family/turn.hpp"
 #include "fibers/posix/processes/children.hpp"
@@ -54,6 +55,7 @@ void* run_body(void*) { std::exit(program_body()); }
 
 [[noreturn]] void end_process(int status) {
   family::leave(W_EXITCODE(status, 0));
+  rerun_instead_of_ending(status);
   WAITPOINT_NEXT(_exit)(status);
   __builtin_unreachable();
 }
@@ -113,8 +115,11 @@ namespace {
 kernel::Scheduler& begin_run() {
   begin();
   if (const int server = record->settings.server; server >= 0 && !family::is_joined()) {
+    prepare_reruns();
     serve_runs(server);
     trap_raw_calls_of_child();
+    instead_of_ending = rerun_instead_of_ending;
+    begin_reruns();
   }
   WAITPOINT_CHECK(kernel::running == nullptr, "a run begins within a task");
   reserve_waitables();

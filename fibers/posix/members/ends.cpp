@@ -78,6 +78,7 @@ WAITPOINT_INTERPOSED void _exit(int status) {
   if (runs_in_member()) end_member(status);
   note_closing_all();
   family::leave(W_EXITCODE(status & 0xFF, 0));
+  if (instead_of_ending != nullptr) instead_of_ending(status);
   WAITPOINT_NEXT(_exit)(status);
   __builtin_unreachable();
 }

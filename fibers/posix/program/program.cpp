@@ -11,6 +11,7 @@ constinit Program process_program;
 constinit AllocatorCode allocator_code;
 bool is_timer_firing = false;
 std::uint64_t timers_fired = 0;
+void (*instead_of_ending)(int status) = nullptr;
 
 kernel::Task* first_task() {
   if (kernel::running != nullptr) return kernel::running->scheduler->first_task();

@@ -21,6 +21,9 @@ kernel::Task* first_task();
 /// The thread with this gettid(); null without one.
 Thread* thread_with_id(int id);
 
+/// Called, unless null, when the process is about to end with this exit status; it need not return.
+extern void (*instead_of_ending)(int status);
+
 /// Ends the process with a one-line reason.
 [[noreturn]] void refuse(const char* reason);
 

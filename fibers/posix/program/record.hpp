@@ -35,6 +35,10 @@ inline constexpr std::uintptr_t family_address = record_address + record_bytes;
 inline constexpr std::size_t family_bytes = std::size_t{1} << 34;
 inline constexpr std::size_t run_bytes = record_bytes + family_bytes;
 
+/// The last page of the record's memory, which outlasts the run: see exec/rerun_control.hpp.
+inline constexpr std::size_t control_bytes = 4096;
+inline constexpr std::uintptr_t control_address = family_address - control_bytes;
+
 /// The file, as the processes that execute another program open it: a descriptor of the process that watches the run.
 struct RunFile {
   int watcher = 0;  ///< process
@@ -64,6 +68,7 @@ struct Settings {
   bool trap_library = false;                    ///< waits within the C library are simulated
   bool simulates_started = false;               ///< programs that it starts are simulations too
   bool reports_ending = false;                  ///< the watching process ends the run when a signal asks to
+  bool makes_reruns = false;                    ///< see exec/rerun.hpp
   int server = -1;                              ///< a socket on which runs are requested, see fork_server.hpp
 };
 
@@ -94,9 +99,7 @@ struct alignas(Arena::alignment) Record {
   Digest digest() const { return robot.digest.digest(); }
 
   /// Its pointers are valid at the record's address, wherever it is constructed.
-  Record() {
-    arena.start(reinterpret_cast<Record*>(record_address) + 1, reinterpret_cast<char*>(record_address + record_bytes));
-  }
+  Record() { arena.start(reinterpret_cast<Record*>(record_address) + 1, reinterpret_cast<char*>(control_address)); }
   ~Record() {}  // the scheduler is never destroyed: the process ends first
 };
 static_assert(record_address % 4096 == 0 && record_bytes % 4096 == 0, "the record's file is mapped in whole pages");

@@ -93,7 +93,7 @@ void grow() {
       ++moved;
     }
   WAITPOINT_CHECK(moved == kept && kept < bucket_count, "the table of primitives and its count disagree");
-  if (old != nullptr) munmap(old, old_count * sizeof(void*));
+  if (old != nullptr) madvise(old, old_count * sizeof(void*), MADV_DONTNEED);
 }
 
 void unlink(Waitable& waitable) {
@@ -119,6 +119,8 @@ void reserve_waitables() {
   else if (memory != MAP_FAILED)
     munmap(memory, reserved_bytes);
 }
+
+ReservedAddresses reserved_for_waitables() { return {first_pages, reserved_end}; }
 
 bool names_waitables = false;
 

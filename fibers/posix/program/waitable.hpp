@@ -37,6 +37,11 @@ inline constexpr std::size_t waitable_bytes_max = 256;
 
 /// At the beginning of a run: reserves address space for all, with memory on first use.
 void reserve_waitables();
+struct ReservedAddresses {
+  std::uintptr_t begin, end;
+};
+/// Empty if they could not be reserved.
+ReservedAddresses reserved_for_waitables();
 /// The waitable of this kind kept for `address`; null if there is none.
 Waitable* find_waitable(const void* address, Waitable::Kind kind);
 /// A cell for a new waitable, entered in the table under `address`.

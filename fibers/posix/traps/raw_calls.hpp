@@ -16,6 +16,11 @@ void trap_raw_calls();
 /// The same in a forked child, which does not inherit it.
 void trap_raw_calls_of_child();
 bool are_raw_calls_trapped();
+/// From now on all calls are trapped and followed (followed_calls.hpp), those of the C library too, up to the first one
+/// that cannot be undone. Without an effect if raw calls are not trapped.
+void follow_all_calls();
+/// True if all calls since then can be undone.
+bool are_calls_undoable();
 /// In a handler of SIGSYS: true if it was such a call, which is done then.
 bool answer_raw_call(const siginfo_t& information, void* context);
 

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fibers/posix/exec/rerun.hpp"
+
+#include <linux/futex.h>
+#include <sys/mman.h>
+#include <sys/syscall.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "core/error.hpp"
+#include "fibers/posix/base/direct_call.hpp"
+#include "fibers/posix/base/stack_switch.hpp"
+#include "fibers/posix/exec/memory_image.hpp"
+#include "fibers/posix/exec/race_log.hpp"
+#include "fibers/posix/exec/rerun_control.hpp"
+#include "fibers/posix/family/processes.hpp"
+#include "fibers/posix/program/program.hpp"
+#include "fibers/posix/program/waitable.hpp"
+#include "fibers/posix/traps/followed_calls.hpp"
+#include "fibers/posix/traps/library_calls.hpp"
+#include "fibers/posix/traps/raw_calls.hpp"
+#include "fibers/switch/reserved_pages.hpp"
+#include "fibers/switch/thread_pointer.hpp"
+
+namespace waitpoint::posix {
+namespace {
+
+// An address that no program uses.
+constexpr std::uintptr_t kept_address = 0x2900'0000'0000;
+constexpr std::size_t room_bytes = std::size_t{1} << 27;
+
+// All that is not put back.
+struct Kept {
+  MemoryImage image;
+  void* point[5];  // as of __builtin_setjmp()
+  void* thread_pointer;
+  unsigned control_of_vectors;
+  unsigned short control_of_floats;
+  std::uint32_t asked;
+  alignas(16) char stack[1 << 16];
+  alignas(4096) char room[room_bytes];
+};
+Kept& kept() { return *reinterpret_cast<Kept*>(kept_address); }
+
+bool makes_reruns = false;
+
+// Reserved address space, of which few pages are used: they are zero at the beginning of each run.
+constexpr std::size_t zeroed_max = 16;
+struct Zeroed {
+  Pages all[zeroed_max];
+  std::size_t count = 0;
+
+  Zeroed() {
+    for (const kernel::ReservedPages& each : kernel::kept_pages()) {
+      const auto begin = reinterpret_cast<std::uintptr_t>(each.memory);
+      add({begin, begin + each.bytes});
+    }
+    const auto [begin, end] = reserved_for_waitables();
+    if (begin != end) add({begin, end});
+  }
+  void add(Pages pages) {
+    WAITPOINT_CHECK(count < zeroed_max, "more pages are reserved than can be discarded");
+    all[count++] = pages;
+  }
+};
+
+bool take_image() {
+  void* const at = reinterpret_cast<void*>(kept_address);
+  void* const memory = mmap(at, sizeof(Kept), PROT_READ | PROT_WRITE,
+                            MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE | MAP_FIXED_NOREPLACE, -1, 0);
+  if (memory != at) return false;
+  Zeroed excluded;
+  excluded.add({kept_address, kept_address + sizeof(Kept)});
+  kept().thread_pointer = kernel::thread_pointer();
+  asm volatile("stmxcsr %0\n\tfnstcw %1" : "=m"(kept().control_of_vectors), "=m"(kept().control_of_floats));
+  const auto room = reinterpret_cast<std::uintptr_t>(kept().room);
+  return kept().image.take({excluded.all, excluded.count}, {room, room + room_bytes});
+}
+
+long futex(std::atomic<std::uint32_t>& word, int operation, std::uint32_t value) {
+  return call_directly(SYS_futex, reinterpret_cast<long>(&word), operation, value);
+}
+
+// On the kept stack.
+void put_back(void*) {
+  RerunControl& control = rerun_control();
+  undo_calls();
+  kernel::set_thread_pointer(kept().thread_pointer);
+  asm volatile("ldmxcsr %0\n\tfldcw %1" : : "m"(kept().control_of_vectors), "m"(kept().control_of_floats));
+  bool is_restored = false;
+  {
+    const PageMap map;
+    is_restored = kept().image.restore(map);
+    for (const Zeroed zeroed; const Pages& pages : std::span(zeroed.all, zeroed.count)) map.zero(pages);
+  }
+  kept().asked = control.asked.load();
+  control.ended.store(is_restored ? RerunControl::in_place : RerunControl::not_yet);
+  if (!is_restored) call_directly(SYS_exit_group, WEXITSTATUS(control.status));
+  futex(control.ended, FUTEX_WAKE, 1);
+  while (control.asked.load() == kept().asked) futex(control.asked, FUTEX_WAIT, kept().asked);
+  if (control.is_to_leave) call_directly(SYS_exit_group, 0);
+  __builtin_longjmp(kept().point, 1);
+}
+
+}  // namespace
+
+void prepare_reruns() {
+  // The runtime reserves its own memory before the scheduler does.
+  if (has_race_runtime()) return;
+  reserve_waitables();
+  kernel::Scheduler::reserve_ahead();
+}
+
+[[gnu::noinline]] void begin_reruns() {
+  if (!record->settings.makes_reruns || has_race_runtime() || !are_raw_calls_trapped() || are_library_calls_trapped())
+    return;
+  makes_reruns = true;
+  if (!take_image()) {
+    makes_reruns = false;
+    return;
+  }
+  (void)__builtin_setjmp(kept().point);
+  follow_all_calls();
+}
+
+void rerun_instead_of_ending(int status) {
+  if (!makes_reruns || !are_calls_undoable() || family::family->made > 1) return;
+  rerun_control().status = W_EXITCODE(status & 0xFF, 0);
+  call_on(kept().stack, sizeof kept().stack, put_back, nullptr);
+}
+
+}  // namespace waitpoint::posix

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fibers/posix/traps/followed_calls.hpp"
+
+#include <fcntl.h>
+#include <signal.h>
+#include <sys/ioctl.h>
+#include <sys/mman.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+
+#include "core/error.hpp"
+#include "fibers/posix/base/direct_call.hpp"
+
+namespace waitpoint::posix {
+namespace {
+
+// As the system defines it.
+struct SystemAction {
+  void* handler;
+  unsigned long flags;
+  void* restorer;
+  std::uint64_t mask;
+};
+constexpr int actions_end = 65;
+
+constexpr std::size_t mappings_max = 64;
+LibraryRange mapped[mappings_max];
+std::size_t mapped_count = 0;
+
+SystemAction actions_before[actions_end];
+std::uint64_t mask_before = 0;
+bool has_changed[actions_end] = {};
+long break_before = 0;
+
+bool is_mapped_since(std::uintptr_t begin, std::size_t bytes) {
+  for (std::size_t i = 0; i < mapped_count; ++i)
+    if (begin >= mapped[i].begin && bytes <= mapped[i].end - begin && begin < mapped[i].end) return true;
+  return false;
+}
+
+long action_of(long signal, SystemAction* action) {
+  return call_directly(SYS_rt_sigaction, signal, 0, reinterpret_cast<long>(action), sizeof action->mask);
+}
+
+bool can_map(const CallWords& words) {
+  constexpr int usual = MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE | MAP_STACK | MAP_FIXED;
+  const int flags = words.word<int>(3);
+  if ((flags & ~usual) != 0 || (flags & MAP_ANONYMOUS) == 0 || mapped_count == mappings_max) return false;
+  return (flags & MAP_FIXED) == 0 || is_mapped_since(words.word<std::uintptr_t>(0), words.word<std::size_t>(1));
+}
+
+// The guards of the layer's own stacks are installed again at the same places; what is discarded can be copied back.
+bool can_advise(const CallWords& words) {
+  constexpr int guard_install = 102;
+  const int advice = words.word<int>(2);
+  return advice == MADV_DONTNEED || advice == guard_install ||
+         is_mapped_since(words.word<std::uintptr_t>(0), words.word<std::size_t>(1));
+}
+
+bool is_standard_stream(const CallWords& words) { return words.at[0] >= 0 && words.at[0] <= STDERR_FILENO; }
+
+bool can_be_undone(long number, const CallWords& words) {
+  switch (number) {
+    case SYS_mmap: return can_map(words);
+    case SYS_munmap:
+    case SYS_mprotect: return is_mapped_since(words.word<std::uintptr_t>(0), words.word<std::size_t>(1));
+    case SYS_madvise: return can_advise(words);
+    case SYS_read:
+    case SYS_write:
+    case SYS_readv:
+    case SYS_writev:
+    case SYS_pread64:
+    case SYS_pwrite64:
+    case SYS_lseek: return is_standard_stream(words);
+    case SYS_ioctl: return words.at[1] == TCGETS;
+    case SYS_fcntl: return words.at[1] == F_GETFL || words.at[1] == F_GETFD;
+    case SYS_prlimit64: return words.at[2] == 0;
+    case SYS_brk:
+    case SYS_rt_sigaction:
+    case SYS_rt_sigprocmask:
+    case SYS_fstat:
+    case SYS_newfstatat:
+    case SYS_statx:
+    case SYS_stat:
+    case SYS_lstat:
+    case SYS_access:
+    case SYS_faccessat:
+    case SYS_readlink:
+    case SYS_getcwd:
+    case SYS_futex:
+    case SYS_getpid:
+    case SYS_gettid:
+    case SYS_getppid:
+    case SYS_getuid:
+    case SYS_geteuid:
+    case SYS_getgid:
+    case SYS_getegid:
+    case SYS_getrlimit:
+    case SYS_getrusage:
+    case SYS_sched_yield:
+    case SYS_sched_getaffinity:
+    case SYS_sysinfo:
+    case SYS_uname:
+    case SYS_times:
+    case SYS_clock_gettime:
+    case SYS_clock_getres:
+    case SYS_gettimeofday:
+    case SYS_time:
+    case SYS_getrandom: return true;
+    default: return false;
+  }
+}
+
+// The handler's return would set another mask.
+long change_mask(const CallWords& words, ucontext_t& context) {
+  std::uint64_t now = 0;
+  static_assert(sizeof now <= sizeof context.uc_sigmask);
+  std::memcpy(&now, &context.uc_sigmask, sizeof now);
+  const auto* const set = words.word<const std::uint64_t*>(1);
+  auto* const old = words.word<std::uint64_t*>(2);
+  const std::uint64_t given = set != nullptr ? *set : 0;
+  if (old != nullptr) *old = now;
+  if (set == nullptr) return 0;
+  switch (words.word<int>(0)) {
+    case SIG_BLOCK: now |= given; break;
+    case SIG_UNBLOCK: now &= ~given; break;
+    case SIG_SETMASK: now = given; break;
+    default: return -EINVAL;
+  }
+  std::memcpy(&context.uc_sigmask, &now, sizeof now);
+  return 0;
+}
+
+}  // namespace
+
+LibraryRange return_from_handlers() {
+  SystemAction action{};
+  WAITPOINT_CHECK(action_of(SIGSYS, &action) == 0 && action.restorer != nullptr, "SIGSYS has no handler");
+  constexpr std::size_t size = 16;  // of two instructions
+  const auto begin = reinterpret_cast<std::uintptr_t>(action.restorer);
+  return {begin, begin + size};
+}
+
+void begin_to_follow_calls() {
+  break_before = call_directly(SYS_brk, 0);
+  call_directly(SYS_rt_sigprocmask, SIG_SETMASK, 0, reinterpret_cast<long>(&mask_before), sizeof mask_before);
+}
+
+bool follow_call(long number, const CallWords& words, ucontext_t& context) {
+  if (!can_be_undone(number, words)) return false;
+  if (number == SYS_rt_sigaction && words.at[0] > 0 && words.at[0] < actions_end && !has_changed[words.at[0]])
+    has_changed[words.at[0]] = action_of(words.at[0], &actions_before[words.at[0]]) == 0;
+  const long result = number == SYS_rt_sigprocmask ? change_mask(words, context)
+                                                   : call_directly(number, words.at[0], words.at[1], words.at[2],
+                                                                   words.at[3], words.at[4], words.at[5]);
+  if (number == SYS_mmap && result > 0)
+    mapped[mapped_count++] = {static_cast<std::uintptr_t>(result),
+                              static_cast<std::uintptr_t>(result) + words.word<std::size_t>(1)};
+  context.uc_mcontext.gregs[REG_RAX] = result;
+  return true;
+}
+
+void undo_calls() {
+  for (std::size_t i = 0; i < mapped_count; ++i)
+    call_directly(SYS_munmap, static_cast<long>(mapped[i].begin), static_cast<long>(mapped[i].end - mapped[i].begin));
+  call_directly(SYS_brk, break_before);
+  for (int signal = 1; signal < actions_end; ++signal)
+    if (has_changed[signal])
+      call_directly(SYS_rt_sigaction, signal, reinterpret_cast<long>(&actions_before[signal]), 0,
+                    sizeof actions_before[signal].mask);
+  call_directly(SYS_rt_sigprocmask, SIG_SETMASK, reinterpret_cast<long>(&mask_before), 0, sizeof mask_before);
+}
+
+}  // namespace waitpoint::posix

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The system calls of a run that can be undone: those that change nothing but the process's memory, or what is known
+// here. Each is made in the handler that has trapped it (raw_calls.hpp).
+#pragma once
+
+#include <ucontext.h>
+
+#include "fibers/posix/base/system_call_words.hpp"
+#include "fibers/posix/traps/library_range.hpp"
+
+namespace waitpoint::posix {
+
+/// Before the first call: notes the state that they may change.
+void begin_to_follow_calls();
+/// Makes the call, and puts its result into the context. False, without having made it, if it could not be undone.
+bool follow_call(long number, const CallWords& words, ucontext_t& context);
+/// Undoes the calls, apart from the contents of memory; on no memory that was mapped since.
+void undo_calls();
+
+/// The instructions by which the C library's handlers of signals return.
+LibraryRange return_from_handlers();
+
+}  // namespace waitpoint::posix
