@@ -40,6 +40,7 @@ class ForkServer {
   pid_t run_ = 0;      ///< the process of the present or last run
   pid_t waiting_ = 0;  ///< the same, if it can make the next run
   bool was_orderly_ = false;
+  int in_vain_ = 0;  ///< runs one after the other whose process could not make the next one
 };
 
 }  // namespace waitpoint::tools

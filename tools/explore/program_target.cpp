@@ -95,7 +95,13 @@ ProgramTarget::ProgramTarget(const ExploreOptions& options)
 }
 
 ProgramTarget::~ProgramTarget() {
-  for (const int each : {given_input_, input_, output_}) close(each);
+  close(given_input_);
+  close_streams();
+}
+
+void ProgramTarget::close_streams() const {
+  for (const int each : {input_, output_})
+    if (each >= 0) close(each);
 }
 
 void ProgramTarget::prepare() { const ForkServer server(files_, settings_of(options_)); }
@@ -126,7 +132,7 @@ void ProgramTarget::open_streams() {
     if (lseek(output_, 0, SEEK_END) > 0 && ftruncate(output_, 0) == 0) lseek(output_, 0, SEEK_SET);
     return;
   }
-  for (const int each : {input_, output_}) close(each);
+  close_streams();
   input_ = opened_again(given_input_);
   output_ = memfd_create("waitpoint-output", MFD_CLOEXEC);
 }

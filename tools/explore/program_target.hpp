@@ -33,6 +33,7 @@ class ProgramTarget final : public Target {
   bool has_processes() const override { return true; }
   bool shows_new_races(const Finding& finding);
   void open_streams();
+  void close_streams() const;
   Finding run_once(const Plan& plan, const Request& request);
   Finding run_in_process(const Plan& plan, const Request& request);
 

@@ -105,6 +105,12 @@ bool MemoryImage::take(std::span<const Pages> excluded, Pages room) {
   });
 }
 
+bool MemoryImage::has_anonymous(const Pages& pages) const {
+  return std::any_of(ranges_, ranges_ + count_, [&pages](const Range& range) {
+    return !range.is_of_file && pages.begin >= range.pages.begin && pages.end <= range.pages.end;
+  });
+}
+
 bool MemoryImage::restore(const PageMap& map) {
   return std::all_of(ranges_, ranges_ + count_, [&](const Range& range) {
     return for_each_page(range, map, [this, &range](std::size_t number, PageMap::Entry entry) {

@@ -16,6 +16,8 @@ class MemoryImage {
   /// Copies all private writable memory, apart from `excluded`, to the memory from `room` on. False if it is too large,
   /// or the system does not tell of it.
   bool take(std::span<const Pages> excluded, Pages room);
+  /// True if the copy has all these pages, and they belong to no file.
+  bool has_anonymous(const Pages& pages) const;
   /// False if the system does not tell which pages were written.
   bool restore(const PageMap& map);
 

@@ -77,6 +77,8 @@ bool take_image() {
   return kept().image.take({excluded.all, excluded.count}, {room, room + room_bytes});
 }
 
+bool can_map_again(LibraryRange range) { return kept().image.has_anonymous({range.begin, range.end}); }
+
 long futex(std::atomic<std::uint32_t>& word, int operation, std::uint32_t value) {
   return call_directly(SYS_futex, reinterpret_cast<long>(&word), operation, value);
 }
@@ -120,7 +122,7 @@ void prepare_reruns() {
     return;
   }
   (void)__builtin_setjmp(kept().point);
-  follow_all_calls();
+  follow_all_calls(can_map_again);
 }
 
 void rerun_instead_of_ending(int status) {

@@ -27,8 +27,9 @@ struct SystemAction {
 constexpr int actions_end = 65;
 
 constexpr std::size_t mappings_max = 64;
-LibraryRange mapped[mappings_max];
-std::size_t mapped_count = 0;
+LibraryRange mapped[mappings_max], unmapped[mappings_max];
+std::size_t mapped_count = 0, unmapped_count = 0;
+bool (*may_be_unmapped)(LibraryRange range) = nullptr;
 
 SystemAction actions_before[actions_end];
 std::uint64_t mask_before = 0;
@@ -43,6 +44,15 @@ bool is_mapped_since(std::uintptr_t begin, std::size_t bytes) {
 
 long action_of(long signal, SystemAction* action) {
   return call_directly(SYS_rt_sigaction, signal, 0, reinterpret_cast<long>(action), sizeof action->mask);
+}
+
+LibraryRange range_of(const CallWords& words) {
+  const auto begin = words.word<std::uintptr_t>(0);
+  return {begin, begin + (words.word<std::size_t>(1) + 4095) / 4096 * 4096};
+}
+
+bool is_mapped_before(const CallWords& words) {
+  return unmapped_count < mappings_max && may_be_unmapped(range_of(words));
 }
 
 bool can_map(const CallWords& words) {
@@ -66,6 +76,7 @@ bool can_be_undone(long number, const CallWords& words) {
   switch (number) {
     case SYS_mmap: return can_map(words);
     case SYS_munmap:
+      return is_mapped_since(words.word<std::uintptr_t>(0), words.word<std::size_t>(1)) || is_mapped_before(words);
     case SYS_mprotect: return is_mapped_since(words.word<std::uintptr_t>(0), words.word<std::size_t>(1));
     case SYS_madvise: return can_advise(words);
     case SYS_read:
@@ -144,7 +155,8 @@ LibraryRange return_from_handlers() {
   return {begin, begin + size};
 }
 
-void begin_to_follow_calls() {
+void begin_to_follow_calls(bool (*can_map_again)(LibraryRange range)) {
+  may_be_unmapped = can_map_again;
   break_before = call_directly(SYS_brk, 0);
   call_directly(SYS_rt_sigprocmask, SIG_SETMASK, 0, reinterpret_cast<long>(&mask_before), sizeof mask_before);
 }
@@ -153,6 +165,8 @@ bool follow_call(long number, const CallWords& words, ucontext_t& context) {
   if (!can_be_undone(number, words)) return false;
   if (number == SYS_rt_sigaction && words.at[0] > 0 && words.at[0] < actions_end && !has_changed[words.at[0]])
     has_changed[words.at[0]] = action_of(words.at[0], &actions_before[words.at[0]]) == 0;
+  if (number == SYS_munmap && !is_mapped_since(words.word<std::uintptr_t>(0), words.word<std::size_t>(1)))
+    unmapped[unmapped_count++] = range_of(words);
   const long result = number == SYS_rt_sigprocmask ? change_mask(words, context)
                                                    : call_directly(number, words.at[0], words.at[1], words.at[2],
                                                                    words.at[3], words.at[4], words.at[5]);
@@ -166,6 +180,10 @@ bool follow_call(long number, const CallWords& words, ucontext_t& context) {
 void undo_calls() {
   for (std::size_t i = 0; i < mapped_count; ++i)
     call_directly(SYS_munmap, static_cast<long>(mapped[i].begin), static_cast<long>(mapped[i].end - mapped[i].begin));
+  for (std::size_t i = 0; i < unmapped_count; ++i)
+    call_directly(SYS_mmap, static_cast<long>(unmapped[i].begin),
+                  static_cast<long>(unmapped[i].end - unmapped[i].begin), PROT_READ | PROT_WRITE,
+                  MAP_PRIVATE | MAP_ANONYMOUS | MAP_FIXED, -1);
   call_directly(SYS_brk, break_before);
   for (int signal = 1; signal < actions_end; ++signal)
     if (has_changed[signal])

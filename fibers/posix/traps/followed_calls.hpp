@@ -10,8 +10,9 @@
 
 namespace waitpoint::posix {
 
-/// Before the first call: notes the state that they may change.
-void begin_to_follow_calls();
+/// Before the first call: notes the state that they may change. `can_map_again` is true for a range of memory that is
+/// anonymous, private and readable and writable, whose contents will be put back.
+void begin_to_follow_calls(bool (*can_map_again)(LibraryRange range));
 /// Makes the call, and puts its result into the context. False, without having made it, if it could not be undone.
 bool follow_call(long number, const CallWords& words, ucontext_t& context);
 /// Undoes the calls, apart from the contents of memory; on no memory that was mapped since.

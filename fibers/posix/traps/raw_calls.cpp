@@ -83,9 +83,9 @@ void trap_raw_calls_of_child() {
 
 bool are_raw_calls_trapped() { return is_dispatched; }
 
-void follow_all_calls() {
+void follow_all_calls(bool (*can_map_again)(LibraryRange range)) {
   if (!is_dispatched) return;
-  begin_to_follow_calls();
+  begin_to_follow_calls(can_map_again);
   follows = dispatch_outside(return_from_handlers());
 }
 

@@ -8,6 +8,8 @@
 
 #include <csignal>
 
+#include "fibers/posix/traps/library_range.hpp"
+
 namespace waitpoint::posix {
 
 /// In this process from now on, if the system is able to. Without an effect in a program with a sanitizer's runtime,
@@ -18,7 +20,7 @@ void trap_raw_calls_of_child();
 bool are_raw_calls_trapped();
 /// From now on all calls are trapped and followed (followed_calls.hpp), those of the C library too, up to the first one
 /// that cannot be undone. Without an effect if raw calls are not trapped.
-void follow_all_calls();
+void follow_all_calls(bool (*can_map_again)(LibraryRange range));
 /// True if all calls since then can be undone.
 bool are_calls_undoable();
 /// In a handler of SIGSYS: true if it was such a call, which is done then.
