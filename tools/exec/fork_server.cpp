@@ -66,12 +66,6 @@ void ask_again(posix::RerunControl& control) {
   futex(control.asked, FUTEX_WAKE, 1, nullptr);
 }
 
-// A process copies its memory before its first run: seldom, if that is for nothing.
-bool is_worth_preparing(int in_vain) {
-  constexpr int patience = 3, pause = 100;
-  return in_vain % pause < patience;
-}
-
 bool has_ended(posix::RerunControl& control, int timeout_ms) {
   const timespec patience{timeout_ms / 1000, timeout_ms % 1000 * 1'000'000L};
   if (control.ended.load() == posix::RerunControl::not_yet)
@@ -108,7 +102,7 @@ ForkServer::~ForkServer() {
 
 RunMemory& ForkServer::begin(const posix::Settings& settings) {
   memory_.begin_anew(settings, was_orderly_);
-  memory_.record().settings.makes_reruns = settings.makes_reruns && is_worth_preparing(in_vain_);
+  memory_.record().settings.makes_reruns = settings.makes_reruns && gain_.is_worth_preparing();
   return memory_;
 }
 
@@ -137,18 +131,19 @@ std::optional<int> ForkServer::wait(int timeout_ms) {
   if (control.ended.load() == posix::RerunControl::in_place) {
     waiting_ = run_;
     was_orderly_ = true;
-    in_vain_ = 0;
+    gain_.note_kept();
     return control.status;
   }
   posix::RunEnded ended{SIGKILL};
   (void)receive(socket_, ended);
   was_orderly_ = WIFEXITED(ended.status);
-  ++in_vain_;
+  if (is_followed()) gain_.note_lost();
   return ended.status;
 }
 
 void ForkServer::fork_next() {
   if (waiting_ == 0) return;
+  gain_.note_lost();
   posix::RerunControl& control = memory_.rerun_control();
   control.ended.store(posix::RerunControl::not_yet);
   control.is_to_leave = true;

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "tools/exec/program_process.hpp"
+#include "tools/exec/rerun_gain.hpp"
 
 namespace waitpoint::tools {
 
@@ -26,6 +27,8 @@ class ForkServer {
   pid_t start(int input, int output);
   /// True if the next run is made in the process of the last one.
   bool is_rerun() const { return waiting_ != 0; }
+  /// True if the process of the last run was to make further ones.
+  bool is_followed() const { return memory_.record().settings.makes_reruns; }
   /// Ends that process: the next run is made by a fork.
   void fork_next();
   /// Waits for its end, for at most `timeout_ms`; the status is as from waitpid().
@@ -40,7 +43,7 @@ class ForkServer {
   pid_t run_ = 0;      ///< the process of the present or last run
   pid_t waiting_ = 0;  ///< the same, if it can make the next run
   bool was_orderly_ = false;
-  int in_vain_ = 0;  ///< runs one after the other whose process could not make the next one
+  RerunGain gain_;
 };
 
 }  // namespace waitpoint::tools

@@ -142,16 +142,18 @@ Finding ProgramTarget::run_once(const Plan& plan, const Request& request) {
     std::signal(SIGTERM, note_stop);
     server_.emplace(files_, settings_of(options_));
   }
-  const bool is_rerun = server_->is_rerun();
-  Finding finding = run_in_process(plan, request);
-  // A failure is reported as it happens in a process of its own.
-  if (!is_rerun || finding.kind <= Finding::Kind::misuse || is_to_stop != 0) return finding;
+  const posix::Settings settings = settings_of(options_);
+  Finding finding = run_in_process(settings, plan, request);
+  if (!server_->is_followed() || finding.kind <= Finding::Kind::misuse || is_to_stop != 0) return finding;
+  // A failure is reported as it happens in a process of its own, whose calls are not trapped.
   server_->fork_next();
-  return run_in_process(plan, request);
+  posix::Settings plain = settings;
+  plain.makes_reruns = false;
+  return run_in_process(plain, plan, request);
 }
 
-Finding ProgramTarget::run_in_process(const Plan& plan, const Request& request) {
-  RunMemory& memory = server_->begin(settings_of(options_));
+Finding ProgramTarget::run_in_process(const posix::Settings& settings, const Plan& plan, const Request& request) {
+  RunMemory& memory = server_->begin(settings);
   ask_for_run(memory, files_, options_, plan, request, profile_);
   open_streams();
   const pid_t process = server_->start(input_, output_);

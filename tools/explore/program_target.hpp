@@ -35,7 +35,7 @@ class ProgramTarget final : public Target {
   void open_streams();
   void close_streams() const;
   Finding run_once(const Plan& plan, const Request& request);
-  Finding run_in_process(const Plan& plan, const Request& request);
+  Finding run_in_process(const posix::Settings& settings, const Plan& plan, const Request& request);
 
   const ExploreOptions& options_;
   ProgramFiles files_;
