@@ -49,6 +49,11 @@ class Reruns(ExecCase):
                                           ("two_processes.c", 50)):
             self.compare(schedules, self.compile(name, *options))
 
+    def test_programs_with_data_races(self):
+        for name in ("benign.cpp", "racing.cpp"):
+            found = self.compare(200, self.compile(name, "-g", "-fsanitize=thread"))
+            self.assertIn("failed: a data race", found)
+
     def test_most_schedules_are_not_forked(self):
         def faults_per_schedule(*options):
             before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_minflt

@@ -114,8 +114,7 @@ void prepare_reruns() {
 }
 
 [[gnu::noinline]] void begin_reruns() {
-  if (!record->settings.makes_reruns || has_race_runtime() || !are_raw_calls_trapped() || are_library_calls_trapped())
-    return;
+  if (!record->settings.makes_reruns || !are_raw_calls_trapped() || are_library_calls_trapped()) return;
   makes_reruns = true;
   if (!take_image()) {
     makes_reruns = false;
