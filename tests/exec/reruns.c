@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // A program that changes all kinds of state of its process, and finds them as they are at the start of a process. Each
-// that it does not find so makes its threads lock once more, which changes the run's digest. With an argument it does
-// one thing that cannot be undone: "fork", "file", "exit", "abort", "crash", "pipe".
+// that it does not find so makes its threads lock once more, which changes the run's digest. With an argument it
+// opens descriptors ("pipe", "file"), does what cannot be undone ("fork", "spawn", "limit"), or fails in some schedules
+// ("exit", "abort", "crash").
 #include <fcntl.h>
 #include <fenv.h>
 #include <pthread.h>
@@ -12,6 +13,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/mman.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -99,7 +101,18 @@ static void do_for_good(const char* what) {
   }
   int ends[2];
   if (strcmp(what, "pipe") == 0) expect(pipe(ends) == 0 && ends[0] == 3);
-  if (strcmp(what, "file") == 0) expect(open("/dev/null", O_RDONLY) == 3);
+  if (strcmp(what, "file") == 0) {
+    FILE* const file = fopen("/dev/null", "r");
+    expect(file != NULL && fileno(file) == 3 && getc(file) == EOF);
+    expect(open("/dev/null", O_RDONLY) == 4);
+  }
+  if (strcmp(what, "spawn") == 0) expect(system("true") == 0);
+  if (strcmp(what, "limit") == 0) {
+    struct rlimit limit;
+    expect(getrlimit(RLIMIT_NOFILE, &limit) == 0 && limit.rlim_cur != 100);
+    limit.rlim_cur = 100;
+    setrlimit(RLIMIT_NOFILE, &limit);
+  }
   const int is_seldom = zero[1] % 2 == 0;
   if (strcmp(what, "exit") == 0 && is_seldom) exit(3);
   if (strcmp(what, "abort") == 0 && is_seldom) abort();

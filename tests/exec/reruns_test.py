@@ -34,8 +34,13 @@ class Reruns(ExecCase):
 
     def test_what_cannot_be_undone_is_not(self):
         program = self.compile("reruns.c", "-lm")
-        for what in ("fork", "pipe", "file"):
-            self.assertNotIn("failed", self.compare(60, program, what))
+        for what in ("fork", "spawn", "limit"):
+            self.assertNotIn("failed", self.compare(40, program, what))
+
+    def test_descriptors_are_closed(self):
+        program = self.compile("reruns.c", "-lm")
+        for what in ("pipe", "file"):
+            self.assertNotIn("failed", self.compare(100, program, what))
 
     def test_failures_are_those_of_processes_of_their_own(self):
         program = self.compile("reruns.c", "-lm")

@@ -13,6 +13,7 @@
 
 #include "core/error.hpp"
 #include "fibers/posix/base/direct_call.hpp"
+#include "fibers/posix/traps/followed_descriptors.hpp"
 
 namespace waitpoint::posix {
 namespace {
@@ -56,9 +57,10 @@ bool is_mapped_before(const CallWords& words) {
 }
 
 bool can_map(const CallWords& words) {
-  constexpr int usual = MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE | MAP_STACK | MAP_FIXED;
+  constexpr int usual = MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE | MAP_STACK | MAP_FIXED | MAP_DENYWRITE;
   const int flags = words.word<int>(3);
-  if ((flags & ~usual) != 0 || (flags & MAP_ANONYMOUS) == 0 || mapped_count == mappings_max) return false;
+  const bool is_of_run = (flags & MAP_ANONYMOUS) != 0 || is_opened_since(words.word<int>(4));
+  if ((flags & ~usual) != 0 || (flags & MAP_PRIVATE) == 0 || !is_of_run || mapped_count == mappings_max) return false;
   return (flags & MAP_FIXED) == 0 || is_mapped_since(words.word<std::uintptr_t>(0), words.word<std::size_t>(1));
 }
 
@@ -73,6 +75,7 @@ bool can_advise(const CallWords& words) {
 bool is_standard_stream(const CallWords& words) { return words.at[0] >= 0 && words.at[0] <= STDERR_FILENO; }
 
 bool can_be_undone(long number, const CallWords& words) {
+  if (is_undone_by_closing(number, words)) return true;
   switch (number) {
     case SYS_mmap: return can_map(words);
     case SYS_munmap:
@@ -87,7 +90,10 @@ bool can_be_undone(long number, const CallWords& words) {
     case SYS_pwrite64:
     case SYS_lseek: return is_standard_stream(words);
     case SYS_ioctl: return words.at[1] == TCGETS;
-    case SYS_fcntl: return words.at[1] == F_GETFL || words.at[1] == F_GETFD;
+    case SYS_fcntl:
+      return words.at[1] == F_GETFL || words.at[1] == F_GETFD ||
+             ((words.at[1] == F_SETFL || words.at[1] == F_SETFD) && is_opened_since(words.word<int>(0)));
+    case SYS_poll: return words.at[2] == 0;
     case SYS_prlimit64: return words.at[2] == 0;
     case SYS_brk:
     case SYS_rt_sigaction:
@@ -141,6 +147,7 @@ long change_mask(const CallWords& words, ucontext_t& context) {
     case SIG_SETMASK: now = given; break;
     default: return -EINVAL;
   }
+  now &= ~(std::uint64_t{1} << (SIGSYS - 1));  // by which calls are trapped: the C library blocks all at times
   std::memcpy(&context.uc_sigmask, &now, sizeof now);
   return 0;
 }
@@ -173,11 +180,13 @@ bool follow_call(long number, const CallWords& words, ucontext_t& context) {
   if (number == SYS_mmap && result > 0)
     mapped[mapped_count++] = {static_cast<std::uintptr_t>(result),
                               static_cast<std::uintptr_t>(result) + words.word<std::size_t>(1)};
+  if (result >= 0) note_descriptors(number, words, result);
   context.uc_mcontext.gregs[REG_RAX] = result;
   return true;
 }
 
 void undo_calls() {
+  close_descriptors_of_run();
   for (std::size_t i = 0; i < mapped_count; ++i)
     call_directly(SYS_munmap, static_cast<long>(mapped[i].begin), static_cast<long>(mapped[i].end - mapped[i].begin));
   for (std::size_t i = 0; i < unmapped_count; ++i)
