@@ -26,6 +26,7 @@ std::vector<std::string> with_lines(const std::vector<ChoiceText>& texts) {
 
 std::vector<Told> with_lines(std::vector<Told> told) {
   std::vector<ChoiceText> texts;
+  texts.reserve(told.size());
   for (const Told& choice : told) texts.push_back({choice.words, choice.place});
   std::vector<std::string> words = with_lines(texts);
   for (std::size_t i = 0; i < told.size(); ++i) told[i].words = std::move(words[i]);
