@@ -64,7 +64,7 @@ void begin_race_log(bool learn, bool notes, Memory memory, std::span<const std::
 void begin_access_log(bool learn, bool notes, std::span<const AccessInstruction> instructions,
                       std::span<const std::uint64_t> code) {
   static constexpr races::Listener without_races = {[](const races::FoundRace&) {}, listener.learned,
-                                                    listener.unlearned};
+                                                    listener.unlearned, listener.left_out_value};
   begin_log(learn, notes, without_races);
   const races::Runtime& runtime = *waitpoint_races_runtime();
   runtime.set_weak(false);
