@@ -16,6 +16,7 @@
 #include "fibers/posix/base/error_number.hpp"
 #include "fibers/posix/program/thread.hpp"
 #include "fibers/posix/signals/signals.hpp"
+#include "fibers/posix/traps/raw_calls.hpp"
 
 namespace waitpoint::posix {
 namespace {
@@ -73,6 +74,7 @@ bool make_writable() {
 
 void set_all() {
   before_first_thread = nullptr;
+  stop_following_calls();  // breakpoints remain in the code
   dl_iterate_phdr(note_load_address, nullptr);
   const std::size_t bytes = asked.instructions.size() * sizeof(Breakpoint);
   const long memory =
