@@ -17,7 +17,7 @@ class Reruns(ExecCase):
         """The file of results, of all schedules with their digests and outcomes."""
         results, given = self.folder / "results", self.folder / "given"
         given.write_text("first\nsecond\n")
-        command = [WAITPOINT, "explore", "--exec", "--iterations", schedules, "--results", results, *words]
+        command = [WAITPOINT, "explore", "--exec", "--switch-at", "calls", "--iterations", schedules, "--results", results, *words]
         with given.open() as stdin:
             done = subprocess.run([str(word) for word in command], stdin=stdin, capture_output=True, text=True, timeout=250)
         self.assertIn(f"{schedules} schedules, ", done.stdout, done.stderr)
