@@ -69,8 +69,8 @@ class Campaign:
     """One seed's schedules: their number up to the failure, the failure's kind, and whether its replay is the same run."""
 
     def __init__(self, waitpoint, program, iterations, seed):
-        text = execute([waitpoint, "explore", "--exec", "--iterations", str(iterations), "--seed", str(seed), "--", program],
-                       program.parent)
+        text = execute([waitpoint, "explore", "--exec", "--switch-at", "calls", "--iterations", str(iterations), "--seed", str(seed),
+                        "--", program], program.parent)
         failed = re.search(r"^(?:schedule (\d+) of .*|the default order) failed at [0-9.]+ s: "
                            r"(?:terminated by signal \d+ \()?([\w ]+)", text, re.MULTILINE)
         if not failed:

@@ -29,7 +29,7 @@ def explored(waitpoint, program, seeds):
     times = []
     for seed in seeds:
         begun = time.monotonic()
-        command = [waitpoint, "explore", "--exec", "--iterations", "1000000", "--seed", str(seed), "--", program]
+        command = [waitpoint, "explore", "--exec", "--switch-at", "calls", "--iterations", "1000000", "--seed", str(seed), "--", program]
         with subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True) as process:
             for line in process.stdout:
                 if ": schedule " in line or line.startswith(("the default order failed", "waitpoint: the default order")):

@@ -163,8 +163,8 @@ std::vector<AccessInstruction> access_instructions(const std::filesystem::path& 
   std::vector<AccessInstruction> found;
   for (const Piece& piece : code.pieces()) add_accesses(decoder, piece, code.bytes(piece), found);
   std::ranges::sort(found, {}, &AccessInstruction::offset);
-  const auto [first, last] = std::ranges::unique(found, {}, &AccessInstruction::offset);
-  found.erase(first, last);
+  const auto is_same = [](const AccessInstruction& a, const AccessInstruction& b) { return a.offset == b.offset; };
+  found.erase(std::unique(found.begin(), found.end(), is_same), found.end());
   return found;
 }
 

@@ -186,6 +186,18 @@ void ExploreArguments::check_exhaustive(const std::string& where, const ExploreO
                                ", which derives each schedule from the one before");
 }
 
+void ExploreArguments::take_program_options(ExploreOptions& options) const {
+  for (const auto& [name, is_given] : {std::pair<const char*, bool>{"--races", !races_.empty()},
+                                       {"--switch-at", !switch_at_.empty()},
+                                       {"--memory", !memory_.empty()},
+                                       {"--fork-each", forks_each_}})
+    if (is_given && !is_program_) throw BadInput(name, "expected --exec and a program");
+  options.races = races_of(races_);
+  options.switch_at = switch_at_named(switch_at_);
+  if (is_program_) options.memory = memory_of(memory_);
+  options.forks_each = forks_each_;
+}
+
 ExploreOptions ExploreArguments::options(const std::vector<std::string>& words) const {
   ExploreOptions options;
   if (is_program_) {
@@ -197,8 +209,6 @@ ExploreOptions ExploreArguments::options(const std::vector<std::string>& words) 
     options.conditions = conditions_.conditions(true);
   } else if (scenario_.empty()) {
     throw BadInput("explore", "expected a scenario's file, or --exec and a program");
-  } else if (forks_each_) {
-    throw BadInput("--fork-each", "cannot be used without --exec");
   } else if (const std::string given = conditions_.first_given(); !given.empty()) {
     throw BadInput(given, "expected --exec and a program: for a scenario, its file sets this");
   }
@@ -227,12 +237,7 @@ ExploreOptions ExploreArguments::options(const std::vector<std::string>& words) 
   options.seed_is_asked = !text_of(seed_, "WAITPOINT_SEED", where).empty();
   if (!jobs_.empty() && (!parse_number(jobs_, options.jobs) || options.jobs < 1 || options.jobs > jobs_max))
     refuse("--jobs", "a whole number from 1 to " + std::to_string(jobs_max), jobs_);
-  if (!races_.empty() && !is_program_) throw BadInput("--races", "expected --exec and a program");
-  options.races = races_of(races_);
-  if (!switch_at_.empty() && !is_program_) throw BadInput("--switch-at", "expected --exec and a program");
-  options.switch_at = switch_at_named(switch_at_);
-  if (!memory_.empty() && !is_program_) throw BadInput("--memory", "expected --exec and a program");
-  if (is_program_) options.memory = memory_of(memory_);
+  take_program_options(options);
   options.until = positive_seconds("--until", until_);
   options.from = positive_seconds("--from", from_);
   if (options.from && options.until && *options.from >= *options.until)
@@ -247,7 +252,6 @@ ExploreOptions ExploreArguments::options(const std::vector<std::string>& words) 
   options.trace = file(trace_);
   options.schedule = file(schedule_);
   options.minimize = !keep_all_;
-  options.forks_each = forks_each_;
   where = "--replay";
   options.replay = text_of(replay_, "WAITPOINT_REPLAY", where);
   if (options.replay.empty()) return options;

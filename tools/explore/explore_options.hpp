@@ -75,6 +75,7 @@ class ExploreArguments {
 
  private:
   void check_program() const;
+  void take_program_options(ExploreOptions& options) const;
   void check_exhaustive(const std::string& where, const ExploreOptions& options) const;
 
   Command command_;

@@ -92,6 +92,7 @@ ProgramTarget::ProgramTarget(const ExploreOptions& options)
   options.conditions.check(files_.named());
   check_memory(options, files_);
   if (options.races == Races::ignore) ignore_races();
+  if (!files_.instrumented) options_.switch_at = switch_at_of(options);  // for the command of a replay
 }
 
 ProgramTarget::~ProgramTarget() {
