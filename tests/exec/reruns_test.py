@@ -13,11 +13,13 @@ PR_SET_CHILD_SUBREAPER = 36
 
 
 class Reruns(ExecCase):
+    switch_at = "calls"
+
     def explore(self, schedules, *words):
         """The file of results, of all schedules with their digests and outcomes."""
         results, given = self.folder / "results", self.folder / "given"
         given.write_text("first\nsecond\n")
-        command = [WAITPOINT, "explore", "--exec", "--switch-at", "calls", "--iterations", schedules, "--results", results, *words]
+        command = [WAITPOINT, "explore", "--exec", "--switch-at", self.switch_at, "--iterations", schedules, "--results", results, *words]
         with given.open() as stdin:
             done = subprocess.run([str(word) for word in command], stdin=stdin, capture_output=True, text=True, timeout=250)
         self.assertIn(f"{schedules} schedules, ", done.stdout, done.stderr)
@@ -54,6 +56,11 @@ class Reruns(ExecCase):
                                           ("two_processes.c", 50)):
             self.compare(schedules, self.compile(name, *options))
 
+    def test_breakpoints_at_accesses_are_taken_away(self):
+        self.switch_at = "accesses"
+        for name, schedules, *options in (("reruns.c", 300, "-lm"), ("lost_update.c", 500), ("meetings.cpp", 200, "-std=c++20")):
+            self.compare(schedules, self.compile(name, *options))
+
     def test_programs_with_data_races(self):
         for name in ("benign.cpp", "racing.cpp"):
             found = self.compare(200, self.compile(name, "-g", "-fsanitize=thread"))
@@ -73,7 +80,8 @@ class Reruns(ExecCase):
         program = self.compile("lost_update.c")
         # The processes that run schedules are waited for here.
         ctypes.CDLL(None).prctl(PR_SET_CHILD_SUBREAPER, 1, 0, 0, 0)
-        self.assertLess(2 * faults_per_schedule(), faults_per_schedule("--fork-each"))
+        for self.switch_at in ("calls", "accesses"):
+            self.assertLess(2 * faults_per_schedule(), faults_per_schedule("--fork-each"), self.switch_at)
 
 
 if __name__ == "__main__":

@@ -16,6 +16,7 @@
 #include "fibers/posix/family/processes.hpp"
 #include "fibers/posix/program/program.hpp"
 #include "fibers/posix/program/waitable.hpp"
+#include "fibers/posix/traps/access_breakpoints.hpp"
 #include "fibers/posix/traps/followed_calls.hpp"
 #include "fibers/posix/traps/library_calls.hpp"
 #include "fibers/posix/traps/raw_calls.hpp"
@@ -86,6 +87,7 @@ long futex(std::atomic<std::uint32_t>& word, int operation, std::uint32_t value)
 // On the kept stack.
 void put_back(void*) {
   RerunControl& control = rerun_control();
+  restore_code();
   undo_calls();
   kernel::set_thread_pointer(kept().thread_pointer);
   asm volatile("ldmxcsr %0\n\tfldcw %1" : : "m"(kept().control_of_vectors), "m"(kept().control_of_floats));

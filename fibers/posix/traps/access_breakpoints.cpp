@@ -16,7 +16,6 @@
 #include "fibers/posix/base/error_number.hpp"
 #include "fibers/posix/program/thread.hpp"
 #include "fibers/posix/signals/signals.hpp"
-#include "fibers/posix/traps/raw_calls.hpp"
 
 namespace waitpoint::posix {
 namespace {
@@ -59,29 +58,29 @@ void remove_breakpoint(std::size_t i) {
   placed[i].is_set = false;
 }
 
-// The code becomes writable, page by page.
-bool make_writable() {
-  std::uint64_t writable_to = 0;
+// Of the pages with breakpoints, one by one.
+bool set_access_to_code(int access) {
+  std::uint64_t done_to = 0;
   for (const AccessInstruction& instruction : asked.instructions) {
     const std::uint64_t page = reinterpret_cast<std::uint64_t>(code_at(instruction)) & ~(page_bytes - 1);
-    if (page < writable_to) continue;
-    writable_to = page + page_bytes;
-    if (call_directly(SYS_mprotect, static_cast<long>(page), page_bytes, PROT_READ | PROT_WRITE | PROT_EXEC) != 0)
-      return false;
+    if (page < done_to) continue;
+    done_to = page + page_bytes;
+    if (call_directly(SYS_mprotect, static_cast<long>(page), page_bytes, access) != 0) return false;
   }
   return true;
 }
 
+std::size_t bytes_of_placed() { return asked.instructions.size() * sizeof(Breakpoint); }
+
 void set_all() {
   before_first_thread = nullptr;
-  stop_following_calls();  // breakpoints remain in the code
   dl_iterate_phdr(note_load_address, nullptr);
-  const std::size_t bytes = asked.instructions.size() * sizeof(Breakpoint);
-  const long memory =
-      call_directly(SYS_mmap, 0, static_cast<long>(bytes), PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  const long memory = call_directly(SYS_mmap, 0, static_cast<long>(bytes_of_placed()), PROT_READ | PROT_WRITE,
+                                    MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
   if (memory < 0 && memory > -4096) refuse("there is no memory for breakpoints at accesses");
   placed = reinterpret_cast<Breakpoint*>(memory);
-  if (!make_writable()) refuse("the program's code cannot be made writable for breakpoints at accesses");
+  if (!set_access_to_code(PROT_READ | PROT_WRITE | PROT_EXEC))
+    refuse("the program's code cannot be made writable for breakpoints at accesses");
   is_trapped = true;
   install(SIGTRAP);
   for (std::size_t i = 0; i < asked.instructions.size(); ++i) set_breakpoint(i);
@@ -145,6 +144,14 @@ void trap_accesses(const Breakpoints& breakpoints) {
 }
 
 bool are_accesses_trapped() { return is_trapped; }
+
+void restore_code() {
+  if (!is_trapped) return;
+  for (std::size_t i = 0; i < asked.instructions.size(); ++i) remove_breakpoint(i);
+  WAITPOINT_CHECK(set_access_to_code(PROT_READ | PROT_EXEC), "the code's protection cannot be restored");
+  call_directly(SYS_munmap, reinterpret_cast<long>(placed), static_cast<long>(bytes_of_placed()));
+  is_trapped = false;
+}
 
 bool answer_access(void* context) {
   if (!is_trapped) return false;

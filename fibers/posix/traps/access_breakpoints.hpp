@@ -33,6 +33,8 @@ struct Breakpoints {
 };
 void trap_accesses(const Breakpoints& breakpoints);
 bool are_accesses_trapped();
+/// Takes all breakpoints away, before the process is put back to a state without them.
+void restore_code();
 
 /// In a handler of SIGTRAP: true if it came from a breakpoint, which is dealt with.
 bool answer_access(void* context);

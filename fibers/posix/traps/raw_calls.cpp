@@ -89,12 +89,6 @@ void follow_all_calls(bool (*can_map_again)(LibraryRange range)) {
   follows = dispatch_outside(return_from_handlers());
 }
 
-void stop_following_calls() {
-  if (!follows) return;
-  follows = false;
-  WAITPOINT_CHECK(dispatch_outside(exempt), "the system no longer traps raw calls");
-}
-
 bool are_calls_undoable() { return follows; }
 
 namespace {
@@ -106,7 +100,8 @@ void call_or_repeat(long number, const CallWords& words, ucontext_t& context, bo
   constexpr greg_t size_of_instruction = 2;
   if (follows) {
     if (follow_call(number, words, context)) return;
-    stop_following_calls();
+    follows = false;
+    WAITPOINT_CHECK(dispatch_outside(exempt), "the system no longer traps raw calls");
   }
   if (is_exempt) {
     registers[REG_RIP] -= size_of_instruction;

@@ -21,8 +21,6 @@ bool are_raw_calls_trapped();
 /// From now on all calls are trapped and followed (followed_calls.hpp), those of the C library too, up to the first one
 /// that cannot be undone. Without an effect if raw calls are not trapped.
 void follow_all_calls(bool (*can_map_again)(LibraryRange range));
-/// Before a change of the process that cannot be undone, by the layer's own calls.
-void stop_following_calls();
 /// True if all calls since then can be undone.
 bool are_calls_undoable();
 /// In a handler of SIGSYS: true if it was such a call, which is done then.
