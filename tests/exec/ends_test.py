@@ -73,6 +73,15 @@ class Hangs(ExecCase):
         runs = {subprocess.run(command, capture_output=True, text=True).stderr for _ in range(5)}
         self.assertEqual(len(runs), 1, runs)
 
+    def test_of_a_loop_on_memory_do_not_occur(self):
+        source = self.folder / "spins.c"
+        source.write_text("#include <pthread.h>\nstatic volatile int is_set;\n"
+                          "static void* set(void* none) { is_set = 1; return none; }\n"
+                          "int main(void) {\n  pthread_t setter;\n  pthread_create(&setter, 0, set, 0);\n"
+                          "  while (!is_set) {\n  }\n  return pthread_join(setter, 0);\n}\n")
+        done = explore("--iterations", "100", "--", self.compile(str(source)))
+        self.assertRegex(done.stdout, r"spins: 100 schedules, \d+ distinct, 0 failed", done.stderr)
+
     def test_outside_of_the_simulation_end_at_the_limit_and_so_does_their_replay(self):
         done = explore("--schedule-limit", "2", "--", self.compile("epoll_thread.c"), "native wait", self.folder / "fifo")
         self.assertRegex(done.stdout, r"failed at \S+ s: exceeded 2 s of wall clock time \(--schedule-limit\) at 0\.0+ s of virtual time\n"

@@ -4,6 +4,7 @@
 #include <new>
 
 #include "core/error.hpp"
+#include "fibers/kernel/access.hpp"
 #include "fibers/posix/descriptors/descriptors.hpp"
 #include "fibers/posix/exec/memory.hpp"
 #include "fibers/posix/family/family.hpp"
@@ -70,9 +71,10 @@ void begin_access_log(bool learn, bool notes, std::span<const AccessInstruction>
   runtime.set_weak(false);
   for (const std::uint64_t offset : code) runtime.know(offset);
   // By time: a breakpoint takes some microseconds.
-  constexpr std::uint32_t learning_of_one_max = 2'000, learning_max = 200'000, exploring_max = 50'000;
+  constexpr std::uint32_t learning_of_one_max = 10'000, learning_max = 200'000, exploring_max = 50'000;
   trap_accesses({.instructions = instructions,
                  .report = runtime.accessed,
+                 .let_others_run = kernel::yield_after_computing,
                  .missed = [] { log().has_other_code = true; },
                  .hits_of_one_max = learn ? learning_of_one_max : exploring_max,
                  .hits_max = learn ? learning_max : exploring_max});

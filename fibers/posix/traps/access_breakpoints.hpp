@@ -22,12 +22,13 @@ namespace waitpoint::posix {
 using ReportAccess = void (*)(std::uint64_t address, std::uint32_t bytes, bool writes, bool is_atomic,
                               std::uint64_t place);
 
-/// The breakpoints to set; the memory of `instructions`, in the order of their offsets, must stay. After
-/// `hits_of_one_max` hits of one breakpoint, or `hits_max` of all, they are removed, and `missed` is called: a long
-/// loop must end.
+/// The breakpoints to set; the memory of `instructions`, in the order of their offsets, must stay. At each thousandth
+/// hit of one breakpoint `let_others_run` is called: it may be in a loop that waits for another thread. After
+/// `hits_of_one_max` hits of one, or `hits_max` of all, they are removed, and `missed` is called: a long loop must end.
 struct Breakpoints {
   std::span<const AccessInstruction> instructions;
   ReportAccess report;
+  void (*let_others_run)();
   void (*missed)();
   std::uint32_t hits_of_one_max, hits_max;
 };
