@@ -14,6 +14,7 @@
 #include "core/error.hpp"
 #include "fibers/posix/base/direct_call.hpp"
 #include "fibers/posix/base/error_number.hpp"
+#include "fibers/posix/program/program.hpp"
 #include "fibers/posix/program/thread.hpp"
 #include "fibers/posix/signals/signals.hpp"
 

@@ -5,6 +5,7 @@
 #include <linux/audit.h>
 #include <linux/prctl.h>
 #include <sys/prctl.h>
+#include <sys/syscall.h>
 #include <ucontext.h>
 
 #include <cerrno>
