@@ -18,7 +18,7 @@ Outcome play(Body& body, const Token& token, const Profile& profile) {
   const auto from = [&](std::uint64_t number) { return std::min(strategy->first_learned(number), token.number); };
   for (std::uint64_t number = from(0);; number = from(number + 1)) {
     strategy->begin(number, Draws(token.seed, token.strategy, number), profile);
-    const Outcome outcome = body.run(*strategy);
+    Outcome outcome = body.run(*strategy);
     if (number == token.number) return outcome;
     if (!strategy->end())
       throw BadInput("replay", "expected schedule " + std::to_string(token.number) + ", but there are only " +

@@ -79,7 +79,7 @@ class Hangs(ExecCase):
                           "static void* set(void* none) { is_set = 1; return none; }\n"
                           "int main(void) {\n  pthread_t setter;\n  pthread_create(&setter, 0, set, 0);\n"
                           "  while (!is_set) {\n  }\n  return pthread_join(setter, 0);\n}\n")
-        done = explore("--iterations", "100", "--", self.compile(str(source)))
+        done = explore("--switch-at", "accesses", "--iterations", "100", "--", self.compile(str(source)))
         self.assertRegex(done.stdout, r"spins: 100 schedules, \d+ distinct, 0 failed", done.stderr)
 
     def test_outside_of_the_simulation_end_at_the_limit_and_so_does_their_replay(self):

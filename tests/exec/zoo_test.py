@@ -33,6 +33,7 @@ class Specimen:
     program: pathlib.Path
     needs: str
     name: str
+    switch_at: str = "calls"
 
 
 @functools.cache
@@ -52,7 +53,7 @@ def run(*words):
 def explore(specimen, mended=False, seed=1, schedules=SCHEDULES_MAX, strategy="portfolio"):
     twin = ["mended"] if mended else []
     return run(WAITPOINT, "explore", "--exec", "--seed", seed, "--strategy", strategy, "--iterations", schedules,
-               "--races", "fail", "--no-minimize", "--", specimen.program, specimen.name, *twin)
+               "--races", "fail", "--switch-at", specimen.switch_at, "--no-minimize", "--", specimen.program, specimen.name, *twin)
 
 
 def schedules_until_found(specimen, seed):
@@ -118,7 +119,8 @@ class AtBreakpoints(Programs, ExecCase):
 
     def wanted(self):
         # Of a hundred writers each access is two switch points here: it takes more schedules than this test has time for.
-        return [one for one in specimens(self.suffix) if one.needs == "memory" and one.name != "reorder of 100"]
+        return [dataclasses.replace(one, switch_at="accesses") for one in specimens(self.suffix)
+                if one.needs == "memory" and one.name != "reorder of 100"]
 
 
 # Data races end the search here: even the default order shows them, where they do no harm.

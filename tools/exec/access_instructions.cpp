@@ -153,8 +153,6 @@ void add_accesses(const ZydisDecoder& decoder, const Piece& piece, std::span<con
 
 }  // namespace
 
-bool can_find_access_instructions() { return true; }
-
 std::vector<AccessInstruction> access_instructions(const std::filesystem::path& program) {
   std::ifstream file(program, std::ios::binary);
   const Code code(std::string(std::istreambuf_iterator<char>(file), {}));

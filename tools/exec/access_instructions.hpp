@@ -9,9 +9,6 @@
 
 namespace waitpoint::tools {
 
-/// False in builds without a disassembler, which have the other function only as an error.
-bool can_find_access_instructions();
-
 /// In the order of their offsets; without those that push, pop and call, repeated ones, and those of thread-local
 /// variables. Functions are told apart by the symbols; without symbols the code is one piece. Empty for a file that is
 /// no program for x86-64.

@@ -6,8 +6,6 @@
 
 namespace waitpoint::tools {
 
-bool can_find_access_instructions() { return false; }
-
 std::vector<posix::AccessInstruction> access_instructions(const std::filesystem::path&) {
   throw BadInput("--switch-at", "this waitpoint was built without Zydis, which finds accesses (Debian's libzydis-dev)");
 }

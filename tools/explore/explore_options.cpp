@@ -15,7 +15,6 @@
 #include "tools/command/distinct_files.hpp"
 #include "tools/command/installed_part.hpp"
 #include "tools/command/option_values.hpp"
-#include "tools/exec/access_instructions.hpp"
 
 namespace waitpoint::tools {
 namespace {
@@ -80,12 +79,12 @@ Races races_of(const std::string& option) {
   return *meant;
 }
 
-std::optional<SwitchAt> switch_at_named(const std::string& option) {
+SwitchAt switch_at_named(const std::string& option) {
   std::string where = "--switch-at";
   const std::string text = text_of(option, "WAITPOINT_SWITCH_AT", where);
-  if (text.empty()) return std::nullopt;
-  if (text != "calls" && text != "accesses") refuse(where, "calls or accesses", text);
-  return text == "calls" ? SwitchAt::calls : SwitchAt::accesses;
+  if (text == "accesses") return SwitchAt::accesses;
+  if (!text.empty() && text != "calls") refuse(where, "calls or accesses", text);
+  return SwitchAt::calls;
 }
 
 Memory memory_of(const std::string& option) {
@@ -101,11 +100,6 @@ std::optional<std::filesystem::path> file(const std::string& name) {
 }
 
 }  // namespace
-
-SwitchAt switch_at_of(const std::string& strategy) {
-  const bool is_exhaustive = exploration::make_strategy(strategy)->is_exhaustive();
-  return !is_exhaustive && can_find_access_instructions() ? SwitchAt::accesses : SwitchAt::calls;
-}
 
 ExploreArguments::ExploreArguments(CommandLine& line)
     : command_(line.add_command("explore",
@@ -149,9 +143,8 @@ ExploreArguments::ExploreArguments(CommandLine& line)
                   "report): failures, each reported once, that do not end the search; failures like any\n"
                   "other, the first of which ends it; or no failures");
   command_.option("--switch-at", switch_at_, "calls|accesses",
-                  "switch points of a program (default: $WAITPOINT_SWITCH_AT, or accesses; with dfs, bounded\n"
-                  "and dpor: calls): simulated calls; accesses to shared memory, too, as always with\n"
-                  "-fsanitize=thread");
+                  "switch points of a program (default: $WAITPOINT_SWITCH_AT, or calls): simulated\n"
+                  "calls; accesses to shared memory, too, as always with -fsanitize=thread");
   command_.option("--memory", memory_, "sc|weak",
                   "memory of a program compiled with -fsanitize=thread (default: $WAITPOINT_MEMORY, or sc):\n"
                   "atomic loads return the newest value; or, as C++20 allows for their memory orders, older\n"

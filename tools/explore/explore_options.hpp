@@ -45,22 +45,15 @@ struct ExploreOptions {
   std::optional<std::filesystem::path> results, trace, schedule;  ///< output files
   std::string replay;  ///< a token or a file's name, to run only that schedule
   bool minimize = true;
-  bool forks_each = false;            ///< each schedule of a program has a process of its own
-  ProgramConditions conditions;       ///< of a program
-  Races races = Races::report;        ///< of a program compiled with -fsanitize=thread
-  Memory memory = Memory::sc;         ///< the same
-  std::optional<SwitchAt> switch_at;  ///< of a program without it; default: by the strategy, see switch_at_of()
+  bool forks_each = false;               ///< each schedule of a program has a process of its own
+  ProgramConditions conditions;          ///< of a program
+  Races races = Races::report;           ///< of a program compiled with -fsanitize=thread
+  Memory memory = Memory::sc;            ///< the same
+  SwitchAt switch_at = SwitchAt::calls;  ///< of a program without it
 
   /// The end of a run, for a scenario whose own limit is `own`.
   Time limit(Duration own) const { return Time() + until.value_or(own); }
 };
-
-/// The default: accesses, if they can be found; but calls for exhaustive strategies, which would be incomplete with
-/// accesses (learned_code.hpp).
-SwitchAt switch_at_of(const std::string& strategy);
-inline SwitchAt switch_at_of(const ExploreOptions& options) {
-  return options.switch_at.value_or(switch_at_of(options.strategy));
-}
 
 /// The arguments as text, and their definition.
 class ExploreArguments {

@@ -44,8 +44,7 @@ std::string replay_command(const ExploreOptions& options, const std::string& rep
   if (options.until) line += " --until " + to_string(Time() + *options.until);
   line += options.conditions.words();
   if (options.races != Races::report) line += options.races == Races::fail ? " --races fail" : " --races ignore";
-  if (options.switch_at)
-    line += *options.switch_at == SwitchAt::accesses ? " --switch-at accesses" : " --switch-at calls";
+  if (options.switch_at == SwitchAt::accesses) line += " --switch-at accesses";
   if (options.memory == Memory::weak) line += " --memory weak";
   if (options.from) line += " --from " + to_string(Time() + *options.from);
   const std::size_t sets = options.assignments.size() - options.properties.size();

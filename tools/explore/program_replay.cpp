@@ -52,8 +52,7 @@ int replay_program(const ExploreOptions& asked) {
   options.conditions.check(named.named());
   const ReplayRecord record = read_replay_record(options, fingerprint_of(named, options));
   check_memory(options, named);
-  const std::string& strategy = record.stored.strategy.empty() ? options.strategy : record.stored.strategy;
-  const ProgramFiles files(options.program, false, options.switch_at.value_or(switch_at_of(strategy)));
+  const ProgramFiles files(options.program, false, options.switch_at);
   std::optional<OutputFile> trace;
   if (options.trace) trace.emplace(*options.trace);
   const exploration::Profile profile = take_profile(files, options, record.plan);

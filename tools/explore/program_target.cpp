@@ -86,13 +86,12 @@ void check_memory(const ExploreOptions& options, const ProgramFiles& files) {
 
 ProgramTarget::ProgramTarget(const ExploreOptions& options)
     : options_(options),
-      files_(options.program, false, switch_at_of(options)),
+      files_(options.program, false, options.switch_at),
       fingerprint_(fingerprint_of(files_, options)),
       given_input_(open_input()) {
   options.conditions.check(files_.named());
   check_memory(options, files_);
   if (options.races == Races::ignore) ignore_races();
-  if (!files_.instrumented) options_.switch_at = switch_at_of(options);  // for the command of a replay
 }
 
 ProgramTarget::~ProgramTarget() {

@@ -37,7 +37,7 @@ class ProgramTarget final : public Target {
   Finding run_once(const Plan& plan, const Request& request);
   Finding run_in_process(const posix::Settings& settings, const Plan& plan, const Request& request);
 
-  ExploreOptions options_;
+  const ExploreOptions& options_;
   ProgramFiles files_;
   std::uint64_t fingerprint_;
   int given_input_;                   // of the runs: each reads it from its beginning

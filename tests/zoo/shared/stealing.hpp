@@ -12,7 +12,7 @@
 namespace waitpoint::zoo {
 namespace {
 
-constexpr int no_item = -1;
+inline constexpr int no_item = -1;
 
 // In the style of Cilk's THE protocol: owner and thief first announce what they take, then look for the other's
 // announcement; the lock decides between them. Here the thief looks before it announces.
@@ -112,7 +112,7 @@ class StateQueue {
 template <class Queue>
 void steal_from() {
   constexpr int rounds = 3, attempts = 2;
-  constexpr std::size_t thieves = 2, items = 2 * rounds;
+  constexpr std::size_t thieves = 2, items = std::size_t{2} * rounds;
   Queue queue;
   std::array<std::array<int, items>, thieves + 1> taken{};  // by thread and item
   const auto note = [&taken](std::size_t thread, int item) {
