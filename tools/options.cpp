@@ -75,6 +75,7 @@ Options read_options(int argc, const char* const* argv, const std::string& versi
   if (run.parsed()) {
     RunOptions options = run.options();
     options.program = name_in_replay_lines(argv[0]);
+    options.arguments.assign(argv + 1, argv + argc);
     return options;
   }
   if (explore.parsed()) return explore.options(program);

@@ -70,9 +70,10 @@ void Roster::restart() {
   most_tasks_ = most_tasks;
 }
 
-std::uint64_t Roster::hashed() const {
+std::uint64_t Roster::events() const {
   std::uint64_t pairs = ended_robots_digest_.pairs();
-  for (const Robot* robot = first_robot_; robot != nullptr; robot = robot->next) pairs += robot->digest.pairs();
+  for (const Robot* robot = first_robot_; robot != nullptr; robot = robot->next)
+    pairs += robot->digest.pairs() - robot->outputs;
   return pairs;
 }
 

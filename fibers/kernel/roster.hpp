@@ -41,8 +41,10 @@ class Roster {
   /// The number of tasks that have not ended and are not services.
   std::uint32_t live_tasks() const { return live_tasks_; }
 
-  /// The number of words that the digests of all robots took in: events, and words of outputs.
-  std::uint64_t hashed() const;
+  /// The number of events of all robots.
+  std::uint64_t events() const;
+  /// Of these, and of outputs, the number by services of robots whose digest was frozen.
+  std::uint64_t pairs_after_ends() const { return ended_robots_digest_.pairs(); }
 
  private:
   Task* first_task_ = nullptr;

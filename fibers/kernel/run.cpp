@@ -44,7 +44,7 @@ void Scheduler::restart(std::uint64_t seed) {
   lookahead_ = Duration::max();
   roster_.restart();
   culprit_ = nullptr;
-  outputs_ = switches_ = yields_ = 0;
+  switches_ = yields_ = 0;
   state_ = RunState::idle;
   cause_ = StopCause::none;
   turn.digest = digest_in_use_ = nullptr;
@@ -121,6 +121,11 @@ void Scheduler::stop(StopCause cause) {
   cause_ = cause;
   exit_run(RunState::stopped);
   if (interrupted_) answer_interrupt();
+}
+
+void Scheduler::go_on_after_end() {
+  WAITPOINT_CHECK(cause_ == StopCause::ended, "a run goes on after its end without one");
+  cause_ = StopCause::none;
 }
 
 void Scheduler::stop_between_events(StopCause cause, Task& culprit) {

@@ -69,6 +69,8 @@ class Scheduler {
   /// Executes all events before `until`.
   RunState run_before(Time until);
   StopCause stop_cause() const { return cause_; }
+  /// After a stop because no task but services remained: the next run_before() executes their events.
+  void go_on_after_end();
   /// Stops the run from within a task; run_before() returns at once.
   void stop(StopCause cause);
   /// The same from a timer or a watch: no further event is executed.
@@ -119,6 +121,8 @@ class Scheduler {
   Task* wake_first(Object& object);
   /// Makes `object` belong to this run. True if it did not yet: the primitive must then take its initial state.
   bool enter(Object& object);
+  /// Makes `object` belong to this run as the `number`-th object of `robot`, whose tasks are in another process.
+  void adopt_as(Object& object, Robot& robot, std::uint32_t number);
   /// True if the owners and waiters in `object` belong to this run.
   bool has_entered(const Object& object) const { return object.epoch == epoch_; }
   /// Adds words to the digest of the running task's robot.
@@ -170,7 +174,7 @@ class Scheduler {
   const Roster& roster() const { return roster_; }
   Task* first_task() const { return roster_.first_task(); }
   /// The number of events executed so far: a sum over all robots, too slow to be called at each event.
-  std::uint64_t events() const { return roster_.hashed() - outputs_; }
+  std::uint64_t events() const { return roster_.events(); }
   /// The number of switches between fibers.
   std::uint64_t switches() const { return switches_; }
   bool unwinding() const { return unwinding_; }
@@ -276,7 +280,6 @@ class Scheduler {
   Hooks hooks_;
   WaitGraph wait_graph_;
   std::uint64_t epoch_;
-  std::uint64_t outputs_ = 0;  // hashed into the digests beside the events
   std::uint64_t switches_ = 0;
   std::uint64_t yields_ = 0;  // since virtual time last moved
   Time yields_at_;

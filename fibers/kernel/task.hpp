@@ -36,6 +36,7 @@ struct Robot {
   PairDigest* digest_in_use = nullptr;  ///< the digest that takes in its tasks' events: `digest`, until its end
   std::uint64_t id = 0;                 ///< a hash of its name
   std::uint64_t messages = 0;           ///< number sent to other robots
+  std::uint64_t outputs = 0;            ///< number of its tasks' outputs, hashed beside the events
   std::uint32_t objects = 0;            ///< number of objects numbered so far
   std::uint32_t children = 0;           ///< number of tasks spawned from outside any task
   std::uint32_t live_tasks = 0;         ///< number of tasks that are not services

@@ -21,10 +21,12 @@ constexpr std::uint32_t choice_of_waiters_max = 256;
 
 }  // namespace
 
-void Scheduler::adopt(Object& object) {
+void Scheduler::adopt(Object& object) { adopt_as(object, *running->robot, ++running->robot->objects); }
+
+void Scheduler::adopt_as(Object& object, Robot& robot, std::uint32_t number) {
   object.epoch = epoch_;
-  object.robot = running->robot;
-  object.number = ++object.robot->objects;
+  object.robot = &robot;
+  object.number = number;
   object.identity = child_id(object.robot->id, object.number);
   object.owner = nullptr;
   object.holder_count = object.users = 0;

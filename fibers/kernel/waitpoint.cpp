@@ -223,7 +223,7 @@ void Scheduler::execute_start(Task& task) {
 
 void Scheduler::record_output(std::uint64_t name, std::uint64_t value) {
   if (unwinding_) return;
-  ++outputs_;
+  ++running->robot->outputs;
   turn.digest->add(name, value);
 }
 

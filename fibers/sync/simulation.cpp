@@ -110,6 +110,12 @@ RunEnd Simulation::run_before(Time until) {
   return RunEnd::deadlock;
 }
 
+bool Simulation::go_on_with_services() {
+  if (scheduler_.stop_cause() != kernel::StopCause::ended) return false;
+  scheduler_.go_on_after_end();
+  return true;
+}
+
 void Simulation::unwind() {
   const kernel::FaultReports reports(&scheduler_);
   terminate_ = std::set_terminate(terminate_task);

@@ -79,6 +79,9 @@ class Simulation final : public sync::RunContext {
   /// is rethrown here, and at every later call.
   RunEnd run_before(Time until = Time::max());
 
+  /// After RunEnd::ended: the next run_before() executes the events of the services that remain. False if none has any.
+  bool go_on_with_services();
+
   /// The report of run_before()'s failure: a deadlock, a lack of progress, tasks that sleep without end, or an
   /// exception with its task and time. Empty if there was none.
   const std::string& trouble() const { return trouble_; }

@@ -38,7 +38,7 @@ struct Call {
 // Noted without the heap: the caller may be an allocator, or on a task's small stack.
 Call calls[calls_max];
 std::size_t call_count = 0, told_count = 0;
-bool has_started = false, are_collected = false;
+bool has_started = false, are_collected = false, are_threads_noted = true;
 
 /// The thread that runs tasks; null: none. Others may use the C library while a task is running.
 const void* simulating = nullptr;
@@ -105,7 +105,7 @@ void note_start(const char* function, const void* place) {
 void note_thread(const void* place) {
   if (is_in_task())
     note_start("pthread_create", place);
-  else if (kernel::running == nullptr && !has_program_layer())
+  else if (kernel::running == nullptr && !has_program_layer() && are_threads_noted)
     note("pthread_create", nullptr, place);
 }
 
@@ -121,6 +121,9 @@ SystemCalls::~SystemCalls() {
   tell_system_calls();
   told_count = call_count;
 }
+
+UnnotedThreads::UnnotedThreads() { are_threads_noted = false; }
+UnnotedThreads::~UnnotedThreads() { are_threads_noted = true; }
 
 void tell_system_calls() { std::fputs(text_of_new(false).c_str(), stderr); }
 void tell_threads_outside() { std::fputs(text_of_new(true).c_str(), stderr); }

@@ -38,6 +38,14 @@ bool has_program_layer();
 void tell_system_calls();
 /// Tells the same of threads that were started before, outside of tasks: in a static initializer, for one.
 void tell_threads_outside();
+/// While it lives, threads that are started outside of tasks are not noted: a library's, which have no part in the run.
+class UnnotedThreads {
+ public:
+  UnnotedThreads();
+  ~UnnotedThreads();
+  UnnotedThreads(const UnnotedThreads&) = delete;
+  UnnotedThreads& operator=(const UnnotedThreads&) = delete;
+};
 /// From now on, calls are not told, but returned by collected_system_calls(), each once, in the same words.
 void collect_system_calls();
 std::string collected_system_calls();

@@ -41,12 +41,15 @@ std::string report_text(const executive::GoalRecord& record) {
 Robot::Robot(const scenario::RobotScenario& scenario, std::span<const genom::ModuleType> types,
              std::shared_ptr<const executive::KnownSpace> known, world::World& world, world::BodyId body,
              io::Network* network, std::uint64_t seed)
-    : scenario_(scenario), world_(world), body_(body), bridge_(scenario, world, body, names_) {
+    : scenario_(scenario), world_(world), body_(body), bridge_(std::in_place, scenario, world, body, names_) {
   for (const std::string& name : scenario.processors) names_.add_processor(name);
   make_modules(types, network);
   if (!scenario.goals.empty()) make_executive(std::move(known), seed);
   connect();
 }
+
+Robot::Robot(const scenario::RobotScenario& scenario, world::World& world, world::BodyId body)
+    : scenario_(scenario), world_(world), body_(body) {}
 
 // The executive, a client of the modules, ends before them.
 Robot::~Robot() {
@@ -111,7 +114,7 @@ void Robot::make_executive(std::shared_ptr<const executive::KnownSpace> known, s
 }
 
 void Robot::connect() {
-  bridge_.connect();
+  bridge_->connect();
   for (std::size_t i = 0; i < modules_.size(); ++i) at(module_scenarios_[i]->written, [&] { modules_[i]->connect(); });
   if (executive_) at(scenario_.written, [&] { executive_->connect(); });
   evaluation_.connect(names_);
@@ -145,17 +148,22 @@ void Robot::keep_paths() {
 }
 
 std::uint64_t Robot::goals() const {
-  std::uint64_t count = 0;
+  std::uint64_t count = goals_elsewhere_;
   if (executive_)
     for (const executive::GoalRecord& goal : executive_->goals()) count += goal.visits;
   return count;
 }
 
 std::uint64_t Robot::goals_reached() const {
-  std::uint64_t count = 0;
+  std::uint64_t count = reached_elsewhere_;
   if (executive_)
     for (const executive::GoalRecord& goal : executive_->goals()) count += goal.times_reached;
   return count;
+}
+
+void Robot::set_goals(std::uint64_t goals, std::uint64_t reached) {
+  goals_elsewhere_ = goals;
+  reached_elsewhere_ = reached;
 }
 
 std::optional<Duration> Robot::least_period() const {
@@ -170,6 +178,7 @@ RobotResult Robot::result() const {
   RobotResult result;
   result.name = scenario_.name;
   result.shape = scenario_.body.shape;
+  if (presence() == Presence::elsewhere) return result;
   for (std::size_t i = 0; i < scenario_.goals.size(); ++i) {
     const executive::GoalRecord& record = executive_->goals()[i];
     result.goals.push_back({scenario_.goals[i].position, scenario_.goals[i].name, record.visits, record.times_reached,

@@ -34,6 +34,9 @@ class Network;
 
 namespace waitpoint::bridge {
 
+/// Where a robot's software is: in this process, or in another one of the run (modules/run/ranks).
+enum class Presence : std::uint8_t { here, elsewhere };
+
 class Robot {
  public:
   /// Makes and connects all parts. Inconsistencies are BadInput with the scenario's line. The scenario, the world and
@@ -41,6 +44,8 @@ class Robot {
   Robot(const scenario::RobotScenario& scenario, std::span<const genom::ModuleType> types,
         std::shared_ptr<const executive::KnownSpace> known, world::World& world, world::BodyId body,
         io::Network* network, std::uint64_t seed);
+  /// A robot whose software is elsewhere: it has a name, a body, and the goals that are set.
+  Robot(const scenario::RobotScenario& scenario, world::World& world, world::BodyId body);
   ~Robot();
 
   /// The body of the robot's main task: starts the modules, then drives the rounds of goals, if any.
@@ -53,7 +58,9 @@ class Robot {
   /// Reports the modules' activity to `watch`, which must outlive the robot's tasks. Before run(). Null: no watch.
   void set_watch(genom::ModuleWatch* watch);
 
-  RobotBridge& bridge() { return bridge_; }
+  Presence presence() const { return bridge_ ? Presence::here : Presence::elsewhere; }
+  /// Of a robot that is here.
+  RobotBridge& bridge() { return *bridge_; }
   /// Compares the robot's estimates with the true state. Call after a step of the world.
   void observe(Time now) { evaluation_.observe(now, world_.body(body_)); }
 
@@ -70,10 +77,12 @@ class Robot {
   const std::string& name() const { return scenario_.name; }
   genom::NameSpace& names() { return names_; }
   const genom::NameSpace& names() const { return names_; }
-  bool has_goals() const { return executive_ != nullptr; }
+  bool has_goals() const { return !scenario_.goals.empty(); }
   /// Visits to goals: those of all rounds, or in rounds without end those that have ended.
   std::uint64_t goals() const;
   std::uint64_t goals_reached() const;
+  /// Of a robot that is elsewhere.
+  void set_goals(std::uint64_t goals, std::uint64_t reached);
   /// Clock and processor of the task of run(), from the scenario.
   const genom::TaskComputing& computing() const { return computing_; }
   /// The shortest period of all execution tasks; nothing if all are aperiodic.
@@ -92,11 +101,12 @@ class Robot {
   genom::NameSpace names_;
   std::vector<std::unique_ptr<genom::Module>> modules_;
   std::vector<const scenario::ModuleScenario*> module_scenarios_;  // by module
-  RobotBridge bridge_;
+  std::optional<RobotBridge> bridge_;                               // none: it is elsewhere
   genom::TaskComputing computing_;
   std::unique_ptr<executive::Executive> executive_;  // null without goals
   Evaluation evaluation_;
   std::optional<KeptPaths> kept_paths_;
+  std::uint64_t goals_elsewhere_ = 0, reached_elsewhere_ = 0;
 };
 
 /// The index of the robot named `name`; BadInput at `written` if there is none.

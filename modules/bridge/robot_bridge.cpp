@@ -89,7 +89,9 @@ genom::Poster<T>& RobotBridge::create_poster(Row& row) {
 
 void RobotBridge::add_base_command(Row& row) {
   read_command<posters::BaseCommand>(row, [this](const posters::BaseCommand& command) {
-    world_.command(body_, {command.v_m_s, command.w_rad_s, command.side_m_s, command.climb_m_s});
+    const world::Velocity velocity{command.v_m_s, command.w_rad_s, command.side_m_s, command.climb_m_s};
+    world_.command(body_, velocity);
+    if (command_log_ != nullptr) command_log_->push_back({body_, velocity});
     sonars_on_ = command.sonars_on;
   });
 }

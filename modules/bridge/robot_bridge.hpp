@@ -27,6 +27,7 @@
 #include <vector>
 
 #include "fibers/sync/threads.hpp"
+#include "modules/bridge/body_command.hpp"
 #include "modules/bridge/scan_line.hpp"
 #include "modules/genom/name_space.hpp"
 #include "modules/posters/base.hpp"
@@ -47,6 +48,9 @@ class RobotBridge {
 
   /// Connects the posters of the commands, once the modules exist. A poster without a writer is BadInput.
   void connect();
+
+  /// Before the run: each command given to the body is also appended to `log`, which must outlive the run.
+  void set_command_log(std::vector<BodyCommand>& log) { command_log_ = &log; }
 
   /// The exchange after a step of the world, and once before the first; readings are dated `date`.
   void exchange(Time date);
@@ -125,6 +129,7 @@ class RobotBridge {
   std::vector<SonarRing> sonar_rings_;
   std::vector<double> infrared_v_;
   std::uint64_t step_ = 0;  // number of exchanges
+  std::vector<BodyCommand>* command_log_ = nullptr;
   threads::counting_semaphore<> stepped_{0, "world step"};
   const scenario::RobotScenario& robot_;
   genom::NameSpace& names_;

@@ -40,7 +40,7 @@ class KnownMaps {
 }  // namespace
 
 Assembly::Assembly(const scenario::Scenario& scenario, std::span<const genom::ModuleType> types, io::Network* network,
-                   std::uint64_t seed)
+                   std::uint64_t seed, const Placement& placement)
     : scenario_(scenario) {
   world::WorldDescription description = scenario.world_without_map();
   std::shared_ptr<const world::WorldFile> file;
@@ -56,8 +56,10 @@ Assembly::Assembly(const scenario::Scenario& scenario, std::span<const genom::Mo
   scenario::check_starts(scenario, world::start_overlaps(description));
   make_world(description, seed);
   for (std::size_t i = 0; i < scenario.robots.size(); ++i)
-    robots_.push_back(std::make_unique<bridge::Robot>(scenario.robots[i], types, maps.of(scenario.robots[i]), *world_,
-                                                      world::BodyId(i), network, seed));
+    robots_.push_back(placement.is_here(i)
+                          ? std::make_unique<bridge::Robot>(scenario.robots[i], types, maps.of(scenario.robots[i]),
+                                                            *world_, world::BodyId(i), network, seed)
+                          : std::make_unique<bridge::Robot>(scenario.robots[i], *world_, world::BodyId(i)));
   warnings_.insert(warnings_.end(), scenario.warnings.begin(), scenario.warnings.end());
   // Robots of one type share a file.
   for (const scenario::RobotScenario& robot : scenario.robots)

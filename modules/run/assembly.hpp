@@ -11,6 +11,7 @@
 
 #include "core/occupancy_grid.hpp"
 #include "modules/bridge/robot.hpp"
+#include "modules/run/ranks/placement.hpp"
 #include "modules/scenario/scenario.hpp"
 #include "world/formats/world_file.hpp"
 #include "world/world.hpp"
@@ -22,7 +23,7 @@ class Assembly {
   /// Bad input of any kind is found here, as BadInput. The scenario and the network (null without one) must outlive the
   /// assembly.
   Assembly(const scenario::Scenario& scenario, std::span<const genom::ModuleType> types, io::Network* network,
-           std::uint64_t seed);
+           std::uint64_t seed, const Placement& placement = {});
 
   const scenario::Scenario& scenario() const { return scenario_; }
   world::World& world() { return *world_; }

@@ -79,8 +79,19 @@ Experiment::Experiment(const scenario::Scenario& scenario, std::span<const genom
                        const ExperimentOptions& options)
     : options_(options), simulation_({options.order, options.seed, options.replay}) {
   if (options.order == kernel::Order::explored) decide_in_the_explored_order(simulation_.scheduler());
+  if (options.ranks == nullptr) {
+    make(scenario, types);
+    return;
+  }
+  if (options.order == kernel::Order::explored)
+    throw BadInput("--ranks", "expected fifo or seeded order, found explored order: a strategy chooses for one process");
+  options.ranks->act_together([&] { make(scenario, types); });
+  join_ranks();
+}
+
+void Experiment::make(const scenario::Scenario& scenario, std::span<const genom::ModuleType> types) {
   make_network(scenario);
-  assembly_.emplace(scenario, types, &*network_, options.seed);
+  assembly_.emplace(scenario, types, &*network_, options_.seed, placement());
   operator_.emplace(assembly_->world(), robots(), lanes_);
   simulation_.spawn(
       simulation_.environment(),
@@ -89,8 +100,28 @@ Experiment::Experiment(const scenario::Scenario& scenario, std::span<const genom
   spawn_robots(scenario);
   if (scenario.medium) programs_.set_network(*network_);
   for (std::size_t i = 0; i < lanes_.size(); ++i)
-    for (const scenario::ProgramScenario& program : scenario.robots[i].programs) programs_.add(program, *lanes_[i]);
-  if (robots().size() >= crowd) put_heap_on_large_pages();
+    for (const scenario::ProgramScenario& program : scenario.robots[i].programs)
+      if (is_here(i)) programs_.add(program, *lanes_[i]);
+  if (robots().size() / static_cast<std::size_t>(ranks()) >= crowd) put_heap_on_large_pages();
+}
+
+void Experiment::join_ranks() {
+  ranked_ = std::make_unique<RankedRun>(*options_.ranks, RankedParts{simulation_, assembly_->world(), robots(), lanes_,
+                                                                     *operator_, assembly_->scenario().step});
+  ranked_->add_intervention = [this](const Intervention& intervention, std::optional<Time> date) {
+    return operator_->add(intervention, date);
+  };
+  ranked_->describe_idle = [this](Duration least) { return idle_here(least); };
+  ranked_->result_of = [this](std::size_t robot) {
+    bridge::RobotResult result = robots()[robot]->result();
+    complete(result, robot);
+    return result;
+  };
+}
+
+const Placement& Experiment::placement() const {
+  static const Placement all_here;
+  return options_.ranks != nullptr ? options_.ranks->placement() : all_here;
 }
 
 void Experiment::unwind() {
@@ -133,6 +164,7 @@ void Experiment::spawn_robots(const scenario::Scenario& scenario) {
 void Experiment::spawn(bridge::Robot& robot) {
   kernel::Robot& lane = simulation_.add_robot(robot.name());
   lanes_.push_back(&lane);
+  if (robot.presence() == bridge::Presence::elsewhere) return;
   simulation_.spawn(lane, {.name = "bridge", .phase = kernel::Phase::world, .service = true},
                     [&robot] { robot.bridge().run(); });
   const genom::TaskComputing& computing = robot.computing();
@@ -151,6 +183,10 @@ void Experiment::run_world() {
     for (const world::LooseState& loose : world().loose()) threads::record(loose_state, loose);
     constexpr std::size_t ahead = 6;  // a crowd does not fit into the cache
     for (std::size_t i = 0; i < lanes_.size(); ++i) {
+      if (!is_here(i)) {
+        ranked_->step(i);
+        continue;
+      }
       if (i + ahead < lanes_.size()) robots()[i + ahead]->fetch_evaluation();
       if (!lanes_[i]->ended) robots()[i]->observe(now());
       robots()[i]->bridge().stepped();
@@ -159,13 +195,34 @@ void Experiment::run_world() {
   }
 }
 
+RunEnd Experiment::run_to_end_of_step(Time until) {
+  const Duration step = assembly_->scenario().step;
+  for (;;) {
+    const Time stop = last_end_ ? Time() + step * (last_end_->since_start() / step + 1) : Time::max();
+    const RunEnd end = simulation_.run_before(std::min(until, stop));
+    if (end == RunEnd::ended && simulation_.go_on_with_services()) {
+      last_end_ = simulation_.global_time();
+      continue;
+    }
+    const bool is_at_stop = last_end_ && simulation_.scheduler().next_event_time() >= stop;
+    if (end != RunEnd::time_reached || !is_at_stop) return end;
+    if (simulation_.scheduler().roster().live_tasks() == 0) return RunEnd::ended;
+    last_end_.reset();  // a service has made another task
+  }
+}
+
 RunEnd Experiment::run_before(Time until) {
   paused_ = false;
+  if (end_ == RunEnd::ended) return end_;
   try {
-    end_ = simulation_.run_before(until);
+    if (ranked_ != nullptr)
+      end_ = ranked_->run_before(until);
+    else
+      end_ = options_.order == kernel::Order::explored ? simulation_.run_before(until) : run_to_end_of_step(until);
   } catch (const BadInput&) {
     throw;
   } catch (...) {
+    if (ranked_) throw;
     throw std::runtime_error(simulation_.trouble());
   }
   return end_;
@@ -180,21 +237,23 @@ RunEnd Experiment::run_before(Time until, const std::function<bool(const kernel:
 }
 
 Time Experiment::intervene(Intervention intervention, std::optional<Time> date) {
-  const Duration step = assembly_->scenario().step;
-  const Time next = Time() + step * static_cast<std::int64_t>(world().steps() + 1);
-  if (date && *date < next)
-    throw intervention.written.bad("expected a time from " + to_string(next) + " s on, the world's next step, found " +
-                                   to_string(*date) + " s");
-  const std::int64_t steps = date ? (date->since_start() + step - Duration::from_ns(1)) / step : 0;
-  const Time at = date ? Time() + step * steps : next;
-  operator_->add(at, std::move(intervention));
-  return at;
+  return ranked_ ? ranked_->intervene(intervention, date) : operator_->add(std::move(intervention), date);
 }
 
-std::string Experiment::idle(Duration least) {
+std::string Experiment::idle(Duration least) { return ranked_ ? ranked_->idle(least) : idle_here(least); }
+
+std::string Experiment::idle_here(Duration least) {
   const Duration run = simulation_.global_time().since_start();
   if (run < least) return "";
   return sync::describe_idle(simulation_.scheduler(), Time() + (run - least), sync::Places::told);
+}
+
+void Experiment::gather_records() const {
+  if (ranked_) ranked_->gather_records();
+}
+
+std::uint64_t Experiment::events() const {
+  return simulation_.scheduler().events() + (ranked_ ? ranked_->events_after_ends_elsewhere() : 0);
 }
 
 bridge::RunTotals Experiment::figures() const {
@@ -208,21 +267,25 @@ bridge::RunTotals Experiment::figures() const {
   return sum;
 }
 
+void Experiment::complete(bridge::RobotResult& result, std::size_t robot) const {
+  result.digest = lanes_[robot]->digest.digest();
+  const std::vector<std::optional<int>> statuses = programs_.exit_statuses(*lanes_[robot]);
+  for (std::size_t i = 0; i < statuses.size(); ++i)
+    result.programs.push_back({assembly_->scenario().robots[robot].programs[i].name, statuses[i]});
+}
+
 bridge::RunResult Experiment::result() const {
+  gather_records();
   bridge::RunResult result = assembly_->result();
   result.seed = options_.seed;
   result.digest = simulation_.digest();
   result.environment_digest = simulation_.environment().digest.digest();
-  for (std::size_t i = 0; i < lanes_.size(); ++i) {
-    bridge::RobotResult& robot = result.robots[i];
-    robot.digest = lanes_[i]->digest.digest();
-    const std::vector<std::optional<int>> statuses = programs_.exit_statuses(*lanes_[i]);
-    for (std::size_t k = 0; k < statuses.size(); ++k)
-      robot.programs.push_back({assembly_->scenario().robots[i].programs[k].name, statuses[k]});
-  }
-  result.events = simulation_.scheduler().events();
-  result.trouble = simulation_.trouble();
-  result.outcome = outcome_of(end_);
+  for (std::size_t i = 0; i < lanes_.size(); ++i) complete(result.robots[i], i);
+  if (ranked_) ranked_->complete(result);
+  result.events = events();
+  result.trouble = ranked_ ? ranked_->trouble() : simulation_.trouble();
+  const bool is_at_limit_after_end = last_end() && end_ == RunEnd::time_reached;
+  result.outcome = outcome_of(is_at_limit_after_end ? RunEnd::ended : end_);
   return result;
 }
 

@@ -5,6 +5,10 @@
 //     the world's task: step; evaluation; release of the bridges
 //     each robot's bridge: readings to posters, commands from posters
 //   then the robots' tasks at that instant
+//
+// When the last task but services has ended, the run goes on to the next step of the world, where it ends: so robots
+// without goals end at an instant that does not depend on where in the step another robot ended. In the explored order
+// the run ends at once: nothing is left to explore.
 #pragma once
 
 #include <functional>
@@ -18,6 +22,7 @@
 #include "modules/bridge/run_result.hpp"
 #include "modules/run/assembly.hpp"
 #include "modules/run/operator.hpp"
+#include "modules/run/ranks/ranked_run.hpp"
 #include "modules/run/robot_program.hpp"
 
 namespace waitpoint::run {
@@ -25,12 +30,14 @@ namespace waitpoint::run {
 struct ExperimentOptions {
   std::uint64_t seed = 0;
   kernel::Order order = kernel::Order::fifo;
-  std::string replay;  ///< the line that repeats the run, for reports
+  std::string replay;      ///< the line that repeats the run, for reports
+  Ranks* ranks = nullptr;  ///< of a run of several processes; must outlive the experiment
 };
 
 class Experiment {
  public:
-  /// Bad input of any kind is found here, as BadInput. The scenario must outlive the experiment.
+  /// Bad input of any kind is found here, as BadInput. The scenario must outlive the experiment. With ranks, each makes
+  /// one; the calls below are the leader's, and the other ranks only call follow().
   Experiment(const scenario::Scenario& scenario, std::span<const genom::ModuleType> types,
              const ExperimentOptions& options);
 
@@ -43,10 +50,23 @@ class Experiment {
   /// `enough` must not change anything or throw.
   RunEnd run_before(Time until, const std::function<bool(const kernel::EventRecord&)>& enough);
   bool paused() const { return paused_; }
+  /// When the last task but services ended.
+  std::optional<Time> last_end() const { return ranked_ ? ranked_->last_end() : last_end_; }
+  /// The number of events so far: with ranks, when the records were gathered.
+  std::uint64_t events() const;
 
-  /// Schedules an intervention for a step of the world: the next one, or the first at or after `date`. Returns the time
-  /// of that step. An unknown robot, obstacle, module, request or field, or a date in the past, is BadInput. Its result
-  /// appears in outcomes().
+  /// On ranks other than the leader: does what the leader does, up to the end of its experiment.
+  void follow() { ranked_->follow(); }
+  /// The number of processes.
+  int ranks() const { return options_.ranks != nullptr ? options_.ranks->count() : 1; }
+  /// True if the robot's tasks are in this process.
+  bool is_here(std::size_t robot) const { return placement().is_here(robot); }
+  /// Before the run, on all ranks in the same order, of several: see Freight.
+  void add(Freight& freight) { ranked_->add(freight); }
+  /// Before its robots' digests and events() are read: brings those of other ranks.
+  void gather_records() const;
+
+  /// Schedules an intervention: see Operator::add(). Its result appears in outcomes().
   Time intervene(Intervention intervention, std::optional<Time> date = std::nullopt);
   /// Called after each step of the world; must not change anything or throw.
   void set_observer(std::function<void(Time now)> observer) { observer_ = std::move(observer); }
@@ -68,11 +88,17 @@ class Experiment {
   bridge::RunResult result() const;
 
  private:
+  void make(const scenario::Scenario& scenario, std::span<const genom::ModuleType> types);
+  void join_ranks();
+  const Placement& placement() const;
   void make_network(const scenario::Scenario& scenario);
   const world::BodyState* body_of(const std::string& robot) const;
   void spawn_robots(const scenario::Scenario& scenario);
   void spawn(bridge::Robot& robot);
+  std::string idle_here(Duration least);
+  void complete(bridge::RobotResult& result, std::size_t robot) const;
   void run_world();
+  RunEnd run_to_end_of_step(Time until);
 
   ExperimentOptions options_;
   std::optional<io::Network> network_;  // destroyed after the robots, whose modules have sockets
@@ -81,8 +107,10 @@ class Experiment {
   std::optional<Operator> operator_;
   std::function<void(Time now)> observer_;
   Simulation simulation_;                            // destroyed before the objects that its tasks use
-  RobotPrograms programs_{simulation_.scheduler()};  // destroyed first: its tasks must not be unwound
+  RobotPrograms programs_{simulation_.scheduler()};  // destroyed before: its tasks must not be unwound
+  std::unique_ptr<RankedRun> ranked_;                // of several ranks
   RunEnd end_ = RunEnd::time_reached;
+  std::optional<Time> last_end_;
   bool paused_ = false;
 };
 

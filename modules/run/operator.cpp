@@ -30,7 +30,8 @@ std::string text_of(genom::Report report) {
 
 }  // namespace
 
-void Operator::add(Time date, Intervention intervention) {
+Time Operator::add(Intervention intervention, std::optional<Time> wanted) {
+  const Time date = step_for(intervention, wanted);
   if (added_ == interventions_max)
     throw intervention.written.bad("more than " + std::to_string(interventions_max) + " interventions in a run");
   check(intervention);
@@ -38,6 +39,17 @@ void Operator::add(Time date, Intervention intervention) {
   const auto place = std::upper_bound(planned_.begin(), planned_.end(), date,
                                       [](Time time, const Planned& other) { return time < other.date; });
   planned_.insert(place, {date, std::move(intervention)});
+  return date;
+}
+
+Time Operator::step_for(const Intervention& intervention, std::optional<Time> date) const {
+  const Duration step = world_.description().step;
+  const Time next = Time() + step * static_cast<std::int64_t>(world_.steps() + 1);
+  if (date && *date < next)
+    throw intervention.written.bad("expected a time from " + to_string(next) + " s on, the world's next step, found " +
+                                   to_string(*date) + " s");
+  const std::int64_t steps = date ? (date->since_start() + step - Duration::from_ns(1)) / step : 0;
+  return date ? Time() + step * steps : next;
 }
 
 void Operator::act(Time now) {
@@ -62,6 +74,7 @@ void Operator::check(const Intervention& intervention) const {
 
 void Operator::check(const ModuleRequest& request, const scenario::Location& written) const {
   bridge::Robot& owner = *robots_[bridge::index_of(request.robot, robots_, written)];
+  if (owner.presence() == bridge::Presence::elsewhere) return;
   const genom::Module* module = owner.names().find_module(request.module);
   if (module == nullptr) {
     std::vector<std::string_view> known;
@@ -87,13 +100,14 @@ std::string Operator::carry_out(const Intervention& intervention) {
 std::string Operator::carry_out(const ModuleRequest& request, const Intervention& whole) {
   const std::size_t index = bridge::index_of(request.robot, robots_, whole.written);
   bridge::Robot& owner = *robots_[index];
+  if (owner.presence() == bridge::Presence::elsewhere) return "sent";
   genom::Settings arguments(request.arguments);
   const genom::Payload input =
       owner.names().find_module(request.module)->find_request(request.request)->read_input(arguments);
   auto ask = [this, &owner, request, input, text = whole.text] {
     genom::Client client(owner.names(), "operator");
     const genom::Reply reply = client.call(request.module, request.request, input);
-    outcomes_.push_back({now(), text + ": " + text_of(reply.report)});
+    outcomes_.push_back({now(), text + ": " + text_of(reply.report), true});
   };
   kernel::Robot& lane = *lanes_[index];
   sync::start_thread(*lane.scheduler, lane, {.name = "operator", .service = true}, sync::make_call(std::move(ask)));

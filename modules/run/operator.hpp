@@ -4,11 +4,13 @@
 // Interventions for step k are executed in the world's task just before that step, in the order of their submission,
 // and are part of the environment's digest. They make no earlier event: an intervention known long before its time
 // (from a journal) and one typed a moment ago (at a prompt) give the same run. A request is sent by a task of the
-// robot, a service called "operator", which starts at that instant and waits for the final reply.
+// robot, a service called "operator", which starts at that instant and waits for the final reply; of a robot that is
+// elsewhere it is sent there.
 #pragma once
 
 #include <deque>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,7 +28,8 @@ inline constexpr std::size_t interventions_max = 100'000;
 /// The result of an intervention, or a reply to a request.
 struct InterventionOutcome {
   Time date;
-  std::string text;  ///< "move rackham 1 2: done"
+  std::string text;       ///< "move rackham 1 2: done"
+  bool is_reply = false;  ///< by a module, to a request
 };
 
 class Operator {
@@ -36,15 +39,18 @@ class Operator {
            const std::vector<kernel::Robot*>& lanes)
       : world_(world), robots_(robots), lanes_(lanes) {}
 
-  /// Schedules an intervention for `date`, a future step of the world. An unknown robot, obstacle, module, request or
-  /// field, or exceeding interventions_max, is BadInput.
-  void add(Time date, Intervention intervention);
+  /// Schedules an intervention for a step of the world, which is returned: the next one, or the first at or after
+  /// `date`. An unknown robot, obstacle, module, request or field, a date in the past, or exceeding interventions_max,
+  /// is BadInput.
+  Time add(Intervention intervention, std::optional<Time> date);
 
   /// Executes what is scheduled; called in the world's task before the step at `now`.
   void act(Time now);
 
   /// So far, in the order of their dates.
   const std::vector<InterventionOutcome>& outcomes() const { return outcomes_; }
+  /// A reply that came elsewhere.
+  void add_reply(const InterventionOutcome& reply) { outcomes_.push_back(reply); }
 
  private:
   struct Planned {
@@ -52,6 +58,7 @@ class Operator {
     Intervention intervention;
   };
 
+  Time step_for(const Intervention& intervention, std::optional<Time> date) const;
   void check(const Intervention& intervention) const;
   void check(const ModuleRequest& request, const scenario::Location& written) const;
   std::string carry_out(const Intervention& intervention);

@@ -33,6 +33,8 @@ class EventRecorder : private kernel::Watch {
  public:
   explicit EventRecorder(const std::filesystem::path& path);
   void watch(Simulation& simulation) { simulation.scheduler().set_watch(this); }
+  /// A line from elsewhere.
+  void add(const std::string& event_text) { file_.write(event_text + "\n"); }
   void finish() { file_.commit(); }
   void cut_off(const std::string& reason);
 

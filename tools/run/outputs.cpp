@@ -55,6 +55,7 @@ void Outputs::watch() {
   is_running_ = true;
   of_this_run = this;
   kernel::set_post_mortem(complete_after_death);
+  if (experiment_.ranks() > 1) return watch_ranks();
   if (events_) events_->watch(experiment_.simulation());
   for (std::size_t i = 0; i < experiment_.robots().size(); ++i) {
     if (picture_) experiment_.robots()[i]->keep_paths();
@@ -66,6 +67,22 @@ void Outputs::watch() {
   experiment_.set_observer([this](Time now) {
     if (getpid() == process_) recording_->observe(experiment_, now);
   });
+}
+
+void Outputs::watch_ranks() {
+  RankOutputOptions options{
+      .events = events_.has_value(), .paths = trajectory_.has_value(), .picture = picture_.has_value()};
+  options.write_event = [this](const std::string& line) { events_->add(line); };
+  options.write_sample = [this](std::size_t robot, bridge::PathKind kind, const bridge::DatedPose& sample) {
+    trajectory_->sink(robot).add(kind, sample);
+  };
+  ranks_.emplace(experiment_, std::move(options));
+}
+
+void Outputs::second(std::int64_t second) {
+  if (!digests_) return;
+  experiment_.gather_records();
+  digests_->record(experiment_.simulation(), second);
 }
 
 // Each file is completed by a call of `attempt`, if it is requested. An empty `cut_off`: the run ended.

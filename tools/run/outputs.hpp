@@ -20,6 +20,7 @@
 #include "tools/record/recording.hpp"
 #include "tools/run/duration_files.hpp"
 #include "tools/run/journal_file.hpp"
+#include "tools/run/rank_outputs.hpp"
 #include "tools/run/run_options.hpp"
 
 namespace waitpoint::tools {
@@ -37,9 +38,7 @@ class Outputs {
   JournalFile* journal() { return journal_ ? &*journal_ : nullptr; }
   /// Call before the run.
   void watch();
-  void second(std::int64_t second) {
-    if (digests_) digests_->record(experiment_.simulation(), second);
-  }
+  void second(std::int64_t second);
   /// Throws BadInput if the run is not that of --replay-durations.
   void check(const bridge::RunResult& result) const { durations_->check(result.outcome == bridge::Outcome::finished); }
   /// Writes and names all files. Throws BadInput if one cannot be written; those not yet named are as before.
@@ -51,6 +50,7 @@ class Outputs {
   static void complete_after_death(const char* reason);
   template <class Attempt>
   void complete(const bridge::RunResult& result, const std::string& cut_off, Attempt attempt);
+  void watch_ranks();
 
   run::Experiment& experiment_;
   std::optional<JournalFile> journal_;
@@ -60,6 +60,7 @@ class Outputs {
   std::optional<DigestRecorder> digests_;
   std::optional<EventRecorder> events_;
   std::unique_ptr<Recording> recording_;
+  std::optional<RankOutputs> ranks_;  // of several
   std::uint64_t seed_;
   pid_t process_;  // of the run
   bool is_running_ = false;

@@ -119,8 +119,8 @@ void Prompt::carry_on(Time target, const Session::Enough& enough, bool heeding) 
 }
 
 void Prompt::tell_place() {
-  fmt::print("at {} s after {} events\n", to_string(session_.now()),
-             session_.experiment().simulation().scheduler().events());
+  const run::JournalEnd here = session_.here();
+  fmt::print("at {} s after {} events\n", to_string(here.time), here.events);
 }
 
 void Prompt::help(std::string_view rest) {
@@ -134,6 +134,8 @@ void Prompt::step(std::string_view rest) {
   std::uint64_t left = 1;
   if (!word.empty() && (!parse_number(word, left) || left == 0))
     throw written_.bad("expected a number of events, found '" + word + "'");
+  if (session_.experiment().ranks() > 1)
+    throw written_.bad("expected a run of one process: the events of several are executed at once");
   std::string last;
   carry_on(
       session_.until(),
@@ -166,11 +168,16 @@ void Prompt::go(std::string_view rest) { run_to(rest, true); }
 void Prompt::until(std::string_view rest) {
   if (rest.find_first_of("<>=") == std::string_view::npos) return run_to(rest);
   const run::Condition condition = run::parse_condition(rest, session_.experiment(), written_);
-  if (!condition())
-    carry_on(
+  if (condition()) return tell_place();
+  if (session_.experiment().ranks() == 1)
+    return carry_on(
         session_.until(), [&](const kernel::EventRecord&) { return condition(); }, terminal_);
-  else
-    tell_place();
+  // Of several processes' events none is the one after which it holds: a step of the world is.
+  const Duration step = session_.experiment().world().description().step;
+  while (!condition() && !session_.over() && interruption() == 0)
+    session_.carry_on(session_.now() + step);
+  interrupted_ = interruption() != 0;
+  tell_place();
 }
 
 void Prompt::pause(std::string_view rest) {

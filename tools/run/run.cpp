@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <exception>
+#include <memory>
 #include <optional>
 #include <system_error>
 
@@ -14,17 +16,20 @@
 #include "modules/run/expectation.hpp"
 #include "modules/run/experiment.hpp"
 #include "modules/run/journal.hpp"
+#include "modules/run/robot_program.hpp"
 #include "modules/scenario/scenario_reader.hpp"
 #include "tools/command/interruption.hpp"
 #include "tools/command/program_layer.hpp"
 #include "tools/output/output_file.hpp"
 #include "tools/output/summary.hpp"
+#include "tools/ranks/joined_ranks.hpp"
 #include "tools/run/duration_files.hpp"
 #include "tools/run/journal_file.hpp"
 #include "tools/run/outputs.hpp"
 #include "tools/run/prompt.hpp"
 #include "tools/run/run_watchdog.hpp"
 #include "tools/run/session.hpp"
+#include "tools/version.hpp"
 
 namespace waitpoint::tools {
 namespace {
@@ -96,6 +101,8 @@ bridge::RunResult repeat(const RunOptions& options, const scenario::Scenario& sc
   Session::Stop stop = Session::Stop::target;
   if (!end)
     stop = session.carry_on(until);
+  else if (experiment.ranks() > 1)
+    stop = session.carry_on(end->time);
   else if (end->events > 0)
     stop = session.carry_on(until, [seen = scheduler.events(), last = end->events](const kernel::EventRecord&) mutable {
       return ++seen == last;
@@ -211,20 +218,25 @@ int run_once(const RunOptions& options, const scenario::Scenario& scenario, run:
   return same ? status(scenario, result) : 1;
 }
 
-}  // namespace
-
-int run(const RunOptions& options, std::span<const genom::ModuleType> types) {
-  const scenario::Scenario scenario = scenario::read_scenario(options.scenario, options.assignments);
+// May begin this process anew, with a library for the scenario's programs.
+scenario::Scenario scenario_of(const RunOptions& options) {
+  scenario::Scenario scenario = scenario::read_scenario(options.scenario, options.assignments);
+  // Their library takes the place of the system's threads in the whole process, of those of MPI, too.
+  if (is_rank() && run::has_shared_objects(scenario))
+    throw BadInput("--ranks", "expected no programs that are shared objects: programs with a `command` are possible");
   begin_with_program_layer(scenario);
-  heed_signals();
-  const RunWatchdog watchdog(options.watchdog_s);
-  if (options.seeds) return run_seeds(options, scenario, types);
+  return scenario;
+}
+
+// In one process, or as the leader of several.
+int run_alone(const RunOptions& options, const scenario::Scenario& scenario, std::span<const genom::ModuleType> types,
+              run::Ranks* ranks) {
   const std::string replay = replay_line(options, options.seed);
   const kernel::UnfinishedRun unfinished(replay.c_str());
   std::optional<run::Experiment> experiment;
   std::optional<Outputs> outputs;
   try {
-    experiment.emplace(scenario, types, run::ExperimentOptions{options.seed, options.order, replay});
+    experiment.emplace(scenario, types, run::ExperimentOptions{options.seed, options.order, replay, ranks});
     return run_once(options, scenario, *experiment, outputs);
   } catch (const BadInput&) {
     throw;
@@ -233,6 +245,61 @@ int run(const RunOptions& options, std::span<const genom::ModuleType> types) {
   } catch (const std::exception& failure) {
     return report_failure(failure, replay, outputs ? &*outputs : nullptr);
   }
+}
+
+// On a rank that does not lead: its failures are reported by the leader, which gets them.
+int follow(const RunOptions& options, const scenario::Scenario& scenario, std::span<const genom::ModuleType> types,
+           run::Ranks& ranks) {
+  const std::string replay = replay_line(options, options.seed);
+  const kernel::UnfinishedRun unfinished(replay.c_str());
+  try {
+    run::Experiment experiment(scenario, types, {options.seed, options.order, replay, &ranks});
+    const RankOutputs outputs(experiment, {.events = options.events.has_value(),
+                                           .paths = options.trajectory.has_value(),
+                                           .picture = options.picture.has_value()});
+    experiment.follow();
+  } catch (const std::exception&) {
+  }
+  return 0;
+}
+
+// One of several processes. What is bad on any of them is reported by the leader.
+int run_rank(const RunOptions& options, std::span<const genom::ModuleType> types) {
+  std::optional<scenario::Scenario> scenario;
+  std::exception_ptr bad;
+  try {
+    scenario = scenario_of(options);
+  } catch (const BadInput&) {
+    bad = std::current_exception();
+  }
+  heed_signals();
+  const RunWatchdog watchdog(options.watchdog_s);
+  const std::unique_ptr<run::Transport> transport = join_ranks(options.ranks);
+  run::Ranks ranks(*transport, watch_over(*transport, options.watchdog_s * 6));
+  try {
+    ranks.act_together([&] {
+      if (bad != nullptr) std::rethrow_exception(bad);
+      ranks.place(run::Placement(*scenario, ranks.rank(), ranks.count(), options.places));
+    });
+    ranks.check_same("build", version_text());
+    ranks.check_same("scenario", to_string(Digest(scenario->fingerprint)));
+    ranks.check_same("seed", std::to_string(options.seed));
+  } catch (const BadInput&) {
+    if (ranks.leads()) throw;
+    return 0;
+  }
+  return ranks.leads() ? run_alone(options, *scenario, types, &ranks) : follow(options, *scenario, types, ranks);
+}
+
+}  // namespace
+
+int run(const RunOptions& options, std::span<const genom::ModuleType> types) {
+  if (is_rank() && !options.seeds) return run_rank(options, types);
+  if (options.ranks > 1) start_ranks(options.ranks, options.arguments);
+  const scenario::Scenario scenario = scenario_of(options);
+  heed_signals();
+  const RunWatchdog watchdog(options.watchdog_s);
+  return options.seeds ? run_seeds(options, scenario, types) : run_alone(options, scenario, types, nullptr);
 }
 
 }  // namespace waitpoint::tools

@@ -101,6 +101,10 @@ RunArguments::RunArguments(CommandLine& line)
   command_.option("--seeds", seeds_, "A..B",
                   "run each seed from A to B and print a row for each; of the output files\nonly --summary is allowed, "
                   "for all runs");
+  command_.option("--ranks", ranks_, "N",
+                  "divide the robots among N processes, started by mpirun of Open MPI, also on\n"
+                  "other hosts: mpirun ... waitpoint run ...; the run and its digest are the same");
+  command_.repeated("--place", places_, "ROBOT=RANK", "with ranks: the process of this robot, from 0; may be repeated");
   command_.option("--order", order_, "ORDER",
                   "order of events of one instant: fifo, or seeded: by hashes of the seed\n(default: fifo)");
   command_.option("--until", until_, "S", "end at virtual time S, in seconds (default: the scenario's until_s)");
@@ -166,6 +170,15 @@ void RunArguments::check_alone() const {
   check_of_many("--seeds");
 }
 
+/// What is measured, compared or written per process is not there for several.
+void RunArguments::check_for_ranks() const {
+  check_not_together("--ranks", {{"--seeds", seeds_},
+                                 {"--record", record_},
+                                 {"--record-durations", record_durations_},
+                                 {"--replay-durations", replay_durations_}});
+  if (check_) throw BadInput("--ranks", "cannot be used together with --check");
+}
+
 RunOptions RunArguments::options() const {
   RunOptions options;
   options.scenario = find_scenario(scenario_.file);
@@ -188,6 +201,11 @@ RunOptions RunArguments::options() const {
   } else if (!order_.empty() && order_ != "fifo") {
     refuse("--order", "fifo or seeded", order_);
   }
+  constexpr int ranks_max = 4096;
+  if (!ranks_.empty() && (!parse_number(ranks_, options.ranks) || options.ranks < 1 || options.ranks > ranks_max))
+    refuse("--ranks", "a whole number from 1 to 4096", ranks_);
+  options.places = places_;
+  if (options.ranks > 1) check_for_ranks();
   options.until = positive_seconds("--until", until_);
   if (!speed_.empty() && (!parse_number(speed_, options.speed) || !is_speed(options.speed)))
     refuse("--speed", speeds, speed_);

@@ -25,6 +25,9 @@ struct RunOptions {
   std::vector<std::string> assignments;            ///< of --set, in their order: "world.step_ms=5"
   std::uint64_t seed = 1;
   std::optional<SeedRange> seeds;  ///< instead of `seed`
+  int ranks = 1;                   ///< processes of one run
+  std::vector<std::string> places;     ///< of --place, "ROBOT=RANK" each
+  std::vector<std::string> arguments;  ///< of the program, as given, to start it as ranks
   std::optional<Duration> until;   ///< instead of the scenario's
   kernel::Order order = kernel::Order::fifo;
   double speed = 0;                          ///< simulated seconds per second; 0: unthrottled
@@ -75,12 +78,14 @@ class RunArguments {
   void check_of_many(const char* option) const;
   void check_writes_nothing() const;
   void check_alone() const;
+  void check_for_ranks() const;
 
   Command command_;
   ScenarioArguments scenario_;
-  std::string seed_, seeds_, order_, until_, speed_, watchdog_, idle_, journal_, replay_journal_;
+  std::string seed_, seeds_, ranks_, order_, until_, speed_, watchdog_, idle_, journal_, replay_journal_;
   std::string summary_, picture_, trajectory_, record_, digests_, events_;
   std::string record_durations_, replay_durations_;
+  std::vector<std::string> places_;
   bool interactive_ = false, check_ = false;
 };
 

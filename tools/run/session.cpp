@@ -91,15 +91,16 @@ Time Session::intervene(const run::Intervention& intervention, std::optional<Tim
 Time Session::now() const { return experiment_.paused() ? experiment_.simulation().global_time() : reached_; }
 
 run::JournalEnd Session::here() const {
-  const Simulation& simulation = experiment_.simulation();
-  return {now(), simulation.scheduler().events(), to_string(simulation.digest())};
+  experiment_.gather_records();
+  return {now(), experiment_.events(), to_string(experiment_.simulation().digest())};
 }
 
 bridge::RunResult Session::result() const {
   bridge::RunResult result = experiment_.result();
   result.wall_s = wall_s_;
   result.lag = pacing_.lag();
-  const Time last = end_ == RunEnd::time_reached ? now() : experiment_.simulation().global_time();
+  const Time here = end_ == RunEnd::time_reached ? now() : experiment_.simulation().global_time();
+  const Time last = experiment_.last_end().value_or(here);
   result.simulated = last.since_start();
   result.real_time_factor = result.wall_s > 0 ? result.simulated.seconds() / result.wall_s : 0;
   return result;

@@ -88,6 +88,7 @@ void begin_events() {
   kernel::copy_name(robot.name, family::own->name);
   robot.id = Digest::mix(robot.id + number);
   robot.digest = PairDigest();
+  robot.outputs = 0;
   robot.digest_in_use = &family::own->digest;
   scheduler.continue_as(Digest::mix(kernel::running->id + number));
   family::limit_window(scheduler);
