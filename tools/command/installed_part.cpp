@@ -1,15 +1,29 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/command/installed_part.hpp"
 
+#include <dlfcn.h>
+
 #include "core/error.hpp"
 #include "tools/command/data_folder.hpp"
 
 namespace waitpoint::tools {
 
+namespace {
+
+// Of the library or program that contains this function.
+std::filesystem::path own_folder() {
+  static const char here = 0;
+  Dl_info info{};
+  if (dladdr(&here, &info) == 0 || info.dli_fname == nullptr) return {};
+  return std::filesystem::path(info.dli_fname).parent_path();
+}
+
+}  // namespace
+
 std::filesystem::path find_part(const std::string& name) {
   const std::filesystem::path folder = std::filesystem::read_symlink("/proc/self/exe").parent_path();
   const std::filesystem::path installed = std::filesystem::path(library_folder) / name;
-  for (const std::filesystem::path& place : {folder / ".." / name, installed})
+  for (const std::filesystem::path& place : {folder / ".." / name, installed, own_folder() / "waitpoint" / name})
     if (std::filesystem::exists(place)) return std::filesystem::canonical(place);
   throw BadInput("programs", "the library they need is not installed: expected " + installed.string());
 }

@@ -18,6 +18,7 @@
 #include "fibers/sync/system_calls.hpp"
 #include "tools/command/installed_part.hpp"
 #include "tools/command/interruption.hpp"
+#include "tools/output/progress.hpp"
 
 namespace waitpoint::tools {
 namespace {
@@ -50,8 +51,10 @@ void start_ranks(int ranks, std::span<const std::string> arguments) {
   const std::string mpirun = find_program("mpirun").string();
   if (mpirun.empty()) throw BadInput("--ranks", std::string("there is no program 'mpirun': ") + packages);
   const std::string number = std::to_string(ranks), self = std::filesystem::read_symlink("/proc/self/exe").string();
-  std::vector<const char*> words{mpirun.c_str(), "--quiet", "-n", number.c_str(), "--mca", "odls_base_sigkill_timeout",
-                                 "2"};
+  // Messages by copies within shared memory, without a right to read another process's; a second to end in order.
+  std::vector<const char*> words{mpirun.c_str(), "--quiet", "-n", number.c_str()};
+  words.insert(words.end(), {"--mca", "btl_vader_single_copy_mechanism", "none"});
+  words.insert(words.end(), {"--mca", "odls_base_sigkill_timeout", "2"});
   if (ranks > processors()) words.insert(words.end(), {"--oversubscribe", "--bind-to", "none"});
   // The processes have this user's rights as the present one has.
   if (geteuid() == 0) words.push_back("--allow-run-as-root");
@@ -77,21 +80,26 @@ std::unique_ptr<run::Transport> join_ranks(int wanted) {
 }
 
 run::Ranks::Waiting watch_over(run::Transport& transport, double limit_s) {
-  return [&transport, limit_s, told_s = 0.0](double seconds, const std::string& where) mutable {
-    constexpr double patience_s = 0.3, first_s = 5;
-    const auto who = [&] {
-      const std::string missing = transport.missing();
-      return missing.empty() ? std::string("another rank") : missing;
-    };
+  return [&transport, limit_s, told_s = 0.0, interrupted_s = 0.0](double seconds, const std::string& where) mutable {
+    // The launcher interrupts all when one has ended, and the user one that leads, which then ends all in order.
+    constexpr double leads_s = 0.4, follows_s = 0.9, first_told_s = 5;
+    const double now_s = wall_clock_s();
+    if (interruption() == 0)
+      interrupted_s = now_s;
+    const double since_s = now_s - interrupted_s;
+    if (transport.rank() != 0) {
+      if (since_s > follows_s && transport.rank() == 1 && !transport.has_first_failed())
+        throw LeaderLost("rank 0 has ended or does not answer, " + where);
+      if (since_s > follows_s) throw std::runtime_error("the run has been ended");
+      return;
+    }
+    const std::string missing = transport.missing(), who = missing.empty() ? "another rank" : missing;
     if (seconds < told_s) told_s = 0;  // another wait
-    if (transport.rank() != 0) return;
-    if (interruption() != 0 && seconds > patience_s)
-      throw std::runtime_error(who() + " has ended or does not answer, " + where);
-    if (limit_s > 0 && seconds > limit_s)
-      throw std::runtime_error(who() + " has not answered for " + std::to_string(static_cast<long>(limit_s)) + " s, " + where);
-    if (seconds < first_s || seconds < 2 * told_s) return;
-    std::fprintf(stderr, "waitpoint: %s has not answered for %ld s, %s\n", who().c_str(), static_cast<long>(seconds),
-                 where.c_str());
+    if (since_s > leads_s && seconds > leads_s) throw std::runtime_error(who + " has ended or does not answer, " + where);
+    const std::string so_long = " has not answered for " + std::to_string(static_cast<long>(seconds)) + " s, " + where;
+    if (limit_s > 0 && seconds > limit_s) throw std::runtime_error(who + so_long);
+    if (seconds < first_told_s || seconds < 2 * told_s) return;
+    std::fprintf(stderr, "waitpoint: %s%s\n", who.c_str(), so_long.c_str());
     told_s = seconds;
   };
 }

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <stdexcept>
 #include <string>
 
 #include "modules/run/ranks/ranks.hpp"
@@ -22,8 +23,13 @@ bool is_rank();
 /// any number.
 std::unique_ptr<run::Transport> join_ranks(int wanted);
 
-/// Heeds what happens while the leader waits for others: tells of a rank that does not come, and throws
-/// std::runtime_error after an interruption, or after `limit_s` (0: never).
+/// Thrown on rank 1, which reports it in place of the leader.
+struct LeaderLost : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// Heeds what happens during waits. The leader tells of a rank that does not come, and throws std::runtime_error after
+/// an interruption, or after `limit_s` (0: never); others throw after an interruption that the leader does not heed.
 run::Ranks::Waiting watch_over(run::Transport& transport, double limit_s);
 
 }  // namespace waitpoint::tools

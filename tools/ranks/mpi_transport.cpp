@@ -14,6 +14,7 @@
 #include <cstdint>
 #include <cstring>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "modules/run/ranks/transport.hpp"
@@ -22,7 +23,8 @@ namespace waitpoint::tools {
 namespace {
 
 constexpr std::size_t block_bytes = 4096, block_room = block_bytes - sizeof(std::uint64_t);
-constexpr int i_wait = 1;  // the tag of messages to the first rank
+// The tags of messages to the first rank, and from it.
+constexpr int i_wait = 1, i_failed = 2;
 
 double clock_s() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
@@ -66,10 +68,16 @@ class MpiTransport final : public run::Transport {
     return views_;
   }
 
+  bool has_first_failed() override {
+    int is_there = 0;
+    MPI_Iprobe(0, i_failed, MPI_COMM_WORLD, &is_there, MPI_STATUS_IGNORE);
+    return is_there != 0;
+  }
+
   std::string missing() override {
     std::string names;
     for (std::size_t i = 1; i < came_.size(); ++i)
-      if (came_[i] != number_) names += (names.empty() ? "rank " : ", rank ") + std::to_string(i);
+      if (came_[i] + 1 < number_) names += (names.empty() ? "rank " : ", rank ") + std::to_string(i);
     return names;
   }
 
@@ -116,7 +124,7 @@ class MpiTransport final : public run::Transport {
 
   void wait(MPI_Request& request, const Waiting& waiting) {
     constexpr int quick_polls = 1000;
-    constexpr double between_calls_s = 0.1, tell_after_s = 1, sleep_after_s = 0.02;
+    constexpr double between_calls_s = 0.1, sleep_after_s = 0.02;
     constexpr unsigned pause_us = 200;
     int done = 0;
     for (int i = 0; i < quick_polls && done == 0; ++i) MPI_Test(&request, &done, MPI_STATUS_IGNORE);
@@ -131,27 +139,29 @@ class MpiTransport final : public run::Transport {
       now_s - begin_s < sleep_after_s ? static_cast<void>(sched_yield()) : static_cast<void>(usleep(pause_us));
       if (now_s - called_s < between_calls_s) continue;
       called_s = now_s;
-      if (!has_told && now_s - begin_s > tell_after_s) {
-        tell_first();
-        has_told = true;
+      if (rank_ == 0)
+        take_told();
+      else if (!std::exchange(has_told, true))
+        tell(0, i_wait);
+      try {
+        waiting(now_s - begin_s);
+      } catch (...) {
+        has_failed_ = true;
+        for (int i = 1; i < ranks_ && rank_ == 0; ++i) tell(i, i_failed);
+        throw;
       }
-      take_told();
-      has_failed_ = true;  // if it throws
-      waiting(now_s - begin_s);
-      has_failed_ = false;
     }
   }
 
-  void tell_first() {
-    if (rank_ == 0) return;
+  // In the background: the other one may not be there any more.
+  void tell(int rank, int what) {
     told_ = number_;
     MPI_Request request;
-    MPI_Isend(&told_, 1, MPI_UINT64_T, 0, i_wait, MPI_COMM_WORLD, &request);
+    MPI_Isend(&told_, 1, MPI_UINT64_T, rank, what, MPI_COMM_WORLD, &request);
     MPI_Request_free(&request);
   }
 
   void take_told() {
-    if (rank_ != 0) return;
     for (;;) {
       int is_there = 0;
       MPI_Status status;
@@ -166,7 +176,7 @@ class MpiTransport final : public run::Transport {
   bool has_failed_ = false;
   std::uint64_t number_ = 0;         // of the present call of gather()
   std::uint64_t told_ = 0;           // sent in the background
-  std::vector<std::uint64_t> came_;  // by rank: the last call it is known to wait in
+  std::vector<std::uint64_t> came_;  // by rank: the last call it is known to wait in, this one or the one before
   std::vector<char> blocks_;
   std::string rest_;
   std::vector<std::string> whole_;

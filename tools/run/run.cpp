@@ -258,6 +258,8 @@ int follow(const RunOptions& options, const scenario::Scenario& scenario, std::s
                                            .paths = options.trajectory.has_value(),
                                            .picture = options.picture.has_value()});
     experiment.follow();
+  } catch (const LeaderLost& lost) {
+    return report_failure(lost, replay, nullptr);
   } catch (const std::exception&) {
   }
   return 0;

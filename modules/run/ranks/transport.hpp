@@ -25,8 +25,10 @@ class Transport {
   virtual int ranks() const = 0;
   /// The blocks of all ranks, in their order, this one's included. The views are valid until the next call.
   virtual const std::vector<std::string_view>& gather(std::string_view block, const Waiting& waiting) = 0;
-  /// During a wait of the first rank's: the ranks that others do not wait for, "rank 2", as far as is known.
+  /// During a wait of the first rank's: the ranks that do not wait, too, "rank 2", as far as is known.
   virtual std::string missing() = 0;
+  /// During a wait of another rank's: true if a wait of the first rank has failed, which reports it.
+  virtual bool has_first_failed() = 0;
   /// The name of this rank's host.
   virtual std::string host() const = 0;
 
