@@ -155,6 +155,8 @@ class Scheduler {
   /// Inserts the arrival of a message of `sender`, ahead of the tasks of that instant and behind its timers. Arrivals
   /// at one instant are ordered by {sender, its count of messages}, regardless of the order of insertion.
   void deliver(EventNode& node, Time time, Robot& sender);
+  /// The same for a message that was sent, and counted, in another process.
+  void deliver(EventNode& node, Time time, const Robot& sender, std::uint64_t count);
   /// Declares a link between robots with a latency of at least `least`, which must be positive.
   void declare_latency(Duration least);
   /// The least latency of all links: no robot can affect another within it. Duration::max() without links.

@@ -144,8 +144,10 @@ void Scheduler::schedule(EventNode& node, Time time, const Object& timer, Phase 
 
 void Scheduler::schedule(EventNode& node, const EventKey& key) { put(node, key); }
 
-void Scheduler::deliver(EventNode& node, Time time, Robot& sender) {
-  put(node, {time, make_order(Phase::deliveries, Chooser::tie(sender, ++sender.messages))});
+void Scheduler::deliver(EventNode& node, Time time, Robot& sender) { deliver(node, time, sender, ++sender.messages); }
+
+void Scheduler::deliver(EventNode& node, Time time, const Robot& sender, std::uint64_t count) {
+  put(node, {time, make_order(Phase::deliveries, Chooser::tie(sender, count))});
 }
 
 void Scheduler::declare_latency(Duration least) {
