@@ -6,14 +6,14 @@
 namespace waitpoint::io {
 
 DatagramCore::DatagramCore(Network& network, const DatagramOptions& options)
-    : Channel("datagram socket", ""), network_(network), node_(network.own_node()), options_(options) {
+    : Channel("datagram socket", ""), node_(network.own_node()), options_(options) {
   WAITPOINT_REQUIRE(options.queue_max > 0 && options.queue_max <= datagrams_max,
                     "a datagram socket's queue holds at least one datagram and at most 65536");
   WAITPOINT_REQUIRE(options.message_bytes_max <= datagram_bytes_max, "a datagram has at most 65507 bytes");
-  node_->take_socket();
+  number_ = node_->add_socket(*this);
 }
 
-DatagramCore::~DatagramCore() { node_->release_socket(); }
+DatagramCore::~DatagramCore() { node_->remove_socket(number_); }
 
 Status DatagramCore::bind(const std::string& port) {
   if (!begin(kernel::Operation::open, receiving_)) return Status::closed;
@@ -33,16 +33,19 @@ Status DatagramCore::send_to(const Address& address, std::span<const std::byte> 
   Digest sent;
   sent.add(std::string_view(reinterpret_cast<const char*>(data.data()), data.size()));
   record_sent(to_string(address), sent.value());
-  Node& target = *network_.node(link->to());
-  link->send_datagram(data.size(), [&target, link, port = address.port,
-                                    message = Message{{data.begin(), data.end()}, {node_->name(), port_}}] {
-    auto* const socket = static_cast<DatagramCore*>(target.find(Protocol::datagram, port));
-    if (socket != nullptr)
-      socket->arrive(message);
-    else
-      ++link->statistics.unreachable;
-  });
+  link->send_datagram(data.size(), {.kind = PacketKind::datagram,
+                                    .from = {.port = port_},
+                                    .to = {.port = address.port},
+                                    .bytes = {data.begin(), data.end()}});
   return Status::ok;
+}
+
+void DatagramCore::take_datagram(Node& node, Link& link, Packet& packet) {
+  auto* const socket = static_cast<DatagramCore*>(node.find(Protocol::datagram, packet.to.port));
+  if (socket != nullptr)
+    socket->arrive({std::move(packet.bytes), {std::string(link.from()), std::move(packet.from.port)}});
+  else
+    ++link.statistics.unreachable;
 }
 
 void DatagramCore::arrive(Message message) {
@@ -59,11 +62,11 @@ Result<Datagram> DatagramCore::receive(std::span<std::byte> buffer, const Deadli
   const Status status = wait(receiving_, deadline, [&] { return closed_ || !queue_.empty(); });
   if (status != Status::ok) return status;
   if (closed_) return Status::closed;
-  const Message message = std::move(queue_.front());
+  Message message = std::move(queue_.front());
   queue_.pop_front();
   const std::size_t size = std::min(buffer.size(), message.bytes.size());
   std::copy_n(message.bytes.data(), size, buffer.data());
-  return Datagram{size, size < message.bytes.size(), message.from};
+  return Datagram{size, size < message.bytes.size(), std::move(message.from)};
 }
 
 void DatagramCore::close() {

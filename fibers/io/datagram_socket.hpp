@@ -44,6 +44,8 @@ class DatagramCore : public Channel {
   void close();
   std::uint64_t dropped() const { return dropped_; }
   Events ready() const override;
+  /// The handler of datagrams.
+  static void take_datagram(Node& node, Link& link, Packet& packet);
 
  private:
   struct Message {
@@ -52,9 +54,9 @@ class DatagramCore : public Channel {
   };
   void arrive(Message message);
 
-  Network& network_;
   std::shared_ptr<Node> node_;
   DatagramOptions options_;
+  std::uint64_t number_;
   std::string port_;
   std::deque<Message> queue_;
   std::uint64_t dropped_ = 0;

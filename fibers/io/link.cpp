@@ -17,14 +17,16 @@ kernel::Decisions* deciding_strategy(kernel::Scheduler& scheduler) {
 
 }  // namespace
 
-Link::Link(kernel::Scheduler& scheduler, kernel::Robot& from, std::string to, std::optional<Medium> medium,
-           const Distance& distance, std::size_t in_flight_max)
+Link::Link(kernel::Scheduler& scheduler, kernel::Robot& from, std::string to, Receiver& receiver,
+           std::optional<Medium> medium, const Distance& distance, std::size_t in_flight_max, const Forward* forward)
     : scheduler_(scheduler),
       from_(from),
       to_(std::move(to)),
+      receiver_(receiver),
       medium_(medium),
       distance_(distance),
       in_flight_max_(in_flight_max),
+      forward_(forward),
       random_(scheduler.chooser().seed(), from.name, "medium to " + to_) {
   range_check_.link = this;
   range_check_.fire = look_again;
@@ -35,7 +37,6 @@ void Link::stop() {
   if (range_check_.in_list()) scheduler_.cancel(range_check_);
   for (Flight& flight : flights_)
     if (flight.in_list()) scheduler_.cancel(flight);
-  // Their arrivals may own sockets.
   flights_.clear();
   free_flights_.clear();
   waiting_.clear();
@@ -75,33 +76,36 @@ void Link::begin_sending() {
   ++statistics.sent;
 }
 
-void Link::send_datagram(std::size_t bytes, Arrival arrival) {
+bool Link::send_datagram(std::size_t bytes, Packet packet) {
   begin_sending();
-  if (!medium_) return arrival();
+  if (!medium_) {
+    receiver_.receive(*this, packet);
+    return true;
+  }
   const Duration queued = std::max(free_at_, scheduler_.global_time()) - scheduler_.global_time();
   if (queued > time_on_air(*medium_, medium_->queue_bytes)) {
     ++statistics.overflowed;
-    return;
+    return false;
   }
   const double away_m = distance_m();
   const bool in_range = away_m <= medium_->range_m;
   // A lost message occupies the medium all the same.
   const Time arrives = put_on_air(bytes, in_range ? away_m : 0);
-  if (!in_range)
-    ++statistics.out_of_range;
-  else if (is_lost())
-    ++statistics.lost;
-  else
-    launch(arrives, std::move(arrival));
+  if (!in_range || is_lost()) {
+    ++(in_range ? statistics.lost : statistics.out_of_range);
+    return false;
+  }
+  launch(arrives, std::move(packet));
+  return true;
 }
 
-void Link::send_in_order(std::size_t bytes, Arrival arrival) {
+void Link::send_in_order(std::size_t bytes, Packet packet) {
   begin_sending();
-  if (!medium_) return arrival();
+  if (!medium_) return receiver_.receive(*this, packet);
   const double away_m = distance_m();
-  if (waiting_.empty() && away_m <= medium_->range_m) return transmit_in_order(bytes, away_m, std::move(arrival));
+  if (waiting_.empty() && away_m <= medium_->range_m) return transmit_in_order(bytes, away_m, std::move(packet));
   check_room();
-  waiting_.push_back({bytes, std::move(arrival)});
+  waiting_.push_back({bytes, std::move(packet)});
   if (!range_check_.in_list()) scheduler_.deliver(range_check_, scheduler_.global_time() + medium_->range_check, from_);
 }
 
@@ -113,12 +117,12 @@ void Link::look_again(kernel::EventNode& node) {
     return;
   }
   for (; !self.waiting_.empty(); self.waiting_.pop_front())
-    self.transmit_in_order(self.waiting_.front().bytes, away_m, std::move(self.waiting_.front().arrival));
+    self.transmit_in_order(self.waiting_.front().bytes, away_m, std::move(self.waiting_.front().packet));
 }
 
-void Link::transmit_in_order(std::size_t bytes, double distance_m, Arrival arrival) {
+void Link::transmit_in_order(std::size_t bytes, double distance_m, Packet&& packet) {
   in_order_until_ = std::max(in_order_until_, put_on_air(bytes, distance_m));
-  launch(in_order_until_, std::move(arrival));
+  launch(in_order_until_, std::move(packet));
 }
 
 void Link::check_room() const {
@@ -126,23 +130,44 @@ void Link::check_room() const {
                     "more messages in transit between two robots than NetworkLimits::in_flight_max");
 }
 
-void Link::launch(Time arrives, Arrival arrival) {
+// A flight to another process has the same event here, which only makes room: the bound is that of one process.
+void Link::launch(Time arrives, Packet&& packet) {
   check_room();
   WAITPOINT_CHECK(arrives - scheduler_.global_time() >= scheduler_.lookahead(),
                   "a message arrives within the lookahead");
-  Flight& flight = free_flights_.empty() ? flights_.emplace_back() : *free_flights_.back();
-  if (!free_flights_.empty()) free_flights_.pop_back();
+  Flight& flight = take_flight();
+  scheduler_.deliver(flight, arrives, from_);
+  if (forward_ == nullptr)
+    flight.packet = std::move(packet);
+  else
+    (*forward_)(from_, from_.messages, arrives, to_, std::move(packet));
+}
+
+void Link::arrive_at(Time time, std::uint64_t count, Packet packet) {
+  WAITPOINT_CHECK(!stopped_ && forward_ == nullptr, "a packet comes to a process without its receiver");
+  Flight& flight = take_flight();
+  flight.packet = std::move(packet);
+  scheduler_.deliver(flight, time, from_, count);
+}
+
+Link::Flight& Link::take_flight() {
+  if (!free_flights_.empty()) {
+    Flight& flight = *free_flights_.back();
+    free_flights_.pop_back();
+    return flight;
+  }
+  Flight& flight = flights_.emplace_back();
   flight.link = this;
   flight.fire = land;
-  flight.arrival = std::move(arrival);
-  scheduler_.deliver(flight, arrives, from_);
+  return flight;
 }
 
 void Link::land(kernel::EventNode& node) {
   auto& flight = static_cast<Flight&>(node);
-  const Arrival arrival = std::exchange(flight.arrival, nullptr);
-  flight.link->free_flights_.push_back(&flight);
-  arrival();
+  Link& self = *flight.link;
+  Packet packet = std::move(flight.packet);
+  self.free_flights_.push_back(&flight);
+  if (self.forward_ == nullptr) self.receiver_.receive(self, packet);
 }
 
 }  // namespace waitpoint::io

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One direction between two robots: carries messages over the medium, as events of the sender. Within one robot a
-// message arrives at once.
+// One direction between two robots: carries packets over the medium, as events of the sender. Within one robot a packet
+// arrives at once.
 //
 // A message's latency and loss are a function of (seed, sender, receiver, the message's number on this link) and of the
 // distance at its sending: independent of other links' traffic.
@@ -10,10 +10,12 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/random.hpp"
 #include "fibers/io/medium.hpp"
+#include "fibers/io/packet.hpp"
 #include "fibers/kernel/scheduler.hpp"
 
 namespace waitpoint::io {
@@ -30,42 +32,57 @@ struct LinkStatistics {
   std::uint64_t unreachable = 0;   ///< datagrams to an unbound name
 };
 
+class Link;
+
+/// Where a link ends.
+class Receiver {
+ public:
+  /// A packet arrives. Called by the task that sent it or without a task: must neither block nor use the running task.
+  virtual void receive(Link& link, Packet& packet) = 0;
+
+ protected:
+  ~Receiver() = default;
+};
+
+/// Takes a packet to the process with the receiver's tasks. `count` is the number of messages of its sender so far.
+using Forward = std::function<void(const kernel::Robot& sender, std::uint64_t count, Time arrives,
+                                   const std::string& to, Packet packet)>;
+
 class Link {
  public:
-  /// Called when a message arrives, by the task that sent it or without a task: must neither block nor use the running
-  /// task.
-  using Arrival = std::function<void()>;
-
-  /// Without `medium`: within one robot.
-  Link(kernel::Scheduler& scheduler, kernel::Robot& from, std::string to, std::optional<Medium> medium,
-       const Distance& distance, std::size_t in_flight_max);
+  /// Without `medium`: within one robot. With `forward` packets leave the process instead of arriving at `receiver`.
+  Link(kernel::Scheduler& scheduler, kernel::Robot& from, std::string to, Receiver& receiver,
+       std::optional<Medium> medium, const Distance& distance, std::size_t in_flight_max, const Forward* forward);
   Link(const Link&) = delete;
   Link& operator=(const Link&) = delete;
 
-  /// May be lost, or arrive before earlier messages.
-  void send_datagram(std::size_t bytes, Arrival arrival);
-  /// Arrives after all earlier messages sent in order; beyond the range it waits.
-  void send_in_order(std::size_t bytes, Arrival arrival);
+  /// The packet takes the time of `bytes` bytes. It may arrive before earlier ones, or be lost: false if it is.
+  bool send_datagram(std::size_t bytes, Packet packet);
+  /// Arrives after all earlier packets sent in order; beyond the range it waits.
+  void send_in_order(std::size_t bytes, Packet packet);
+  /// A packet that another process, with the sender's tasks, has sent over its own link and forwarded.
+  void arrive_at(Time time, std::uint64_t count, Packet packet);
 
   /// The network is destroyed: nothing arrives any more, and sending is a misuse.
   void stop();
 
   /// True between robots: messages in transit then occupy room that the receiver cannot free at once.
   bool is_between_robots() const { return medium_.has_value(); }
+  std::string_view from() const { return from_.name; }
   const std::string& to() const { return to_; }
   LinkStatistics statistics;
 
  private:
   struct Flight : kernel::EventNode {
     Link* link = nullptr;
-    Arrival arrival;
+    Packet packet;
   };
   struct RangeCheck : kernel::EventNode {
     Link* link = nullptr;
   };
   struct Waiting {
     std::size_t bytes;
-    Arrival arrival;
+    Packet packet;
   };
 
   static void land(kernel::EventNode& node);
@@ -75,16 +92,19 @@ class Link {
   Duration latency() const;
   bool is_lost() const;
   Time put_on_air(std::size_t bytes, double distance_m);
-  void transmit_in_order(std::size_t bytes, double distance_m, Arrival arrival);
+  void transmit_in_order(std::size_t bytes, double distance_m, Packet&& packet);
   void check_room() const;
-  void launch(Time arrives, Arrival arrival);
+  void launch(Time arrives, Packet&& packet);
+  Flight& take_flight();
 
   kernel::Scheduler& scheduler_;
   kernel::Robot& from_;
   std::string to_;
+  Receiver& receiver_;
   std::optional<Medium> medium_;
   const Distance& distance_;
   std::size_t in_flight_max_;
+  const Forward* forward_;
   RandomStream random_;
   bool stopped_ = false;
   std::uint64_t number_ = 0;  // of the last transmitted message

@@ -14,29 +14,25 @@
 #pragma once
 
 #include <deque>
-#include <functional>
 #include <memory>
 #include <string>
 #include <utility>
 
 #include "fibers/io/letter.hpp"
-#include "fibers/io/network.hpp"
+#include "fibers/io/letter_box.hpp"
 #include "fibers/sync/ignored_accesses.hpp"
 
 namespace waitpoint::io {
-
-/// The mailbox's answer to the sender of a letter: ok once it is received; refused or peer_closed if it never will be.
-using Receipt = std::function<void(Status)>;
 
 /// The greatest capacity of a mailbox, and the greatest window of a sender.
 inline constexpr std::size_t letters_max = 65536;
 
 template <class T>
-class mailbox : public Channel {
+class mailbox : public LetterBox {
  public:
   /// Holds `capacity` letters, from one to letters_max.
   explicit mailbox(std::size_t capacity, std::string label = "")
-      : Channel("mailbox", std::move(label)), capacity_(capacity) {
+      : LetterBox("mailbox", std::move(label)), capacity_(capacity) {
     WAITPOINT_REQUIRE(capacity > 0 && capacity <= letters_max, "a mailbox holds at least one letter and at most 65536");
   }
   /// Destroying a mailbox at which a task waits is a misuse.
@@ -81,17 +77,12 @@ class mailbox : public Channel {
            when(letters_.size() < capacity_ || closed_, Events::writable) | when(closed_, Events::closed);
   }
 
-  /// A letter from a mailbox_sender.
-  void arrive(const T& letter, Receipt receipt) {
-    const sync::IgnoredAccesses ignored_accesses;
-    letters_.push_back({letter, std::move(receipt)});
-    wake_one_for_arrival(receiving_);
-  }
+  void arrive(std::uint64_t type, std::span<const std::byte> letter, const Receipt& receipt) override;
 
  private:
   struct Entry {
     T letter;
-    Receipt receipt;  // none for the own robot's letters
+    Receipt receipt = {};
   };
   void refresh() override {
     const sync::IgnoredAccesses ignored_accesses;
@@ -104,8 +95,9 @@ class mailbox : public Channel {
   std::size_t capacity_;
   std::deque<Entry> letters_;
   bool closed_ = false;
-  std::shared_ptr<Node> node_;  // where its name is bound
+  std::shared_ptr<Node> node_;  // where its name is bound, or was before it was closed
   std::string port_;
+  std::uint64_t type_ = 0;  // letter_type() of a mailbox with a name
 };
 
 template <class T>
@@ -117,8 +109,20 @@ Status mailbox<T>::bind(Network& network, const std::string& port) {
   if (!node->bind(Protocol::mailbox, port, *this)) return Status::address_in_use;
   node_ = std::move(node);
   port_ = port;
+  if constexpr (Sendable<T>) type_ = letter_type<T>();
   set_label(node_->name() + ":" + port);
   return Status::ok;
+}
+
+template <class T>
+void mailbox<T>::arrive(std::uint64_t type, std::span<const std::byte> letter, const Receipt& receipt) {
+  const sync::IgnoredAccesses ignored_accesses;
+  WAITPOINT_REQUIRE(Sendable<T> && type == type_, "a letter is sent to a mailbox of another type");
+  if constexpr (Sendable<T>) {
+    Entry& entry = letters_.emplace_back(Entry{T(), receipt});
+    decode(entry.letter, letter);
+    wake_one_for_arrival(receiving_);
+  }
 }
 
 template <class T>
@@ -132,7 +136,7 @@ Status mailbox<T>::send(Letter&& letter, const Deadline& deadline) {
   if (status != Status::ok) return status;
   const sync::IgnoredAccesses ignored_accesses;
   if (closed_) return Status::peer_closed;
-  letters_.push_back({T(std::forward<Letter>(letter)), nullptr});
+  letters_.push_back({T(std::forward<Letter>(letter))});
   if constexpr (Sendable<T>) record_sent("mailbox", hash_of(letters_.back().letter));
   wake_one(receiving_);
   return Status::ok;
@@ -150,7 +154,7 @@ Result<T> mailbox<T>::receive(const Deadline& deadline) {
   if (letters_.empty()) return Status::end_of_file;
   Entry entry = std::move(letters_.front());
   letters_.pop_front();
-  if (entry.receipt != nullptr) entry.receipt(Status::ok);
+  entry.receipt.send(Status::ok);
   // Letters of mailbox_senders may exceed the capacity: then there is no room yet.
   if (letters_.size() < capacity_) wake_one(sending_);
   return std::move(entry.letter);
@@ -159,11 +163,10 @@ Result<T> mailbox<T>::receive(const Deadline& deadline) {
 template <class T>
 void mailbox<T>::shut(bool tell) {
   const sync::IgnoredAccesses ignored_accesses;
-  if (node_ != nullptr) node_->release(Protocol::mailbox, port_);
-  node_ = nullptr;
-  if (std::exchange(closed_, true) || !tell) return;
-  for (const Entry& entry : letters_)
-    if (entry.receipt != nullptr) entry.receipt(Status::peer_closed);
+  const bool was_closed = std::exchange(closed_, true);
+  if (node_ != nullptr && !was_closed) node_->release(Protocol::mailbox, port_);
+  if (was_closed || !tell) return;
+  for (const Entry& entry : letters_) entry.receipt.send(Status::peer_closed);
   wake_all(receiving_);
   wake_all(sending_);
 }

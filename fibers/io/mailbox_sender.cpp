@@ -5,14 +5,13 @@ namespace waitpoint::io {
 
 SenderCore::SenderCore(Network& network, const Address& address, std::size_t window)
     : Channel("mailbox sender", "to " + to_string(address)),
-      network_(network),
       node_(network.own_node()),
       address_(address),
       link_(node_->link_to(address.robot)),
       room_(window) {
   WAITPOINT_REQUIRE(window > 0 && window <= letters_max,
                     "a mailbox sender's window holds at least one letter and at most 65536");
-  node_->take_socket();
+  number_ = node_->add_socket(*this);
 }
 
 Status SenderCore::begin_letter(const Deadline& deadline) {
@@ -22,32 +21,35 @@ Status SenderCore::begin_letter(const Deadline& deadline) {
   return status != Status::ok ? status : status_;
 }
 
-void SenderCore::send(std::size_t bytes, std::uint64_t hash, std::function<void(Channel&, Receipt)> arrive) {
+void SenderCore::send(std::uint64_t type, std::vector<std::byte> letter, std::uint64_t hash) {
   --room_;
   record_sent(to_string(address_), hash);
-  Node& target = *network_.node(link_->to());
-  link_->send_in_order(bytes, [&target, port = address_.port, own = node_->name(), sender = weak_from_this(),
-                               arrive = std::move(arrive)] {
-    // The receipt returns over the reverse link.
-    const Receipt receipt = [&target, own, sender](Status status) {
-      target.link_to(own)->send_in_order(0, [sender, status] {
-        if (const auto there = sender.lock()) there->receipt(status);
-      });
-    };
-    Channel* const channel = target.find(Protocol::mailbox, port);
-    if (channel != nullptr)
-      arrive(*channel, receipt);
-    else
-      receipt(Status::refused);
-  });
+  const std::size_t size = letter.size();
+  link_->send_in_order(size, {.kind = PacketKind::letter,
+                              .from = {.socket = number_},
+                              .to = {.port = address_.port},
+                              .number = type,
+                              .bytes = std::move(letter)});
 }
 
-void SenderCore::receipt(Status status) {
+void SenderCore::take_letter(Node& node, Link& link, Packet& packet) {
+  auto* const box = static_cast<LetterBox*>(node.find(Protocol::mailbox, packet.to.port));
+  const Receipt receipt{node.link_to(link.from()), packet.from.socket};
+  if (box != nullptr)
+    box->arrive(packet.number, packet.bytes, receipt);
+  else
+    receipt.send(Status::refused);
+}
+
+void SenderCore::take_receipt(Node& node, Link&, Packet& packet) {
+  auto* const sender = static_cast<SenderCore*>(node.socket(packet.to.socket));
+  if (sender == nullptr) return;
+  const auto status = static_cast<Status>(packet.number);
   if (status == Status::ok)
-    ++room_;
-  else if (status_ == Status::ok)
-    status_ = status;
-  wake_all(sending_);
+    ++sender->room_;
+  else if (sender->status_ == Status::ok)
+    sender->status_ = status;
+  sender->wake_all(sender->sending_);
 }
 
 Events SenderCore::ready() const {

@@ -24,20 +24,24 @@ Address::Address(std::string_view text) {
 
 std::string to_string(const Address& address) { return address.robot + ":" + address.port; }
 
-Link* Node::link_to(const std::string& robot) {
-  const std::string to = robot.empty() ? name() : robot;
-  const auto known = links_.find(to);
+Link* Node::link_to(std::string_view robot) {
+  if (robot.empty()) robot = robot_.name;
+  const auto known = links_.find(robot);
   if (known != links_.end()) return &known->second;
+  const std::string to(robot);
   std::optional<Medium> medium;
+  Node* receiver = this;
   if (to != robot_.name) {
     const Medium* declared = network_.medium(robot_.name, to);
-    if (declared == nullptr || network_.node(to) == nullptr) return nullptr;
+    receiver = network_.node(to).get();
+    if (declared == nullptr || receiver == nullptr) return nullptr;
     medium = *declared;
     network_.has_traffic_ = true;
   }
+  const Forward* const forward = network_.elsewhere_.contains(to) ? &network_.forward_ : nullptr;
   return &links_
-              .try_emplace(to, network_.scheduler_, robot_, to, medium, network_.distance_,
-                           network_.limits_.in_flight_max)
+              .try_emplace(to, network_.scheduler_, robot_, to, *receiver, medium, network_.distance_,
+                           network_.limits_.in_flight_max, forward)
               .first->second;
 }
 
@@ -56,12 +60,20 @@ bool Node::bind(Protocol protocol, const std::string& port, Channel& channel) {
   return ports_.try_emplace({protocol, port}, &channel).second;
 }
 
-bool Node::has_room() const { return sockets_ < network_.limits_.sockets_max; }
+bool Node::has_room() const { return sockets_.size() < network_.limits_.sockets_max; }
 
-void Node::take_socket() {
+std::uint64_t Node::add_socket(Channel& socket) {
   WAITPOINT_REQUIRE(has_room(), "a robot has more sockets than NetworkLimits::sockets_max");
-  ++sockets_;
+  sockets_.emplace_hint(sockets_.end(), ++last_socket_, &socket);
+  return last_socket_;
 }
+
+Channel* Node::socket(std::uint64_t number) const {
+  const auto found = sockets_.find(number);
+  return found != sockets_.end() ? found->second : nullptr;
+}
+
+Parcels& Node::parcels() { return network_.parcels(); }
 
 Network::Network(Simulation& simulation, NetworkLimits limits) : scheduler_(simulation.scheduler()), limits_(limits) {}
 
@@ -93,6 +105,20 @@ void Network::declare(const std::string& a, const std::string& b, const Medium& 
   if (a == b) throw BadInput("medium", "within robot '" + a + "' there is no medium");
   begin_declaring(medium);
   between_[in_order(a, b)] = medium;
+}
+
+void Network::set_elsewhere(std::set<std::string, std::less<>> robots, Forward forward) {
+  WAITPOINT_REQUIRE(!has_traffic_, "robots are said to be elsewhere after they have sent to each other");
+  elsewhere_ = std::move(robots);
+  forward_ = std::move(forward);
+}
+
+void Network::arrive_at(Time time, const std::string& sender, std::uint64_t count, const std::string& to,
+                        Packet packet) {
+  const std::shared_ptr<Node> there = node(sender);
+  Link* const link = there != nullptr && elsewhere_.contains(sender) ? there->link_to(to) : nullptr;
+  WAITPOINT_CHECK(link != nullptr, "a packet comes from a robot that is not elsewhere, or over no link");
+  link->arrive_at(time, count, std::move(packet));
 }
 
 const Medium* Network::medium(const std::string& from, const std::string& to) const {

@@ -7,16 +7,23 @@
 //
 // No medium applies within a robot. Robots without a declared medium have no route. A network belongs to one run;
 // nothing is sent after its destruction.
+//
+// Where the robots' tasks are distributed over several processes, each has the records of all robots, and a network:
+//
+//   network.set_elsewhere({"bob"}, forward);                // in ada's process: what is sent to bob leaves it
+//   network.arrive_at(time, "ada", count, "bob", packet);   // in bob's
 #pragma once
 
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 
 #include "fibers/io/channel.hpp"
 #include "fibers/io/link.hpp"
+#include "fibers/io/parcels.hpp"
 #include "fibers/sync/simulation.hpp"
 
 namespace waitpoint::io {
@@ -50,7 +57,7 @@ enum class Protocol : std::uint8_t { datagram, stream, mailbox };
 class Network;
 
 /// One robot's part of the network. Its sockets share ownership: they may be closed after the network's destruction.
-class Node {
+class Node final : public Receiver {
  public:
   Node(Network& network, kernel::Robot& robot) : network_(network), robot_(robot) {}
 
@@ -59,24 +66,30 @@ class Node {
 
   std::string name() const { return robot_.name; }
   /// The link to a robot, which may be this one; null if there is no route.
-  Link* link_to(const std::string& robot);
+  Link* link_to(std::string_view robot);
+  /// Calls the handler of the packet's kind.
+  void receive(Link& link, Packet& packet) override;
   /// Null if the name is not bound.
   Channel* find(Protocol protocol, const std::string& port) const;
   /// False if the name is in use.
   bool bind(Protocol protocol, const std::string& port, Channel& channel);
   void release(Protocol protocol, const std::string& port) { ports_.erase({protocol, port}); }
-  /// Counts one more socket; beyond NetworkLimits::sockets_max is a misuse.
-  void take_socket();
-  void release_socket() { --sockets_; }
-  std::size_t sockets() const { return sockets_; }
+  /// Numbers a socket or mailbox sender; beyond NetworkLimits::sockets_max is a misuse.
+  std::uint64_t add_socket(Channel& socket);
+  void remove_socket(std::uint64_t number) { sockets_.erase(number); }
+  /// Null if it was removed.
+  Channel* socket(std::uint64_t number) const;
+  std::size_t sockets() const { return sockets_.size(); }
   bool has_room() const;
+  Parcels& parcels();
 
  private:
   Network& network_;
   kernel::Robot& robot_;
   std::map<std::pair<Protocol, std::string>, Channel*> ports_;
-  std::map<std::string, Link> links_;
-  std::size_t sockets_ = 0;
+  std::map<std::string, Link, std::less<>> links_;
+  std::map<std::uint64_t, Channel*> sockets_;
+  std::uint64_t last_socket_ = 0;
 };
 
 class Network {
@@ -95,7 +108,16 @@ class Network {
   /// The distance of two robots; zero if not set.
   void set_distance(Distance metres) { distance_ = std::move(metres); }
 
-  /// Counts of all messages that a robot has sent to another.
+  /// The tasks of these robots run in other processes: packets to them go to `forward`. Must precede all messages.
+  void set_elsewhere(std::set<std::string, std::less<>> robots, Forward forward);
+  /// A packet that the process with the sender's tasks has forwarded, with the arguments of its Forward: it arrives as
+  /// if the sender were here.
+  void arrive_at(Time time, const std::string& sender, std::uint64_t count, const std::string& to, Packet packet);
+  /// The objects that parcels refer to.
+  Parcels& parcels() { return parcels_; }
+
+  /// Counts of all messages that a robot has sent to another. Of several processes, those that happened in this one:
+  /// datagrams to an unbound name are counted at their arrival, the others when they are sent.
   LinkStatistics statistics(const std::string& from, const std::string& to);
 
   /// For sockets: the node of the running task's robot.
@@ -111,6 +133,9 @@ class Network {
   kernel::Scheduler& scheduler_;
   NetworkLimits limits_;
   Distance distance_;
+  std::set<std::string, std::less<>> elsewhere_;
+  Forward forward_;
+  Parcels parcels_;
   bool has_traffic_ = false;  // messages were sent between robots
   std::optional<Medium> between_all_;
   std::map<std::pair<std::string, std::string>, Medium> between_;  // robots' names in order

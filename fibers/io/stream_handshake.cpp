@@ -5,38 +5,39 @@
 
 namespace waitpoint::io {
 
-Status Stream::connect(Node& target, const std::string& port, const Deadline& deadline) {
+Status Stream::connect(const std::string& port, const Deadline& deadline) {
   if (!begin(kernel::Operation::connect, sending_)) return Status::closed;
-  link_.send_in_order(0, [&target, port, client = weak_from_this(), own = node_->name(), credit = received_.capacity(),
-                          &question = link_] {
-    auto* const listener = static_cast<Listener*>(target.find(Protocol::stream, port));
-    Link& back = *target.link_to(own);
-    const std::shared_ptr<Stream> server = listener != nullptr ? listener->accept_request(back) : nullptr;
-    if (server != nullptr) {
-      server->answer(client, credit, question);
-    } else {
-      back.send_in_order(0, [client] {
-        if (const auto there = client.lock()) there->refuse();
-      });
-    }
-  });
+  link_.send_in_order(
+      0,
+      {.kind = PacketKind::connect, .from = {.socket = number_}, .to = {.port = port}, .number = received_.capacity()});
   const Status status = wait(sending_, deadline, [&] { return state_ != State::asking || closed_; });
   if (status != Status::ok) return status;
   return closed_ ? Status::closed : state_ == State::refused ? Status::refused : Status::ok;
 }
 
-void Stream::answer(const std::weak_ptr<Stream>& client, std::size_t credit, Link& question) {
-  established(client, credit);
-  link_.send_in_order(0, [client, server = weak_from_this(), own_room = received_.capacity(), &question] {
-    if (const std::shared_ptr<Stream> there = client.lock()) {
-      there->established(server, own_room);
-      return;
-    }
-    // The client has given up meanwhile; the server must be told.
-    question.send_in_order(0, [server] {
-      if (const std::shared_ptr<Stream> left = server.lock()) left->peer_gone();
-    });
-  });
+void Listener::take_request(Node& node, Link& link, Packet& packet) {
+  auto* const listener = static_cast<Listener*>(node.find(Protocol::stream, packet.to.port));
+  Link& back = *node.link_to(link.from());
+  Stream* const server = listener != nullptr ? listener->accept_request(back) : nullptr;
+  if (server != nullptr)
+    server->answer(packet.from.socket, packet.number);
+  else
+    back.send_in_order(0, {.kind = PacketKind::refused, .to = packet.from});
+}
+
+void Stream::answer(std::uint64_t client, std::size_t credit) {
+  establish(client, credit);
+  link_.send_in_order(0, {.kind = PacketKind::connected,
+                          .from = {.socket = number_},
+                          .to = {.socket = client},
+                          .number = received_.capacity()});
+}
+
+void Stream::take_answer(Node& node, Link& link, Packet& packet) {
+  if (auto* const client = static_cast<Stream*>(node.socket(packet.to.socket)); client != nullptr)
+    return client->establish(packet.from.socket, packet.number);
+  // The client has given up meanwhile; the server must be told.
+  node.link_to(link.from())->send_in_order(0, {.kind = PacketKind::peer_gone, .to = packet.from});
 }
 
 }  // namespace waitpoint::io

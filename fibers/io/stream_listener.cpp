@@ -6,10 +6,10 @@ namespace waitpoint::io {
 Listener::Listener(Network& network, const ListenOptions& options)
     : Channel("stream listener", ""), node_(network.own_node()), options_(options) {
   WAITPOINT_REQUIRE(options.backlog > 0, "the backlog of a listener must be at least 1");
-  node_->take_socket();
+  number_ = node_->add_socket(*this);
 }
 
-Listener::~Listener() { node_->release_socket(); }
+Listener::~Listener() { node_->remove_socket(number_); }
 
 Status Listener::listen(const std::string& port) {
   if (!begin(kernel::Operation::open, receiving_)) return Status::closed;
@@ -20,11 +20,11 @@ Status Listener::listen(const std::string& port) {
   return Status::ok;
 }
 
-std::shared_ptr<Stream> Listener::accept_request(Link& back) {
+Stream* Listener::accept_request(Link& back) {
   if (backlog_.size() == options_.backlog || !node_->has_room()) return nullptr;
   backlog_.push_back(std::make_shared<Stream>(node_, back, options_.stream, node_->name() + ":" + port_));
   wake_one_for_arrival(receiving_);
-  return backlog_.back();
+  return backlog_.back().get();
 }
 
 Result<std::shared_ptr<Stream>> Listener::accept(const Deadline& deadline) {

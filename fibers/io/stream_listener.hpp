@@ -24,13 +24,17 @@ class Listener : public Channel {
   Status listen(const std::string& port);
   Result<std::shared_ptr<Stream>> accept(const Deadline& deadline);
   void close();
-  /// The server's end for a connection requested over the link with the reverse link `back`; null if it is refused.
-  std::shared_ptr<Stream> accept_request(Link& back);
   Events ready() const override;
+  /// The handler of requests for connections.
+  static void take_request(Node& node, Link& link, Packet& packet);
 
  private:
+  // The server's end for a connection requested over the link with the reverse link `back`; null if it is refused.
+  Stream* accept_request(Link& back);
+
   std::shared_ptr<Node> node_;
   ListenOptions options_;
+  std::uint64_t number_;
   std::string port_;
   std::deque<std::shared_ptr<Stream>> backlog_;
   bool closed_ = false;

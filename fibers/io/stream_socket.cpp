@@ -7,31 +7,29 @@ Stream::Stream(std::shared_ptr<Node> node, Link& link, const StreamOptions& opti
     : Channel("stream socket", label), node_(std::move(node)), link_(link), received_(options.buffer_bytes) {
   WAITPOINT_REQUIRE(options.buffer_bytes > 0 && options.buffer_bytes <= buffer_max,
                     "a stream's buffer holds at least one byte and at most 64 MiB");
-  node_->take_socket();
+  number_ = node_->add_socket(*this);
 }
 
-Stream::~Stream() { node_->release_socket(); }
+Stream::~Stream() { node_->remove_socket(number_); }
 
-// Sends a message that acts on the peer, if it still exists at the arrival.
-template <class Message>
-void Stream::tell_peer(std::size_t bytes, Message message) {
-  link_.send_in_order(bytes, [peer = peer_, message = std::move(message)] {
-    if (const std::shared_ptr<Stream> there = peer.lock()) message(*there);
-  });
+// The packet acts on the peer, if it still exists at the arrival.
+void Stream::tell_peer(PacketKind kind, std::uint64_t number, std::span<const std::byte> bytes) {
+  link_.send_in_order(bytes.size(),
+                      {.kind = kind, .to = {.socket = peer_}, .number = number, .bytes = {bytes.begin(), bytes.end()}});
 }
 
 // --- connecting: see also stream_handshake.cpp ---
 
-void Stream::established(const std::weak_ptr<Stream>& peer, std::size_t credit) {
+void Stream::establish(std::uint64_t peer, std::size_t credit) {
   peer_ = peer;
   state_ = State::open;
   credit_ = credit;
   // The caller of connect() may have given up in the meantime.
-  if (closed_) tell_peer(0, [](Stream& there) { there.peer_gone(); });
+  if (closed_) tell_peer(PacketKind::peer_gone);
   wake_all(sending_);
 }
 
-void Stream::refuse() {
+void Stream::take_refusal(Packet&) {
   state_ = State::refused;
   wake_all(sending_);
 }
@@ -46,23 +44,23 @@ Result<std::size_t> Stream::read(std::span<std::byte> buffer, const Deadline& de
   if (closed_) return Status::closed;
   const std::size_t count = received_.pop(buffer);
   if (count == 0) return Status::end_of_file;
-  tell_peer(0, [room = count + std::exchange(extra_charge_, 0)](Stream& there) { there.room_again(room); });
+  tell_peer(PacketKind::room, count + std::exchange(extra_charge_, 0));
   return count;
 }
 
-void Stream::arrive(std::span<const std::byte> data, std::size_t charge) {
+void Stream::take_data(Packet& packet) {
   if (closed_) return;
-  received_.push(data);
-  extra_charge_ += charge - data.size();
+  received_.push(packet.bytes);
+  extra_charge_ += packet.number - packet.bytes.size();
   wake_all(receiving_);
 }
 
-void Stream::peer_finished() {
+void Stream::take_end_of_data(Packet&) {
   peer_finished_ = true;
   wake_all(receiving_);
 }
 
-void Stream::peer_gone() {
+void Stream::take_end_of_peer(Packet&) {
   peer_finished_ = peer_gone_ = true;
   wake_all(receiving_);
   wake_all(sending_);
@@ -86,16 +84,14 @@ Result<std::size_t> Stream::write(std::span<const std::byte> data, const Deadlin
     credit_ -= charge;
     written += count;
     sent.add(std::string_view(reinterpret_cast<const char*>(part.data()), part.size()));
-    tell_peer(count, [bytes = std::vector<std::byte>(part.begin(), part.end()), charge](Stream& there) {
-      there.arrive(bytes, charge);
-    });
+    tell_peer(PacketKind::data, charge, part);
   }
   if (written > 0) record_sent(link_.to(), sent.value());
   return {status, written};
 }
 
-void Stream::room_again(std::size_t bytes) {
-  credit_ += bytes;
+void Stream::take_room(Packet& packet) {
+  credit_ += packet.number;
   wake_all(sending_);
 }
 
@@ -105,7 +101,7 @@ void Stream::shutdown_write() {
   if (!begin_release(kernel::Operation::close, sending_)) return;
   WAITPOINT_REQUIRE(!finished_, "a stream socket's writing is shut down twice");
   finished_ = true;
-  tell_peer(0, [](Stream& there) { there.peer_finished(); });
+  tell_peer(PacketKind::end_of_data);
 }
 
 void Stream::close() {
@@ -114,7 +110,7 @@ void Stream::close() {
   if (!tell) return;
   wake_all(receiving_);
   wake_all(sending_);
-  if (state_ == State::open) tell_peer(0, [](Stream& there) { there.peer_gone(); });
+  if (state_ == State::open) tell_peer(PacketKind::peer_gone);
 }
 
 Events Stream::ready() const {
@@ -148,7 +144,7 @@ Result<stream_socket> connect(Network& network, const Address& address, const De
   if (link == nullptr) return Status::no_route;
   const auto stream = std::make_shared<Stream>(node, *link, options, "to " + to_string(address));
   stream_socket socket(stream);  // closes the stream on every return
-  const Status status = stream->connect(*network.node(link->to()), address.port, deadline);
+  const Status status = stream->connect(address.port, deadline);
   if (status != Status::ok) return status;
   return Result<stream_socket>(std::move(socket));
 }

@@ -35,15 +35,15 @@ struct StreamOptions {
 };
 
 /// One end of a connection.
-class Stream : public Channel, public std::enable_shared_from_this<Stream> {
+class Stream : public Channel {
  public:
   Stream(std::shared_ptr<Node> node, Link& link, const StreamOptions& options, const std::string& label);
   ~Stream() override;
 
   /// The client's side of the handshake: requests the connection and waits for the answer.
-  Status connect(Node& target, const std::string& port, const Deadline& deadline);
-  /// The server's side: the connection that `client` requested over `question`.
-  void answer(const std::weak_ptr<Stream>& client, std::size_t credit, Link& question);
+  Status connect(const std::string& port, const Deadline& deadline);
+  /// The server's side: the connection that `client`, with `credit` bytes of room, requested.
+  void answer(std::uint64_t client, std::size_t credit);
 
   Result<std::size_t> read(std::span<std::byte> buffer, const Deadline& deadline);
   Result<std::size_t> write(std::span<const std::byte> data, const Deadline& deadline);
@@ -52,22 +52,24 @@ class Stream : public Channel, public std::enable_shared_from_this<Stream> {
   const std::string& peer_robot() const { return link_.to(); }
   Events ready() const override;
 
+  // Handlers of packets; this end may be closed already.
+  static void take_answer(Node& node, Link& link, Packet& packet);
+  void take_refusal(Packet& packet);
+  void take_data(Packet& packet);
+  void take_room(Packet& packet);
+  void take_end_of_data(Packet& packet);
+  void take_end_of_peer(Packet& packet);
+
  private:
   enum class State : std::uint8_t { asking, open, refused };
 
-  // Effects of the peer's messages; this end may be closed already.
-  void established(const std::weak_ptr<Stream>& peer, std::size_t credit);
-  void refuse();
-  void arrive(std::span<const std::byte> data, std::size_t charge);
-  void room_again(std::size_t bytes);
-  void peer_finished();
-  void peer_gone();
-  template <class Message>
-  void tell_peer(std::size_t bytes, Message message);
+  void establish(std::uint64_t peer, std::size_t credit);
+  void tell_peer(PacketKind kind, std::uint64_t number = 0, std::span<const std::byte> bytes = {});
 
   std::shared_ptr<Node> node_;
-  Link& link_;  // to the peer's robot
-  std::weak_ptr<Stream> peer_;
+  Link& link_;              // to the peer's robot
+  std::uint64_t number_;    // of this end on its robot
+  std::uint64_t peer_ = 0;  // of the other end on its own
   State state_ = State::asking;
   ByteQueue received_;
   std::size_t extra_charge_ = 0;  // room charged for short messages beyond their bytes

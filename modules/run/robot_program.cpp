@@ -21,13 +21,18 @@ void deliver_signals(kernel::Task& task) {
   guests()->is_guest(task) ? guests()->deliver_signals(task) : sync::deliver_signals(task);
 }
 
-template <void (io::Link::*send)(std::size_t bytes, io::Link::Arrival arrival)>
+template <bool in_order>
 bool carry(void* network, const kernel::Robot& from, const kernel::Robot& to, std::size_t bytes, void (*arrive)(void*),
            void (*drop)(void*), void* message) {
   const std::shared_ptr<io::Node> node = static_cast<io::Network*>(network)->node(from.name);
   io::Link* const link = node != nullptr ? node->link_to(to.name) : nullptr;
   if (link == nullptr) return false;
-  (link->*send)(bytes, [arrive, kept = std::shared_ptr<void>(message, drop)] { arrive(kept.get()); });
+  io::Parcels& parcels = node->parcels();
+  const io::Packet packet{.kind = io::PacketKind::parcel, .number = parcels.keep(message, arrive, drop)};
+  if constexpr (in_order)
+    link->send_in_order(bytes, packet);
+  else if (!link->send_datagram(bytes, packet))
+    parcels.drop(packet.number);
   return true;
 }
 
@@ -50,7 +55,7 @@ bool has_commands(const scenario::Scenario& scenario) { return has_programs(scen
 bool can_load_programs() { return guests() != nullptr; }
 
 void RobotPrograms::set_network(io::Network& network) {
-  carrier_ = {&network, carry<&io::Link::send_datagram>, carry<&io::Link::send_in_order>};
+  carrier_ = {&network, carry<false>, carry<true>};
   if (can_load_programs()) guests()->set_carrier(&carrier_);
 }
 
