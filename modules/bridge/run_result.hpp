@@ -118,6 +118,13 @@ struct Lag {
   double mean_s = 0, max_s = 0;
 };
 
+/// Wall-clock figures of one of several processes of a run.
+struct RankFigures {
+  double computing_s = 0;  ///< processor time of windows
+  double world_s = 0;      ///< of these, of the world's steps, which every rank makes
+  double exchange_s = 0;   ///< in exchanges, and waiting there for others
+};
+
 struct RunResult {
   std::string scenario;  ///< its name
   std::uint64_t seed = 0;
@@ -130,7 +137,8 @@ struct RunResult {
   std::uint64_t events = 0;
   Duration simulated;
   double wall_s = 0, real_time_factor = 0;
-  std::optional<Lag> lag;  ///< of a paced run
+  std::optional<Lag> lag;          ///< of a paced run
+  std::vector<RankFigures> ranks;  ///< of a run of several processes
 };
 
 /// Figures over all robots that have them: sums of counts and distances, maxima of maxima, means of means.

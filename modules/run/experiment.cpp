@@ -10,6 +10,7 @@
 #include "fibers/sync/thread.hpp"
 #include "fibers/sync/threads.hpp"
 #include "modules/run/heap_pages.hpp"
+#include "modules/run/ranks/processor_time.hpp"
 
 namespace waitpoint::run {
 namespace {
@@ -107,7 +108,7 @@ void Experiment::make(const scenario::Scenario& scenario, std::span<const genom:
 
 void Experiment::join_ranks() {
   ranked_ = std::make_unique<RankedRun>(*options_.ranks, RankedParts{simulation_, assembly_->world(), robots(), lanes_,
-                                                                     *operator_, assembly_->scenario().step});
+                                                                     *operator_, *network_, assembly_->scenario().step});
   ranked_->add_intervention = [this](const Intervention& intervention, std::optional<Time> date) {
     return operator_->add(intervention, date);
   };
@@ -175,11 +176,18 @@ void Experiment::spawn(bridge::Robot& robot) {
                      sync::make_call([&robot] { robot.run(); }), {computing.clock, computing.on, computing.priority});
 }
 
+void Experiment::step_world() {
+  if (ranked_ == nullptr) return assembly_->world().step();
+  const double begin_s = processor_s();
+  assembly_->world().step();
+  ranked_->add_world_time(processor_s() - begin_s);
+}
+
 void Experiment::run_world() {
   for (std::int64_t k = 1;; ++k) {
     this_thread::sleep_until(Time() + assembly_->scenario().step * k);
     operator_->act(now());
-    assembly_->world().step();
+    step_world();
     for (const world::LooseState& loose : world().loose()) threads::record(loose_state, loose);
     constexpr std::size_t ahead = 6;  // a crowd does not fit into the cache
     for (std::size_t i = 0; i < lanes_.size(); ++i) {

@@ -98,6 +98,7 @@ class Experiment {
   std::string idle_here(Duration least);
   void complete(bridge::RobotResult& result, std::size_t robot) const;
   void run_world();
+  void step_world();
   RunEnd run_to_end_of_step(Time until);
 
   ExperimentOptions options_;

@@ -41,7 +41,8 @@ def folder():
 
 def repeatable(text):
     """Without the wall clock's figures."""
-    return re.sub(r"(?m)^.*(times real time|\"wall_s\"|\"real_time_factor\").*\n", "", text)
+    text = re.sub(r'(?s)  "ranks": \[.*?\n  \],\n', "", text)
+    return re.sub(r'(?m)^(  speed|  ranks|  "wall_s"|  "real_time_factor") .*\n', "", text)
 
 
 def run(ranks, scenario, *options, launcher=(), program=WAITPOINT, input=""):

@@ -175,6 +175,9 @@ Json json_of(const RunResult& result) {
   json["simulated_s"] = result.simulated.seconds();
   json["wall_s"] = result.wall_s;
   json["real_time_factor"] = result.real_time_factor;
+  for (const bridge::RankFigures& rank : result.ranks)
+    json["ranks"].push_back(
+        {{"computing_s", rank.computing_s}, {"world_s", rank.world_s}, {"exchange_s", rank.exchange_s}});
   if (result.lag) {
     json["lag_mean_s"] = result.lag->mean_s;
     json["lag_max_s"] = result.lag->max_s;
@@ -216,6 +219,11 @@ std::string summary_text(const RunResult& result) {
   text += fmt::format("  events            {}\n", result.events);
   text +=
       fmt::format("  speed             {:.1f} times real time ({:.2f} s)\n", result.real_time_factor, result.wall_s);
+  if (!result.ranks.empty()) {
+    const auto slowest = std::ranges::max_element(result.ranks, {}, &bridge::RankFigures::computing_s);
+    text += fmt::format("  ranks             {}, the slowest computes for {:.2f} s, {:.2f} s of it the world\n",
+                        result.ranks.size(), slowest->computing_s, slowest->world_s);
+  }
   if (result.lag)
     text += fmt::format("  lag               mean {:.1f} ms, greatest {:.1f} ms behind the wall clock\n",
                         result.lag->mean_s * 1e3, result.lag->max_s * 1e3);

@@ -2,11 +2,16 @@
 #include "modules/run/ranks/ranked_run.hpp"
 
 #include <algorithm>
+#include <chrono>
+#include <functional>
+#include <set>
+#include <span>
 #include <stdexcept>
 #include <string_view>
 #include <utility>
 
 #include "core/fields.hpp"
+#include "modules/run/ranks/processor_time.hpp"
 
 namespace waitpoint::run {
 namespace {
@@ -16,6 +21,8 @@ std::uint64_t hash_of(const world::BodyState& body) {
   add_value(digest, body);
   return digest.value();
 }
+
+double wall_s() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
 RunEnd end_of(Failure::Kind kind) { return kind == Failure::Kind::deadlock ? RunEnd::deadlock : RunEnd::no_progress; }
 
@@ -42,6 +49,7 @@ RankedRun::RankedRun(Ranks& ranks, const RankedParts& parts)
   ranks.set_place([this] {
     return "in window " + std::to_string(windows_ + 1) + ", from " + to_string(reached_) + " s of virtual time on";
   });
+  send_elsewhere();
   for (std::size_t i = 0; i < parts.robots.size(); ++i) {
     told_[i].robot = static_cast<std::uint32_t>(i);
     if (is_here(i)) parts.robots[i]->bridge().set_command_log(commands_);
@@ -54,6 +62,18 @@ RankedRun::~RankedRun() {
     tell({.kind = Call::Kind::end});
   } catch (const std::exception&) {  // a rank is lost, which has been reported
   }
+}
+
+void RankedRun::send_elsewhere() {
+  std::set<std::string, std::less<>> elsewhere;
+  for (std::size_t i = 0; i < parts_.robots.size(); ++i)
+    if (!is_here(i)) elsewhere.insert(parts_.robots[i]->name());
+  parts_.network.set_elsewhere(std::move(elsewhere), [this](const kernel::Robot& sender, std::uint64_t count,
+                                                            Time arrives, const std::string& to, io::Packet packet) {
+    const std::vector<std::byte> bytes = io::to_bytes(packet);
+    messages_.push_back(
+        {sender.name, to, count, arrives, std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size())});
+  });
 }
 
 // --- the leader's calls, and their execution elsewhere ---
@@ -117,18 +137,21 @@ void RankedRun::complete(bridge::RunResult& result) {
   if (is_over_) return;
   if (ranks_.leads()) tell({.kind = Call::Kind::complete});
   Results own;
+  own.figures = figures_;
   for (std::size_t i = 0; i < parts_.robots.size(); ++i) {
     if (!is_here(i) || ranks_.leads()) continue;
     own.robots.push_back(static_cast<std::uint32_t>(i));
     own.results.push_back(result_of(i));
   }
-  for (const Results& of_rank : ranks_.gather(own))
+  for (const Results& of_rank : ranks_.gather(own)) {
+    result.ranks.push_back(of_rank.figures);
     for (std::size_t i = 0; i < of_rank.robots.size() && ranks_.leads(); ++i) {
       bridge::RobotResult& robot = result.robots[of_rank.robots[i]];
       world::Shape shape = std::move(robot.shape);
       robot = of_rank.results[i];
       robot.shape = std::move(shape);
     }
+  }
 }
 
 void RankedRun::follow() {
@@ -177,8 +200,13 @@ RunEnd RankedRun::carry_on(Time until) {
   is_over_ = true;  // if it fails, all ranks leave
   while (end == RunEnd::time_reached && reached_ < until) {
     const Time next = std::min(until, end_of_window());
+    const double begin_s = processor_s();
     const Window own = run_window(next);
-    end = take_over(ranks_.gather(own), next);
+    figures_.computing_s += processor_s() - begin_s;
+    const double wait_s = wall_s();
+    const std::vector<Window> all = ranks_.gather(own);
+    figures_.exchange_s += wall_s() - wait_s;
+    end = take_over(all, next);
   }
   ship();
   is_over_ = false;
@@ -187,6 +215,7 @@ RunEnd RankedRun::carry_on(Time until) {
 
 Window RankedRun::run_window(Time end) {
   commands_.clear();
+  messages_.clear();
   Window window;
   window.failure = failure_in(end);
   window.live_tasks = parts_.simulation.scheduler().roster().live_tasks();
@@ -196,6 +225,7 @@ Window RankedRun::run_window(Time end) {
   for (std::size_t i = 0; i < parts_.robots.size(); ++i) bodies.add(hash_of(parts_.world.body(world::BodyId(i))));
   window.bodies = bodies.value();
   window.commands = commands_;
+  window.messages = messages_;
   for (std::size_t i = 0; i < parts_.robots.size(); ++i) {
     if (!is_here(i)) continue;
     const GoalCounts now{told_[i].robot, parts_.robots[i]->goals(), parts_.robots[i]->goals_reached()};
@@ -255,6 +285,10 @@ RunEnd RankedRun::take_over(const std::vector<Window>& windows, Time end) {
     if (rank == static_cast<std::size_t>(ranks_.rank())) continue;
     for (const bridge::BodyCommand& command : window.commands) parts_.world.command(command.body, command.velocity);
     for (const GoalCounts& goals : window.goals) parts_.robots[goals.robot]->set_goals(goals.goals, goals.reached);
+    for (const Message& message : window.messages)
+      if (is_here(bridge::index_of(message.to, parts_.robots, {})))
+        parts_.network.arrive_at(message.arrives, message.sender, message.count, message.to,
+                                 io::packet_of(std::as_bytes(std::span(message.packet))));
     for (const StepNumber& step : window.steps) remote_steps_[step.robot].adopt(*parts_.lanes[step.robot], step.number);
     if (ranks_.leads())
       for (const InterventionOutcome& reply : window.replies) parts_.the_operator.add_reply(reply);

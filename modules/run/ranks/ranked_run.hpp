@@ -22,6 +22,7 @@
 #include <vector>
 
 #include "core/time.hpp"
+#include "fibers/io/network.hpp"
 #include "fibers/sync/simulation.hpp"
 #include "modules/bridge/robot.hpp"
 #include "modules/bridge/run_result.hpp"
@@ -41,6 +42,7 @@ struct RankedParts {
   const std::vector<std::unique_ptr<bridge::Robot>>& robots;
   const std::vector<kernel::Robot*>& lanes;  // by robot
   Operator& the_operator;
+  io::Network& network;
   Duration step;
 };
 
@@ -55,6 +57,8 @@ class RankedRun {
 
   /// On the world's task: releases the bridge of a robot elsewhere.
   void step(std::size_t robot) { remote_steps_[robot].release(); }
+  /// The processor time that the world's step took.
+  void add_world_time(double seconds) { figures_.world_s += seconds; }
 
   // The leader's calls.
 
@@ -91,6 +95,7 @@ class RankedRun {
   void tell(const Call& call);
   void obey(const Call& call);
   RunEnd carry_on(Time until);
+  void send_elsewhere();
   Time end_of_window() const;
   Window run_window(Time end);
   Failure failure_in(Time end);
@@ -103,6 +108,7 @@ class RankedRun {
   Ranks& ranks_;
   RankedParts parts_;
   std::vector<bridge::BodyCommand> commands_;  // of robots here, in this window
+  std::vector<Message> messages_;              // to robots elsewhere, in this window
   std::vector<RemoteStep> remote_steps_;       // by robot; unused for those here
   std::vector<GoalCounts> told_;               // by robot
   std::size_t seen_outcomes_ = 0;
@@ -112,6 +118,7 @@ class RankedRun {
   std::optional<Time> last_end_here_, last_end_;  // of a task but services, on this rank; of the last one of all
   std::uint64_t after_ends_elsewhere_ = 0;
   std::string trouble_;
+  bridge::RankFigures figures_;
   bool is_over_ = false;  // the others do not wait for a call
 };
 

@@ -27,8 +27,9 @@ struct Records {
   std::uint64_t pairs_after_ends = 0;  ///< Roster::pairs_after_ends()
 };
 
-/// The results of a rank's robots.
+/// The results of a rank's robots, and its own figures.
 struct Results {
+  bridge::RankFigures figures;
   std::vector<std::uint32_t> robots;
   std::vector<bridge::RobotResult> results;  ///< of these
 };
@@ -58,6 +59,9 @@ void carry(auto& archive, bridge::RobotResult& result) {
           result.odometry_error_end_m, result.true_path, result.estimated_path, result.odometry_path,
           result.late_tasks, result.battery, result.programs, result.segments);
 }
-void carry(auto& archive, Results& results) { archive(results.robots, results.results); }
+void carry(auto& archive, bridge::RankFigures& figures) {
+  archive(figures.computing_s, figures.world_s, figures.exchange_s);
+}
+void carry(auto& archive, Results& results) { archive(results.figures, results.robots, results.results); }
 
 }  // namespace waitpoint::run

@@ -28,6 +28,14 @@ struct GoalCounts {
   friend bool operator==(const GoalCounts&, const GoalCounts&) = default;
 };
 
+/// A packet between robots on different ranks: the arguments of io::Forward.
+struct Message {
+  std::string sender, to;
+  std::uint64_t count = 0;
+  Time arrives;
+  std::string packet;  ///< io::to_bytes
+};
+
 /// The number that a robot's semaphore "world step" has among its objects.
 struct StepNumber {
   std::uint32_t robot = 0, number = 0;
@@ -41,6 +49,7 @@ struct Window {
   std::vector<bridge::BodyCommand> commands;  ///< given in this window
   std::vector<GoalCounts> goals;              ///< those that changed
   std::vector<InterventionOutcome> replies;   ///< to requests
+  std::vector<Message> messages;              ///< sent in this window
   std::vector<StepNumber> steps;              ///< in the first window
 };
 
@@ -50,11 +59,14 @@ void carry(auto& archive, bridge::BodyCommand& command) {
 }
 void carry(auto& archive, Failure& failure) { archive(failure.kind, failure.text); }
 void carry(auto& archive, GoalCounts& counts) { archive(counts.robot, counts.goals, counts.reached); }
+void carry(auto& archive, Message& message) {
+  archive(message.sender, message.to, message.count, message.arrives, message.packet);
+}
 void carry(auto& archive, StepNumber& step) { archive(step.robot, step.number); }
 void carry(auto& archive, InterventionOutcome& outcome) { archive(outcome.date, outcome.text); }
 void carry(auto& archive, Window& window) {
   archive(window.failure, window.live_tasks, window.last_end, window.environment, window.bodies, window.commands,
-          window.goals, window.replies, window.steps);
+          window.goals, window.replies, window.messages, window.steps);
 }
 
 }  // namespace waitpoint::run
