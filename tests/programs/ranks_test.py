@@ -41,8 +41,8 @@ def folder():
 
 def repeatable(text):
     """Without the wall clock's figures."""
-    text = re.sub(r'(?s)  "ranks": \[.*?\n  \],\n', "", text)
-    return re.sub(r'(?m)^(  speed|  ranks|  "wall_s"|  "real_time_factor") .*\n', "", text)
+    text = re.sub(r'(?s) +"ranks": \[.*?\],\n', "", text)
+    return re.sub(r'(?m)^ *(speed |ranks |"wall_s":|"real_time_factor":).*\n', "", text)
 
 
 def run(ranks, scenario, *options, launcher=(), program=WAITPOINT, input=""):
@@ -136,7 +136,9 @@ class EqualRuns(unittest.TestCase):
         for ranks in (None, 2):
             replayed = run(ranks, office, "--replay-journal", journal)
             self.assertEqual(digest(replayed), digest(several), replayed.errors)
-            self.assertEqual(replayed.files["j.txt"], several.files["j.txt"])
+            # One process says when the last event was, several where the window ends.
+            ends = [re.sub(r"(?m)^end [0-9.]+", "end", each.files["j.txt"]) for each in (replayed, several)]
+            self.assertEqual(*ends)
 
     def test_events_of_each_robot_are_in_order(self):
         def events(ranks):
@@ -157,7 +159,9 @@ class Media(Installed):
         program = self.compile("two_robots", *flags(self.prefix, "--cflags", "--libs", "waitpoint-robots"))
         scenario = HERE / "two_robots/two_robots.yaml"
         alone, several = (run(ranks, scenario, program=program) for ranks in (None, 2))
-        self.assertEqual(several.output, alone.output, several.errors)
+        # The lines of each robot are printed where its tasks are.
+        self.assertEqual(sorted(several.output.splitlines()), sorted(alone.output.splitlines()), several.errors)
+        self.assertEqual(several.files, alone.files)
 
 
 class Refusals(unittest.TestCase):
@@ -174,7 +178,7 @@ class Refusals(unittest.TestCase):
         self.assert_refused("expected ROBOT=RANK with a rank from 0 to 1, found 'ada=2'", "--place", "ada=2")
         self.assert_refused("no programs that are shared objects", scenario="office-programs.yaml")
         self.assert_refused("cannot be read: No such file", scenario="nowhere.yaml")
-        self.assert_refused("there is no", "--set", "robots.9.modules.ndd.type=none")
+        self.assert_refused("unknown module type 'none'", "--set", "robots.9.modules=[{name: x, type: none}]")
 
     def test_ranks_of_different_runs_do_not_start(self):
         command = f'exec {WAITPOINT} run {ROOT}/scenarios/office-10.yaml --seed 1$OMPI_COMM_WORLD_RANK'
@@ -217,7 +221,7 @@ class Faults(Installed):
         self.output, errors = self.process.communicate(timeout=60)
         return errors
 
-    REPLAY = r"in window \d+, from \d+\.\d+ s of virtual time on\n  replay: waitpoint run .*office-10.yaml --seed 4\n"
+    REPLAY = r"in window \d+, from \d+\.\d+ s of virtual time on\n  replay: waitpoint run .*office-10.yaml --seed 4( .*)?\n"
 
     def test_a_killed_rank_ends_the_run(self):
         picture = folder() / "killed.svg"
@@ -256,7 +260,7 @@ class Faults(Installed):
             options = ["--set", f"robots.{robot}.modules.mortal.end=exception"]
             alone, several = (run(ranks, scenario, *options, program=program) for ranks in (None, 2))
             self.assertRegex(alone.errors, r"the run failed: an exception escaped")
-            self.assertEqual(several.errors.replace(" --ranks 2", ""), alone.errors)
+            self.assertEqual(re.sub(r"tmp\w+", "", several.errors), re.sub(r"tmp\w+", "", alone.errors))
             self.assertEqual(several.status, 1)
 
 
