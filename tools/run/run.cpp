@@ -16,7 +16,7 @@
 #include "modules/run/expectation.hpp"
 #include "modules/run/experiment.hpp"
 #include "modules/run/journal.hpp"
-#include "modules/run/robot_program.hpp"
+#include "modules/run/ranks/dividable.hpp"
 #include "modules/scenario/scenario_reader.hpp"
 #include "tools/command/interruption.hpp"
 #include "tools/command/program_layer.hpp"
@@ -221,9 +221,7 @@ int run_once(const RunOptions& options, const scenario::Scenario& scenario, run:
 // May begin this process anew, with a library for the scenario's programs.
 scenario::Scenario scenario_of(const RunOptions& options) {
   scenario::Scenario scenario = scenario::read_scenario(options.scenario, options.assignments);
-  // Their library takes the place of the system's threads in the whole process, of those of MPI, too.
-  if (is_rank() && run::has_shared_objects(scenario))
-    throw BadInput("--ranks", "expected no programs that are shared objects: programs with a `command` are possible");
+  if (is_rank()) run::check_dividable(scenario);
   begin_with_program_layer(scenario);
   return scenario;
 }

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a scenario must not have for a run of several ranks.
+#pragma once
+
+#include "modules/scenario/scenario.hpp"
+
+namespace waitpoint::run {
+
+/// BadInput for clocks that are measured, with which no run is equal to another, and for programs that are shared
+/// objects, whose library takes the place of the system's threads in the whole process, of those of MPI, too.
+void check_dividable(const scenario::Scenario& scenario);
+
+}  // namespace waitpoint::run
