@@ -138,11 +138,11 @@ void ProgramTarget::open_streams() {
 }
 
 Finding ProgramTarget::run_once(const Plan& plan, const Request& request) {
+  const posix::Settings settings = settings_of(options_);
   if (!server_) {
     std::signal(SIGTERM, note_stop);
-    server_.emplace(files_, settings_of(options_));
+    server_.emplace(files_, settings);
   }
-  const posix::Settings settings = settings_of(options_);
   Finding finding = run_in_process(settings, plan, request);
   if (!server_->is_followed() || finding.kind <= Finding::Kind::misuse || is_to_stop != 0) return finding;
   // A failure is reported as it happens in a process of its own, whose calls are not trapped.

@@ -2,11 +2,9 @@
 #include "fibers/posix/exec/last_calls.hpp"
 
 #include <new>
-#include <optional>
 #include <string>
 #include <utility>
 
-#include "fibers/kernel/call_stack.hpp"
 #include "fibers/posix/exec/memory.hpp"
 #include "fibers/posix/exec/program_calls.hpp"
 #include "fibers/posix/family/family.hpp"
@@ -17,7 +15,7 @@
 namespace waitpoint::posix {
 namespace {
 
-constexpr std::size_t threads_max = 100, frames_of_crash_max = 64;
+constexpr std::size_t threads_max = 100;
 
 // Null where there is no memory left.
 std::vector<LastCalls>* logged() {
@@ -39,13 +37,8 @@ void log_crash(int signal) {
   static bool is_logging = false;  // a destroyed stack may not be readable
   std::vector<LastCalls>* const all = logged();
   if (all == nullptr || std::exchange(is_logging, true)) return;
-  std::optional<InKernel> within;  // the search for handlers of exceptions takes locks
-  if (is_simulated()) within.emplace();
-  void* frames[frames_of_crash_max];
-  const std::size_t count = kernel::capture_call_stack(frames, frames_of_crash_max);
   const NewInFamily in_family;
-  all->push_back({name_of(*kernel::running) + " is terminated by signal " + std::to_string(signal),
-                  program_calls({frames, count})});
+  all->push_back({name_of(*kernel::running) + " is terminated by signal " + std::to_string(signal), running_calls()});
 }
 
 }  // namespace

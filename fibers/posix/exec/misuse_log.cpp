@@ -3,9 +3,7 @@
 
 #include <algorithm>
 #include <new>
-#include <optional>
 
-#include "fibers/kernel/call_stack.hpp"
 #include "fibers/kernel/scheduler.hpp"
 #include "fibers/posix/exec/memory.hpp"
 #include "fibers/posix/exec/program_calls.hpp"
@@ -16,19 +14,15 @@
 namespace waitpoint::posix {
 namespace {
 
-constexpr std::size_t misuses_max = 100, frames_max = 32;
+constexpr std::size_t misuses_max = 100;
 
 void log(const char* sentence) {
-  std::optional<InKernel> within;  // the search for handlers of exceptions takes locks
-  if (is_simulated()) within.emplace();
-  void* frames[frames_max];
-  const std::size_t count = kernel::capture_call_stack(frames, frames_max);
   const NewInFamily memory;
   void* const known = family::common(family::Part::misuses, 0);
   std::vector<LoggedMisuse>& all = static_cast<MisuseLog*>(known)->misuses;
   const auto is_same = [sentence](const LoggedMisuse& one) { return one.sentence == sentence; };
   if (all.size() == misuses_max || std::ranges::any_of(all, is_same)) return;
-  all.push_back({sentence, kernel::running->local_time, program_calls({frames, count})});
+  all.push_back({sentence, kernel::running->local_time, running_calls()});
 }
 
 }  // namespace

@@ -3,13 +3,21 @@
 
 #include <dlfcn.h>
 
+#include <optional>
 #include <string>
 
 #include "core/error.hpp"
 #include "fibers/explore/report/reordered_events.hpp"
+#include "fibers/kernel/call_stack.hpp"
 #include "fibers/kernel/visit.hpp"
+#include "fibers/posix/program/program.hpp"
 
 namespace waitpoint::posix {
+namespace {
+
+constexpr std::size_t frames_of_running_max = 64;
+
+}  // namespace
 
 sync::CodePlaces program_calls(std::span<void* const> frames) {
   Dl_info layer{};
@@ -21,6 +29,13 @@ sync::CodePlaces program_calls(std::span<void* const> frames) {
     if (sync::CodePlace place = sync::code_place_of(frame); !place.module.empty() && place.module != own)
       calls.push_back(std::move(place));
   return calls;
+}
+
+sync::CodePlaces running_calls() {
+  std::optional<InKernel> within;  // the search for handlers of exceptions takes locks
+  if (is_simulated()) within.emplace();
+  void* frames[frames_of_running_max];
+  return program_calls({frames, kernel::capture_call_stack(frames, frames_of_running_max)});
 }
 
 sync::CodePlaces program_calls(kernel::Task& task) {

@@ -11,6 +11,8 @@ namespace waitpoint::posix {
 
 /// Of these return addresses, innermost first.
 sync::CodePlaces program_calls(std::span<void* const> frames);
+/// Of the running thread, from within a call of the layer or a handler.
+sync::CodePlaces running_calls();
 /// Of a task that does not run, from outside of tasks.
 sync::CodePlaces program_calls(kernel::Task& task);
 
