@@ -33,7 +33,7 @@ Body::Body(std::function<void()> function, ExternalChecks* checks, Time until, s
       until_(until),
       simulation_(explored()),
       reports_(&simulation_.scheduler()),
-      explorer_(simulation_.scheduler(), steps_max),
+      explorer_(simulation_.scheduler(), steps_max, memory),
       memory_(memory) {
   simulation_.scheduler().set_decisions(explorer_);
   tell(sync::Places::left_out);

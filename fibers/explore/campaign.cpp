@@ -12,7 +12,6 @@
 #include "fibers/explore/explain.hpp"
 #include "fibers/explore/play.hpp"
 #include "fibers/explore/races/races.hpp"
-#include "fibers/explore/strategies/factory.hpp"
 #include "fibers/explore/strategies/fifo.hpp"
 
 namespace waitpoint::exploration {
@@ -57,7 +56,7 @@ ExploreReport Campaign::run() {
   if (report_.text.empty() && first_race_) tell(*first_race_);
   report_.races = races_.texts();
   report_.passed = report_.text.empty();
-  report_.distinct = seen_.size();
+  report_.distinct = exhaustion_.distinct();
   report_.seconds = std::chrono::duration<double>(Clock::now() - start).count();
   return report_;
 }
@@ -67,11 +66,11 @@ bool Campaign::begins_well() {
   supervisor_.begin_default();
   const Outcome first = take_profile(body_, profile_);
   usual_digest_ = first.digest;
-  seen_.insert(first.trace);
+  exhaustion_.take_drawn(first.trace, false);
   report_.schedules = 1;
   if (!first.passed()) {
     const Failure failure{body_.explorer().schedule(), first};
-    const Found found{failure, token_of(failure), "the default schedule", true};
+    const Found found{failure, token_of(failure), "the default schedule", true, nullptr};
     if (!goes_on_after(found)) {
       tell(found);
       return false;
@@ -132,65 +131,6 @@ std::string Campaign::difference_to_the_first() {
   return "";
 }
 
-bool Campaign::fails(Strategy& strategy, std::uint64_t number) {
-  strategy.begin(number, Draws(options_.seed, options_.strategy, number), profile_);
-  const Outcome outcome = body_.run(strategy);
-  ++report_.schedules;
-  if (!outcome.was_cut) seen_.insert(outcome.trace);
-  if (outcome.passed()) return false;
-  const Found found{
-      {body_.explorer().schedule(), outcome},
-      {call_, token_digest(outcome.digest), options_.strategy, options_.seed, number, {}, {}, options_.memory},
-      "schedule " + std::to_string(number) + " of strategy " + options_.strategy + ", seed " +
-          std::to_string(options_.seed)};
-  if (goes_on_after(found)) return false;
-  report_.failed_at = number;
-  tell(found);
-  return true;
-}
-
-void Campaign::search() {
-  const std::unique_ptr<Strategy> strategy = make_strategy(options_.strategy);
-  const Clock::time_point start = Clock::now();
-  races::note_unlearned(strategy->is_exhaustive());
-  races::forget_left_out_values();
-  for (std::uint64_t number = 0; number < options_.iterations; ++number) {
-    if (options_.time_limit_s > 0 &&
-        std::chrono::duration<double>(Clock::now() - start).count() >= options_.time_limit_s)
-      break;
-    supervisor_.begin(number);
-    if (fails(*strategy, number)) return;
-    if (!strategy->end()) {
-      set_scope(*strategy);
-      break;
-    }
-  }
-  supervisor_.pause();
-  Fifo usual;
-  if (body_.run(usual).digest != usual_digest_) {
-    report_.text = difference_to_the_first();
-    if (report_.text.empty())
-      report_.text =
-          "the body leaks state from one schedule into the next: the default schedule differs from its first run";
-  }
-}
-
-void Campaign::set_scope(const Strategy& strategy) {
-  const LeftOut& left_out = body_.explorer().left_out();
-  std::string but;
-  const auto add = [&](bool is_left_out, const char* what) {
-    if (is_left_out) but += (but.empty() ? ", except " : " and ") + std::string(what);
-  };
-  add(left_out.turns, "turns of spinning tasks");
-  add(left_out.costs, "computing costs between the bounds");
-  add(left_out.spurious, "spurious wake-ups");
-  add(races::noted_unlearned(), "switches at first accesses to memory that the default order does not share");
-  add(races::left_out_values(), values_left_out);
-  report_.scope = "all schedules" + strategy.scope() + but;
-  report_.complete = strategy.scope().empty() && !left_out.turns && !left_out.costs && !races::noted_unlearned() &&
-                     !races::left_out_values();
-}
-
 Token Campaign::token_of(const Failure& failure) const {
   return {call_, token_digest(failure.outcome.digest), "", 0, 0, failure.schedule.deviations(), {}, options_.memory};
 }
@@ -225,7 +165,7 @@ void Campaign::tell(const Found& found) {
   if (!found.failure.outcome.only_raced) body_.ignore_races();
   if (!found.is_default && !is_reproducible(found.failure)) return report_irreproducible(found);
   Failure least = found.failure;
-  supervisor_.begin_minimizing(found.token.number, found.failure.outcome.failure);
+  supervisor_.begin_minimizing(found.token.number, found.enumeration, found.failure.outcome.failure);
   if (options_.minimize) least = minimize(body_, found.failure, {runs_to_minimize});
   least = with_places(body_, least);
   const std::vector<races::Race> told = least.outcome.only_raced ? races::found() : std::vector<races::Race>();
@@ -307,7 +247,7 @@ ExploreReport Campaign::replay(const Token& token) {
     difference = "the token belongs to another run: " + difference + "; the program or the test has changed";
     if (has_replay_variable()) throw BadInput(options_.replay, difference);
   }
-  if (!outcome.passed()) tell({failure, token, "the replayed schedule", false});
+  if (!outcome.passed()) tell({failure, token, "the replayed schedule", false, nullptr});
   report_.text = difference + (difference.empty() || outcome.passed() ? "" : "\n") + report_.text;
   report_.passed = report_.text.empty();
   return report_;

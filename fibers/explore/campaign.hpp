@@ -2,8 +2,8 @@
 // One call of explore(): runs schedules of one body until one fails or a limit is reached.
 #pragma once
 
+#include <memory>
 #include <optional>
-#include <unordered_set>
 
 #include "fibers/explore/body.hpp"
 #include "fibers/explore/explore_options.hpp"
@@ -11,6 +11,7 @@
 #include "fibers/explore/minimize.hpp"
 #include "fibers/explore/race_findings.hpp"
 #include "fibers/explore/report/timeline.hpp"
+#include "fibers/explore/schedules/exhaustion.hpp"
 #include "fibers/explore/schedules/token.hpp"
 #include "fibers/explore/strategies/profile.hpp"
 #include "fibers/explore/supervisor.hpp"
@@ -30,17 +31,30 @@ class Campaign {
   struct Found {
     Failure failure;
     Token token;
-    std::string which;        // name of the schedule
-    bool is_default = false;  // the default order
+    std::string which;                  // name of the schedule
+    bool is_default = false;            // the default order
+    const char* enumeration = nullptr;  // as in fails()
+  };
+
+  /// An exhaustive strategy that follows the campaign's own.
+  struct Enumeration {
+    const char* name;
+    std::unique_ptr<Strategy> strategy = nullptr;
+    std::uint64_t number = 0;  // of its next schedule
+    bool is_over = false;      // without a proof
+
+    explicit Enumeration(const char* of_strategy) : name(of_strategy) {}
   };
 
   bool begins_well();
   bool goes_on_after(const Found& found);
   void search();
   void look_for_leaks();
-  bool fails(Strategy& strategy, std::uint64_t number);
+  bool fails(Strategy& strategy, std::uint64_t number, const char* enumeration);
+  void begin_enumeration();
+  bool enumerate();
   std::string difference_to_the_first();
-  void set_scope(const Strategy& strategy);
+  void set_scope(const Strategy& strategy, const std::string& what);
   void tell(const Found& found);
   void report_irreproducible(const Found& found);
   Outcome play(const Token& token);
@@ -57,9 +71,10 @@ class Campaign {
   Body body_;
   Profile profile_;
   Supervisor supervisor_;
-  std::uint64_t usual_digest_ = 0;          // of the default schedule
-  Timeline usual_;                          // its first run
-  std::unordered_set<std::uint64_t> seen_;  // traces
+  std::uint64_t usual_digest_ = 0;  // of the default schedule
+  Timeline usual_;                  // its first run
+  Exhaustion exhaustion_;
+  std::optional<Enumeration> enumeration_;
   RaceFindings races_;
   std::optional<Found> first_race_;
   ExploreReport report_;

@@ -97,6 +97,7 @@ class Watchman {
   void tell(const std::string& words) const {
     Token token = supervision_.token;
     if (supervised_.doing != Stage::replay) token.number = supervised_.number;
+    if (const char* const strategy = supervised_.strategy; strategy != nullptr) token.strategy = strategy;
     if (is_default()) token = {.call = token.call, .strategy = {}, .deviations = {}};
     const std::string text =
         "waitpoint: " + words + "\n" + supervision_.replay + to_text(token) + supervision_.after + "\n";

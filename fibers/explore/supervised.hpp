@@ -25,6 +25,7 @@ inline constexpr char done_message = '\0', asks_for_fresh = 'F';
 
 struct Supervised {
   std::atomic<std::uint64_t> number;  ///< of the schedule
+  std::atomic<const char*> strategy;  ///< of the schedule, known before the fork; null: that of the campaign
   std::atomic<std::uint64_t> turn;    ///< incremented at the start of each run
   std::atomic<Stage> doing;
   std::atomic<bool> done;

@@ -94,14 +94,16 @@ void Supervisor::begin_default() { begin(Stage::default_schedule); }
 
 void Supervisor::begin_replay() { begin(Stage::replay); }
 
-void Supervisor::begin(std::uint64_t number) {
+void Supervisor::begin(std::uint64_t number, const char* strategy) {
   if (shared_ == nullptr) return;
+  shared_->strategy.store(strategy, std::memory_order_relaxed);
   shared_->number.store(number, std::memory_order_relaxed);
   begin(Stage::schedule);
 }
 
-void Supervisor::begin_minimizing(std::uint64_t number, const std::string& failure) {
+void Supervisor::begin_minimizing(std::uint64_t number, const char* strategy, const std::string& failure) {
   if (shared_ == nullptr) return;
+  shared_->strategy.store(strategy, std::memory_order_relaxed);
   shared_->number.store(number, std::memory_order_relaxed);
   std::snprintf(shared_->failure, sizeof shared_->failure, "%s", failure.c_str());
   begin(Stage::minimizing);

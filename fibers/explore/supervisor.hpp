@@ -33,12 +33,12 @@ class Supervisor {
 
   /// A run of the default schedule begins.
   void begin_default();
-  /// Schedule `number` begins.
-  void begin(std::uint64_t number);
+  /// Schedule `number` begins, of the campaign's strategy or, unless null, of another, a literal.
+  void begin(std::uint64_t number, const char* strategy = nullptr);
   /// The schedule of the supervised token begins.
   void begin_replay();
-  /// Schedule `number` has failed with `failure`; its minimisation begins.
-  void begin_minimizing(std::uint64_t number, const std::string& failure);
+  /// That schedule has failed with `failure`; its minimisation begins.
+  void begin_minimizing(std::uint64_t number, const char* strategy, const std::string& failure);
   /// The result of `token`'s run in a process forked before the first run; none if it is unknown: without supervision,
   /// or if that process did not finish.
   std::optional<std::uint64_t> outcome_when_fresh(const Token& token);

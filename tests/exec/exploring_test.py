@@ -49,8 +49,8 @@ class Exploring(ExecCase):
     def test_a_correct_program_passes_under_many_schedules(self):
         done = explore("--iterations", "100", "--", self.compile("lost_update.c"), "locked")
         self.assertEqual(done.returncode, 0, done.stdout)
-        distinct = int(re.search(r"lost_update: 100 schedules, (\d+) distinct, 0 failed", done.stdout)[1])
-        self.assertGreater(distinct, 50)
+        # Who locks first, and whether the other comes to the lock before it is free.
+        self.assertIn("lost_update: 100 schedules, 4 distinct, 0 failed", done.stdout)
 
     def test_shards_and_processes_change_no_result(self):
         program, lines = self.compile("lost_update.c"), set()

@@ -57,7 +57,8 @@ void tell(const FailureReport& report, Files& files) {
 }
 
 std::string sum(const Target& target, const Search& search, double seconds) {
-  const std::string scope = search.scope() ? "; exhaustive" + *search.scope() : "";
+  const std::string all = search.has_drawn() ? "; exhausted, no other ordering exists" : "; exhaustive";
+  const std::string scope = search.scope() ? all + *search.scope() : "";
   const std::string raced = search.raced() > 0 ? fmt::format(" ({} by a data race alone)", search.raced()) : "";
   return fmt::format("{}: {}, {} distinct, {} failed{}, in {:.1f} s ({:.1f} a second){}{}\n", target.name(),
                      counted(search.schedules(), "schedule"), search.distinct(), search.failures(), raced, seconds,

@@ -16,18 +16,19 @@ using exploration::token_digest;
 
 // The default order has no number, and exhaustive strategies draw nothing.
 bool is_drawn(const FailedRun& run, const ExploreOptions& options) {
-  return run.number && !exploration::make_strategy(options.strategy)->is_exhaustive();
+  return run.number && run.enumeration.empty() && !exploration::make_strategy(options.strategy)->is_exhaustive();
 }
 
 }  // namespace
 
 std::string name_of(const FailedRun& run, const ExploreOptions& options) {
   if (!run.number) return "the default order";
-  return fmt::format("schedule {} of strategy {}, seed {}", *run.number, options.strategy, options.seed);
+  const std::string& strategy = run.enumeration.empty() ? options.strategy : run.enumeration;
+  return fmt::format("schedule {} of strategy {}, seed {}", *run.number, strategy, options.seed);
 }
 
 Plan plan_of(const FailedRun& run, const ExploreOptions& options) {
-  if (is_drawn(run, options)) return {.number = *run.number};
+  if (is_drawn(run, options)) return {.number = *run.number, .constraints = run.constraints};
   return {.drawn = false, .switches = {}, .deviations = run.finding.deviations};
 }
 

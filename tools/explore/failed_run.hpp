@@ -16,6 +16,8 @@ namespace waitpoint::tools {
 struct FailedRun {
   std::optional<std::uint64_t> number;  ///< of its schedule; none: the default order
   Finding finding;
+  exploration::Constraints constraints = {};  ///< those of its plan
+  std::string enumeration = {};  ///< the exhaustive strategy that has tried it after draws; empty: the options'
 };
 
 /// "schedule 2 of strategy portfolio, seed 1"; "the default order".

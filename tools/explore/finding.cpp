@@ -40,6 +40,9 @@ void pass_fields(Pass& pass, F& finding) {
   pass(finding.switches);
   pass(finding.deviations);
   pass(finding.choices);
+  pass(finding.order);
+  pass(finding.is_beyond_enumeration);
+  pass(finding.pairs);
   pass(finding.progress);
   pass(finding.was_cut);
   pass(finding.cuts_polls_short);

@@ -14,6 +14,7 @@
 #include "fibers/explore/report/timeline.hpp"
 #include "fibers/explore/schedules/event_log.hpp"
 #include "fibers/explore/strategies/profile.hpp"
+#include "fibers/explore/strategies/reads_from.hpp"
 #include "fibers/explore/strategies/schedule.hpp"
 
 namespace waitpoint::tools {
@@ -45,6 +46,9 @@ struct Finding {
   std::vector<exploration::Switch> switches;       ///< for failures
   std::vector<exploration::Deviation> deviations;  ///< the same switches
   std::vector<exploration::Decision> choices;      ///< if requested: all of them
+  std::uint64_t order = 0;             ///< equal for runs that differ in nothing but the order of independent events
+  bool is_beyond_enumeration = false;  ///< as in exploration::Explorer
+  std::vector<exploration::ReadsFrom> pairs;  ///< if requested: those of the run's first process
   std::vector<std::uint64_t> progress;  ///< of dpor with the choices: the search after it; empty with several processes
   bool was_cut = false;                 ///< dpor has ended it before its end: its rest is equivalent to others'
   bool cuts_polls_short = false;        ///< as in exploration::Schedule

@@ -2,7 +2,6 @@
 #include "tools/explore/partial_order.hpp"
 
 #include "core/error.hpp"
-#include "fibers/explore/strategies/dpor.hpp"
 
 namespace waitpoint::tools {
 
@@ -13,7 +12,9 @@ std::optional<Plan> PartialOrder::next(const Finding& finding) {
   exploration::Dpor search;
   search.resume(finding.progress);
   if (!search.end()) return std::nullopt;
-  return Plan{.progress = search.progress()};
+  Plan plan = first();
+  plan.progress = search.progress();
+  return plan;
 }
 
 }  // namespace waitpoint::tools

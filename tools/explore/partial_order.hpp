@@ -2,15 +2,16 @@
 // Enumerates schedules without equivalent ones, by the strategy dpor: its search tree is passed from run to run.
 #pragma once
 
+#include "fibers/explore/strategies/dpor.hpp"
 #include "tools/explore/exhaustive.hpp"
 
 namespace waitpoint::tools {
 
 class PartialOrder final : public Exhaustive {
  public:
-  PartialOrder() : Exhaustive(" up to the order of independent events, if there are no data races") {}
+  PartialOrder() : Exhaustive(exploration::up_to_equivalence) {}
 
-  Plan first() const override { return {}; }
+  Plan first() const override { return {.strategy = "dpor"}; }
 
  private:
   std::optional<Plan> next(const Finding& finding) override;

@@ -5,18 +5,22 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "core/time.hpp"
+#include "fibers/explore/strategies/reads_from.hpp"
 #include "fibers/explore/strategies/schedule.hpp"
 
 namespace waitpoint::tools {
 
 struct Plan {
-  std::uint64_t number = 0;  ///< of the schedule, for its noise and its draws
-  bool drawn = true;         ///< by the strategy; false: the default order with the deviations below
+  std::uint64_t number = 0;   ///< of the schedule, for its noise and its draws
+  bool drawn = true;          ///< by the strategy; false: the default order with the deviations below
+  std::string strategy = {};  ///< that draws it, if not that of the options
   std::vector<exploration::Switch> switches = {};
   std::vector<exploration::Deviation> deviations = {};
+  exploration::Constraints constraints = {};       ///< of rff: what earlier schedules have led to
   std::vector<std::uint64_t> progress = {};        ///< of dpor: the search so far, see exploration::Dpor
   std::optional<std::size_t> at_random_from = {};  ///< random alternatives after this decision
   std::uint64_t attempt = 0;                       ///< the number of the random continuation

@@ -125,13 +125,14 @@ void ask_for_run(RunMemory& memory, const ProgramFiles& files, const ExploreOpti
                  const Target::Request& request, const exploration::Profile& profile) {
   posix::Record& record = memory.record();
   Asked& asked = *new (record.arena.take(sizeof(Asked))) Asked();
-  const std::string strategy = plan.drawn ? options.strategy : "";
+  const std::string strategy = !plan.drawn ? "" : plan.strategy.empty() ? options.strategy : plan.strategy;
   WAITPOINT_CHECK(strategy.size() < sizeof asked.strategy, "the name of a strategy is too long");
   std::memcpy(asked.strategy, strategy.c_str(), strategy.size() + 1);
   asked.seed = options.seed;
   asked.number = plan.at_random_from ? plan.attempt : plan.number;
   asked.switches = copied(record.arena, plan.switches);
   asked.deviations = copied(record.arena, plan.deviations);
+  asked.constraints = copied(record.arena, plan.constraints);
   asked.progress = copied(record.arena, plan.progress);
   asked.at_random_from = plan.at_random_from.value_or(Asked::none);
   if (plan.drawn) tell_profile(record.arena, profile, asked);
@@ -208,6 +209,15 @@ Finding finding_of_run(const RunMemory& memory, int status, const std::string& o
   const exploration::Schedule schedule = schedule_of(record);
   finding.take(schedule, explored.explorer.parted() || has_parted_elsewhere(record));
   finding.was_cut = explored.explorer.was_cut();
+  // The dependences between events of several processes are not known: no two different runs count as one.
+  finding.order = is_single(record) ? explored.explorer.trace() : finding.digest;
+  finding.is_beyond_enumeration = explored.explorer.is_beyond_enumeration();
+  if (request.pairs && explored.pairs != nullptr) {
+    finding.pairs = *explored.pairs;
+    std::ranges::sort(finding.pairs);
+    const auto repeated = std::ranges::unique(finding.pairs);
+    finding.pairs.erase(repeated.begin(), repeated.end());
+  }
   if (request.choices) finding.choices = schedule.decisions;
   if (request.choices && std::string_view(record.settings.asked->strategy) == "dpor" && is_single(record))
     // The run's own process has another table of virtual functions.

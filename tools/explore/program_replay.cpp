@@ -9,6 +9,7 @@
 #include "core/error.hpp"
 #include "tools/exec/family_report.hpp"
 #include "tools/exec/program_run.hpp"
+#include "tools/explore/feedback.hpp"
 #include "tools/explore/learned_code.hpp"
 #include "tools/explore/program_finding.hpp"
 #include "tools/explore/program_target.hpp"
@@ -56,9 +57,12 @@ int replay_program(const ExploreOptions& asked) {
   std::optional<OutputFile> trace;
   if (options.trace) trace.emplace(*options.trace);
   const exploration::Profile profile = take_profile(files, options, record.plan);
+  const auto learn_from = [&](const Plan& plan) { return look(files, options, plan, {.pairs = true}, profile); };
+  const Plan plan = record.plan.drawn ? Feedback(options.strategy, options.seed).plan_of(record.plan.number, learn_from)
+                                      : record.plan;
   const Target::Request request{.words = !record.plan.drawn, .places = true, .events = trace.has_value()};
   RunMemory memory(settings_of(options));
-  ask_for_run(memory, files, options, record.plan, request, profile);
+  ask_for_run(memory, files, options, plan, request, profile);
   const double limit_s = options.schedule_limit_s.value_or(least_limit_s);
   const ProgramRun run(files, memory, -1, limit_s);
   Finding finding =

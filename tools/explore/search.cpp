@@ -3,19 +3,22 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <memory>
+#include <utility>
 
-#include "fibers/explore/strategies/dfs.hpp"
-#include "fibers/explore/strategies/dpor.hpp"
-#include "fibers/explore/strategies/factory.hpp"
 #include "tools/command/interruption.hpp"
-#include "tools/explore/depth_first.hpp"
-#include "tools/explore/partial_order.hpp"
 
 namespace waitpoint::tools {
 namespace {
 
 constexpr int look_around_ms = 100;
+
+// What follows from the results of schedules is decided at every so many, from those up to as many before: so it does
+// not depend on how many run at once, and none is waited for unless it takes long.
+constexpr std::uint64_t generation = 64;
+
+// In place of a place, of a schedule of another shard, which is run for what is learned from it: together with its
+// number.
+constexpr std::uint64_t lesson = std::uint64_t{1} << 63;
 
 Finding outcome_of(const Children::Ended& ended) {
   const std::string death = death_of(ended);
@@ -24,15 +27,6 @@ Finding outcome_of(const Children::Ended& ended) {
   finding.kind = Finding::Kind::killed;
   finding.words = death;
   return finding;
-}
-
-// For the name of a strategy; null if that is not exhaustive.
-std::unique_ptr<Exhaustive> make_exhaustive(const std::string& name) {
-  const auto strategy = exploration::make_strategy(name);
-  if (const auto* const dfs = dynamic_cast<const exploration::Dfs*>(strategy.get()))
-    return std::make_unique<DepthFirst>(dfs->preemptions(), dfs->scope());
-  if (dynamic_cast<const exploration::Dpor*>(strategy.get()) != nullptr) return std::make_unique<PartialOrder>();
-  return nullptr;
 }
 
 // A program's run that has gone on for long says what its threads do.
@@ -54,60 +48,154 @@ std::optional<Finding> run_apart(Target& target, const Plan& plan, const Target:
   return std::nullopt;
 }
 
+Search::Search(Target& target, SearchProgress& progress, Discoveries& discoveries, ResultsFile* results)
+    : target_(target), progress_(progress), discoveries_(discoveries), results_(results) {
+  const ExploreOptions& options = target.options();
+  enumeration_ = Enumeration::of_options(options.strategy);
+  is_exhaustive_ = enumeration_.has_value();
+  // A scenario has too many schedules; a shard does not know those of others; results are of as many as asked for.
+  if (!is_exhaustive_ && !options.program.empty()) feedback_.emplace(options.strategy, options.seed);
+  may_be_exhausted_ = !is_exhaustive_ && !options.program.empty() && options.strategy != "fifo" &&
+                      options.shard.count == 1 && results == nullptr;
+}
+
 bool Search::may_start() const {
   const ExploreOptions& options = target_.options();
   const std::uint64_t number = options.shard.index - 1 + started_ * options.shard.count;
   // Without noise the default order is a single schedule.
   const bool is_one = options.strategy == "fifo" && !target_.has_noise();
   return number < (is_one ? std::min<std::uint64_t>(options.iterations, 1) : options.iterations) && !last_ &&
-         !(options.time_limit_s > 0 && progress_.seconds() >= options.time_limit_s);
+         !is_over_ && !(options.time_limit_s > 0 && progress_.seconds() >= options.time_limit_s);
 }
 
-void Search::take(std::uint64_t number, Finding finding) {
+// Tells `exhaustion_` of the first `count` schedules.
+void Search::tell_exhaustion(std::uint64_t count) {
+  for (; told_ < count; ++told_) {
+    const Ended& ended = ended_[told_];
+    if (ended.is_lost) continue;
+    if (!ended.is_enumerated)
+      exhaustion_.take_drawn(ended.order, ended.is_beyond);
+    else if (ended.was_cut)
+      exhaustion_.take_cut();
+    else
+      exhaustion_.take_enumerated(ended.order);
+  }
+}
+
+// How the next schedule comes about; nothing while that depends on one that still runs.
+std::optional<Search::Origin> Search::next_origin() {
+  if (is_exhaustive_) return ended_.size() == started_ ? std::optional(Origin::enumerated) : std::nullopt;
+  if (!may_be_exhausted_) return Origin::drawn;
+  if (!exhaustion_.has_begun()) {
+    const std::uint64_t known = started_ / generation * generation;
+    const std::uint64_t needed = known - std::min(known, generation);
+    if (ended_.size() < needed) return std::nullopt;
+    tell_exhaustion(needed);
+    if (!exhaustion_.has_begun()) return Origin::drawn;
+  }
+  if (ended_.size() < started_) return std::nullopt;
+  tell_exhaustion(started_);
+  if (!exhaustion_.is_next_enumerated() || is_unproved_) return Origin::drawn;
+  if (!enumeration_) enumeration_ = Enumeration::after_draws(has_races_);
+  return Origin::enumerated;
+}
+
+// False if it depends on one that still runs, or must wait for its turn.
+bool Search::start_drawn() {
+  const ExploreOptions& options = target_.options();
+  const std::uint64_t number = options.shard.index - 1 + drawn_ * options.shard.count;
+  Plan plan{.number = number};
+  const bool learns = feedback_ && feedback_->is_learned(number);
+  while (learns && feedback_->next() <= number) {
+    if (target_.runs().count() == options.jobs) return false;
+    const std::optional<Plan> next = feedback_->plan_of_next();
+    if (!next) return false;
+    if (next->number == number)
+      plan = *next;
+    else  // of another shard
+      target_.runs().start(lesson | next->number, Target::to_request(*next, {.pairs = true}));
+  }
+  ++drawn_;
+  start({.number = number, .finding = {}, .constraints = plan.constraints}, plan, {.pairs = learns});
+  return true;
+}
+
+void Search::start_enumerated() {
+  enumerating_ = started_;
+  start({.number = enumeration_->number(), .finding = {}, .enumeration = enumeration_->name()}, *enumeration_->next(),
+        {.choices = true});
+}
+
+void Search::start(FailedRun run, const Plan& plan, const Target::Request& request) {
+  running_[started_] = std::move(run);
+  target_.runs().start(started_, Target::to_request(plan, request));
+  ++started_;
+}
+
+void Search::take(std::uint64_t place, Finding finding) {
+  if ((place & lesson) != 0) return feedback_->take(place & ~lesson, finding);
   ++schedules_;
-  if (finding.kind != Finding::Kind::killed && !finding.was_cut) digests_.insert(finding.digest);
+  if (finding.kind != Finding::Kind::killed && !finding.was_cut) orders_.insert(finding.order);
   const bool goes_on = finding.passed() || goes_on_after(finding.kind, target_.options());
   if (!finding.passed()) ++failures_;
   if (goes_on && finding.kind == Finding::Kind::race) ++raced_;
-  if (!goes_on && results_ == nullptr && (!last_ || number < *last_)) {
-    last_ = number;
-    target_.runs().kill_from(number);
+  if (!goes_on && results_ == nullptr && (!last_ || place < *last_)) {
+    last_ = place;
+    target_.runs().kill_from(place);
   }
-  waiting_.emplace(number, std::move(finding));
+  const bool is_enumerated = enumerating_ == place;
+  if (is_enumerated) enumeration_->take(finding);
+  FailedRun run = std::move(running_.extract(place).mapped());
+  if (!is_enumerated && feedback_ && feedback_->is_learned(*run.number)) feedback_->take(*run.number, finding);
+  run.finding = std::move(finding);
+  waiting_.emplace(place, std::move(run));
   report(false);
+  if (is_enumerated && !enumeration_->next()) end_enumeration();
 }
 
-// In the order of the numbers; after an interruption lower ones may be missing.
+// All of its schedules have been tried, and no other runs.
+void Search::end_enumeration() {
+  tell_exhaustion(ended_.size());
+  const std::optional<std::string> scope = enumeration_->scope();
+  if (is_exhaustive_ || (scope && exhaustion_.is_complete())) {
+    scope_ = scope;
+    is_over_ = true;
+  } else if (!enumeration_->begin_another()) {
+    is_unproved_ = true;
+  }
+}
+
+// In the order of their places; after an interruption earlier ones may be missing.
 void Search::report(bool at_end) {
-  const Shard& shard = target_.options().shard;
   while (!waiting_.empty()) {
-    const std::uint64_t number = waiting_.begin()->first;
-    if (!at_end && number != shard.index - 1 + reported_ * shard.count) return;
-    Finding finding = std::move(waiting_.begin()->second);
+    const std::uint64_t place = waiting_.begin()->first;
+    if (!at_end && place != ended_.size()) return;
+    FailedRun run = std::move(waiting_.begin()->second);
     waiting_.erase(waiting_.begin());
-    ++reported_;
-    if (results_ != nullptr) results_->take(number, finding);
+    const Finding& finding = run.finding;
+    ended_.push_back({.order = finding.order,
+                      .is_enumerated = enumerating_ == place,
+                      .is_lost = finding.kind == Finding::Kind::killed,
+                      .was_cut = finding.was_cut,
+                      .is_beyond = finding.is_beyond_enumeration});
+    has_races_ = has_races_ || !finding.racing.empty();
+    if (results_ != nullptr) results_->take(*run.number, finding);
     if (finding.passed() && finding.racing.empty()) continue;
-    if (!last_ || number <= *last_) discoveries_.take({number, std::move(finding)});
+    if (!last_ || place <= *last_) discoveries_.take(std::move(run));
   }
 }
 
 void Search::run() {
-  if (results_ != nullptr) results_->begin(target_);
-  if (const std::unique_ptr<Exhaustive> schedules = make_exhaustive(target_.options().strategy))
-    run_exhaustively(*schedules);
-  else
-    run_drawn();
-  report(true);
-  progress_.finish();
-}
-
-void Search::run_drawn() {
   const ExploreOptions& options = target_.options();
+  if (results_ != nullptr) results_->begin(target_);
   while (!interrupted_) {
     while (target_.runs().count() < options.jobs && may_start()) {
-      const std::uint64_t number = options.shard.index - 1 + started_++ * options.shard.count;
-      target_.runs().start(number, Target::to_request({.number = number}, {}));
+      const std::optional<Origin> origin = next_origin();
+      if (!origin) break;
+      if (*origin == Origin::enumerated)
+        start_enumerated();
+      else if (!start_drawn())
+        break;
     }
     if (target_.runs().count() == 0) break;
     if (const auto ended = target_.runs().wait(look_around_ms)) take(ended->number, outcome_of(*ended));
@@ -116,20 +204,8 @@ void Search::run_drawn() {
   }
   if (interrupted_) stop(target_);
   target_.runs().kill_from(0);
-}
-
-// Sequential: each schedule is derived from the one before.
-void Search::run_exhaustively(Exhaustive& schedules) {
-  std::optional<Plan> plan = schedules.first();
-  for (; plan && may_start(); ++started_) {
-    std::optional<Finding> found = run_apart(target_, *plan, {.choices = true});
-    interrupted_ = !found;
-    if (!found) return;
-    plan = schedules.after(*found);
-    take(started_, std::move(*found));
-    progress_.update(schedules_, distinct(), failures_);
-  }
-  if (!plan) scope_ = schedules.scope();
+  report(true);
+  progress_.finish();
 }
 
 }  // namespace waitpoint::tools

@@ -1,17 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Runs schedules of a target, several at once, each in its own process, until one fails or a limit is reached.
 //
-// Numbers are assigned in order. When a schedule fails, lower numbers are awaited and higher ones are killed: the
-// reported failure is the one with the lowest number, regardless of the number of processes.
+// Schedules have places, in the order in which they are started. When one fails, those of earlier places are awaited
+// and later ones are killed: the reported failure is the first, regardless of the number of processes.
+//
+// Most schedules are drawn, each by its number. When draws bring nothing new (exploration::Exhaustion), an exhaustive
+// strategy follows, one schedule at a time, since each is derived from the one before.
 #pragma once
 
 #include <map>
 #include <optional>
 #include <string>
 #include <unordered_set>
+#include <vector>
 
+#include "fibers/explore/schedules/exhaustion.hpp"
 #include "tools/explore/discoveries.hpp"
-#include "tools/explore/exhaustive.hpp"
+#include "tools/explore/enumeration.hpp"
+#include "tools/explore/feedback.hpp"
 #include "tools/explore/results_file.hpp"
 #include "tools/explore/search_progress.hpp"
 #include "tools/explore/target.hpp"
@@ -25,39 +31,63 @@ class Search {
  public:
   /// Tells `discoveries` of failed and racing runs, and `results`, unless it is null, of all: then failures do not end
   /// the search.
-  Search(Target& target, SearchProgress& progress, Discoveries& discoveries, ResultsFile* results)
-      : target_(target), progress_(progress), discoveries_(discoveries), results_(results) {}
+  Search(Target& target, SearchProgress& progress, Discoveries& discoveries, ResultsFile* results);
 
   /// Runs the schedules that the options request.
   void run();
 
   std::uint64_t schedules() const { return schedules_; }
-  std::uint64_t distinct() const { return digests_.size(); }
+  std::uint64_t distinct() const { return orders_.size(); }
   std::uint64_t failures() const { return failures_; }
   /// Those that did not end the search, as they failed by a data race alone.
   std::uint64_t raced() const { return raced_; }
   bool interrupted() const { return interrupted_; }
-  /// The scope of an exhausted search; nothing for strategies that are not exhaustive or did not finish.
+  /// The scope of an exhausted search; nothing if it was not.
   const std::optional<std::string>& scope() const { return scope_; }
+  /// The strategy of the options draws: it was an enumeration that exhausted the search.
+  bool has_drawn() const { return !is_exhaustive_; }
 
  private:
+  /// How a schedule comes about.
+  enum class Origin { drawn, enumerated };
+  /// What is kept of an ended run, for `exhaustion_`.
+  struct Ended {
+    std::uint64_t order;
+    bool is_enumerated, is_lost, was_cut, is_beyond;
+  };
+
   bool may_start() const;
-  void take(std::uint64_t number, Finding finding);
+  std::optional<Origin> next_origin();
+  void tell_exhaustion(std::uint64_t count);
+  bool start_drawn();
+  void start_enumerated();
+  void start(FailedRun run, const Plan& plan, const Target::Request& request);
+  void take(std::uint64_t place, Finding finding);
+  void end_enumeration();
   void report(bool at_end);
-  void run_drawn();
-  void run_exhaustively(Exhaustive& schedules);
 
   Target& target_;
   SearchProgress& progress_;
   Discoveries& discoveries_;
   ResultsFile* results_;
-  std::uint64_t started_ = 0;
+  std::uint64_t started_ = 0, drawn_ = 0;
   std::uint64_t schedules_ = 0, failures_ = 0, raced_ = 0;
-  std::unordered_set<std::uint64_t> digests_;
-  std::optional<std::uint64_t> last_;         // the failure that ends the search
-  std::uint64_t reported_ = 0;                // so many schedules are through, in the order of their numbers
-  std::map<std::uint64_t, Finding> waiting_;  // ended before lower numbers
+  std::unordered_set<std::uint64_t> orders_;
+  std::optional<std::uint64_t> last_;           // the place of the failure that ends the search
+  std::map<std::uint64_t, FailedRun> running_;  // by place, without their findings
+  std::map<std::uint64_t, FailedRun> waiting_;  // ended before those of earlier places
+  std::vector<Ended> ended_;                    // by place
   bool interrupted_ = false;
+
+  std::optional<Feedback> feedback_;
+  bool is_exhaustive_, may_be_exhausted_;
+  exploration::Exhaustion exhaustion_;
+  std::uint64_t told_ = 0;  // so many of `ended_` are told
+  std::optional<Enumeration> enumeration_;
+  std::optional<std::uint64_t> enumerating_;  // the place of its present or last schedule
+  bool has_races_ = false;
+  bool is_unproved_ = false;  // the enumeration has ended without a proof
+  bool is_over_ = false;      // all schedules have been tried
   std::optional<std::string> scope_;
 };
 

@@ -12,8 +12,10 @@ template <class Pass, class P, class R>
 void pass_fields(Pass& pass, P& plan, R& request) {
   pass(plan.number);
   pass(plan.drawn);
+  pass(plan.strategy);
   pass(plan.switches);
   pass(plan.deviations);
+  pass(plan.constraints);
   pass(plan.progress);
   pass(plan.at_random_from);
   pass(plan.attempt);

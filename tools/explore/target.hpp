@@ -22,6 +22,7 @@ class Target {
     bool profile = false;
     bool learn = false;    ///< for the profile: code that accesses memory shared by tasks
     bool choices = false;  ///< all choices made
+    bool pairs = false;    ///< what a strategy with feedback learns from
     bool words = false;    ///< switches in words
     bool places = false;   ///< source locations of the tasks in reports
     bool events = false;   ///< the last ones, and with ExploreOptions::trace the trace

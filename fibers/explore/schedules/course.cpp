@@ -14,6 +14,7 @@ std::unique_ptr<Strategy> begin_course(const Course& course, const Explorer& exp
   std::string stream = course.strategy;
   if (!course.strategy.empty()) {
     strategy = make_strategy(course.strategy);
+    strategy->hold(course.constraints);
     if (!course.progress.empty()) {
       WAITPOINT_CHECK(course.strategy == "dpor", "another strategy than dpor is to be resumed");
       static_cast<Dpor&>(*strategy).resume(course.progress);

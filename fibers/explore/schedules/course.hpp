@@ -19,6 +19,7 @@ struct Course {
   std::uint64_t seed = 0;
   std::uint64_t number = 0;                        ///< of the schedule, or of the random continuation
   std::optional<std::size_t> at_random_from = {};  ///< without a strategy: after this decision the choices are random
+  std::span<const Constraint> constraints = {};    ///< see Strategy::hold()
   std::span<const std::uint64_t> progress = {};    ///< Dpor::progress() of the search so far; empty at its beginning
 };
 

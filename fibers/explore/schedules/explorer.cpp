@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "fibers/explore/strategies/operations.hpp"
 
 namespace waitpoint::exploration {
 namespace {
@@ -19,19 +20,13 @@ constexpr std::uint32_t polls_max = 100;
 // The number of turns given while all ready tasks spin, before time advances.
 constexpr std::uint32_t idle_yields_max = 20;
 
-template <class... Operations>
-constexpr std::uint64_t set_of(Operations... operations) {
-  return (... | (std::uint64_t{1} << static_cast<unsigned>(operations)));
-}
-
-constexpr std::uint64_t looks =
-    set_of(Operation::load, Operation::try_lock, Operation::try_lock_shared, Operation::try_acquire,
-           Operation::try_wait, Operation::compare_exchange, Operation::exchange, Operation::stop_requested,
-           Operation::poll, Operation::sleep, Operation::yield);
+constexpr Operations looks(Operation::load, Operation::try_lock, Operation::try_lock_shared, Operation::try_acquire,
+                           Operation::try_wait, Operation::compare_exchange, Operation::exchange,
+                           Operation::stop_requested, Operation::poll, Operation::sleep, Operation::yield);
 
 }  // namespace
 
-bool is_look(Operation operation) { return (looks >> static_cast<unsigned>(operation) & 1) != 0; }
+bool is_look(Operation operation) { return looks.contain(operation); }
 
 void Explorer::begin(Strategy& strategy, const Played& played) {
   decide_by(strategy);
@@ -52,7 +47,7 @@ void Explorer::begin(Strategy& strategy, const Played& played) {
   spinning_ = idle_turns_ = step_ = step_of_instant_ = instants_ = 0;
   instant_ = Time();
   deviated_ = 0;
-  parted_ = was_cut_ = false;
+  parted_ = was_cut_ = is_beyond_enumeration_ = false;
 }
 
 // The alternative that `deviations` prescribes for this decision; `count` if there is none.
@@ -219,7 +214,7 @@ std::span<Task* const> Explorer::leave_spinning_out(std::span<Task* const> ready
 }
 
 inline void Explorer::note(const Task& task) {
-  trace_.add(task);
+  trace_.add(task, instant_);
   if (__builtin_expect(task.number >= habits_.size(), 0)) habits_.resize(task.number + 1);
   RecentAccesses& habit = habits_[task.number];
   if (habit.instant != instants_) habit = {.at = {}, .instant = instants_};
@@ -248,6 +243,7 @@ void Explorer::note_look(const Task& task, RecentAccesses& habit) {
   if (poller_ != nullptr || !strategy_->lets_poll_on()) return;
   poller_ = &task;
   polls_ = 0;
+  is_beyond_enumeration_ = true;
 }
 
 std::uint32_t Explorer::among(Choice choice, const Task& task, std::uint32_t count) {
@@ -294,6 +290,8 @@ std::uint32_t Explorer::alternative(Decision decision, const Task& task, std::ui
   if (chosen == count) chosen = offered > 1 ? strategy_->among(choice, task, offered) : 0;
   WAITPOINT_CHECK(chosen < count, "a strategy chose an alternative that does not exist");
   decision.chosen = chosen;
+  is_beyond_enumeration_ |= (choice == Choice::spurious && chosen != 0) ||
+                            (choice == Choice::computing && chosen != 0 && chosen + 1 != count);
   trace_.add(choice, task, chosen);
   schedule_.decisions.push_back(decision);
   if (decision.is_switch()) schedule_.switches.push_back({choice, event_of(task), {chosen, time}});

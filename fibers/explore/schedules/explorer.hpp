@@ -47,8 +47,10 @@ bool is_look(kernel::Operation operation);
 
 class Explorer final : public kernel::Decisions {
  public:
-  /// Schedules of `scheduler` end with no progress after `steps_max` switch points at one instant.
-  Explorer(kernel::Scheduler& scheduler, std::uint32_t steps_max) : scheduler_(scheduler), steps_max_(steps_max) {}
+  /// Schedules of `scheduler` end with no progress after `steps_max` switch points at one instant. `memory` is that of
+  /// instrumented code.
+  Explorer(kernel::Scheduler& scheduler, std::uint32_t steps_max, Memory memory = Memory::sc)
+      : scheduler_(scheduler), steps_max_(steps_max), trace_(memory) {}
 
   /// Starts the next schedule: first `played`, then `strategy`, which must have begun this schedule.
   void begin(Strategy& strategy, const Played& played = {});
@@ -66,6 +68,8 @@ class Explorer final : public kernel::Decisions {
   bool parted() const { return parted_; }
   /// True if the strategy abandoned it, since nothing new could follow.
   bool was_cut() const { return was_cut_; }
+  /// True if this schedule has taken an alternative that exhaustive strategies omit.
+  bool is_beyond_enumeration() const { return is_beyond_enumeration_; }
   /// Accumulated over all schedules so far.
   const LeftOut& left_out() const { return left_out_; }
   /// The candidates of the decision at which the run was stopped.
@@ -142,6 +146,7 @@ class Explorer final : public kernel::Decisions {
   std::size_t deviated_ = 0;  // number of deviations played already
   bool parted_ = false;
   bool was_cut_ = false;
+  bool is_beyond_enumeration_ = false;
   LeftOut left_out_;
 };
 

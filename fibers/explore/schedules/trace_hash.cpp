@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fibers/explore/schedules/trace_hash.hpp"
 
+#include <algorithm>
+
 namespace waitpoint::exploration {
 namespace {
 
@@ -8,12 +10,35 @@ constexpr std::uint64_t hash_of(std::uint64_t first, std::uint64_t second) {
   return Digest::mix(first + Digest::mix(second));
 }
 
+// Calls `use` with the number of each place in the set.
+template <class Use>
+void for_each(SharedPlaces places, Use use) {
+  for (unsigned left = places; left != 0; left &= left - 1) use(__builtin_ctz(left));
+}
+
+constexpr int run_place = 0;
+static_assert(place::run == 1 << run_place);
+
 }  // namespace
+
+// The hash of an event that comes upon this state.
+inline std::uint64_t TraceHash::State::seen_by(std::uint64_t event, bool changes) const {
+  if (change != 0) event = hash_of(event, change);
+  return changes && looks != 0 ? hash_of(event, looks) : event;
+}
+
+inline void TraceHash::State::take(std::uint64_t event, bool changes) {
+  if (changes)
+    *this = {event, 0};
+  else
+    looks += event;
+}
 
 void TraceHash::clear() {
   last_.clear();
   objects_.clear();
-  barrier_ = sum_ = 0;
+  std::ranges::fill(places_, State());
+  sum_ = 0;
 }
 
 std::uint64_t& TraceHash::last_of(const kernel::Task& task) {
@@ -23,32 +48,26 @@ std::uint64_t& TraceHash::last_of(const kernel::Task& task) {
   return last;
 }
 
-// As for the strategy dpor, whose relation is of pairs of events. A blocked task is about to time out.
-bool TraceHash::depends_on_all(const kernel::Task& task) {
-  using kernel::Operation;
-  const Operation operation = task.operation;
-  return acts_on_any(operation) || is_of_channel(operation) || is_of_timer(operation) || releases_unseen(operation) ||
-         operation == Operation::exit || task.state == kernel::TaskState::blocked || task.seat != nullptr;
-}
-
 // Whether a join comes before or behind the end that it waits for makes no difference.
-void TraceHash::add(const kernel::Task& task) {
-  if (task.operation == kernel::Operation::join) return;
+void TraceHash::add(const kernel::Task& task, Time now) {
+  if (task.operation == kernel::Operation::join && task.at != nullptr) return;
+  const Action action = action_of(task);
+  const Effect effect = effect_of(action, memory_);
   std::uint64_t& last = last_of(task);
-  std::uint64_t event = hash_of(last ^ barrier_, static_cast<std::uint64_t>(task.operation));
-  if (depends_on_all(task)) {
+  std::uint64_t event =
+      hash_of(last ^ places_[run_place].change,
+              (static_cast<std::uint64_t>(now.since_start().ns()) << 8) + static_cast<std::uint64_t>(action.operation));
+  if ((effect.changes & place::run) != 0) {
     event = hash_of(event, sum_);
-    barrier_ = event;
-  } else if (task.at != nullptr || acts_on_unknown(task.operation)) {
-    ObjectState& object = objects_[task.at != nullptr ? task.at->identity : 0];
-    if (object.change == 0) object.change = Digest::mix(event);
-    event = hash_of(event, object.change);
-    if (is_read_only(task.operation)) {
-      object.looks += event;
-    } else {
-      event = hash_of(event, object.looks);
-      object = {event, 0};
-    }
+    places_[run_place].change = event;
+  } else {
+    const SharedPlaces changes = effect.changes;
+    const SharedPlaces shared = (effect.reads | changes) & ~place::run;
+    State* const object = effect.has_object ? &objects_[action.object] : nullptr;
+    if (object != nullptr) event = object->seen_by(event, effect.changes_object);
+    for_each(shared, [&](int at) { event = places_[at].seen_by(event, (changes >> at & 1) != 0); });
+    if (object != nullptr) object->take(event, effect.changes_object);
+    for_each(shared, [&](int at) { places_[at].take(event, (changes >> at & 1) != 0); });
   }
   last = event;
   sum_ += event;

@@ -1,108 +1,100 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Dependent events, i.e. those whose order may change the result: at the same object, unless both only read it.
+// Dependent events, i.e. those whose order may change the result. There is one relation: pos and rff redraw, dpor
+// reverses, and the trace hash tells apart what is dependent.
+//
+// An event reads or changes its object, and places that many objects have in common. Two events are dependent if one of
+// them changes what the other reads or changes.
 #pragma once
 
 #include <cstdint>
 
+#include "fibers/explore/strategies/memory_option.hpp"
+#include "fibers/explore/strategies/operations.hpp"
 #include "fibers/kernel/task.hpp"
 
 namespace waitpoint::exploration {
 
-inline bool is_read_only(kernel::Operation operation) {
-  return operation == kernel::Operation::load || operation == kernel::Operation::stop_requested;
+/// What an event is known by before it happens.
+struct Action {
+  kernel::Operation operation = kernel::Operation::start;
+  std::uint64_t object = 0;             ///< identity; 0: none
+  bool is_on_shared_processor = false;  ///< its turn delays the others', by an order that depends on their priorities
+};
+
+/// The pending event of a task.
+inline Action action_of(const kernel::Task& task) {
+  return {task.operation, task.at != nullptr ? task.at->identity : 0, task.seat != nullptr};
 }
 
-/// A yielding task is not offered until another has acted; a signal acts at the next event of another task: the order
-/// of events around them matters, whatever their objects.
-inline bool acts_on_any(kernel::Operation operation) {
-  return operation == kernel::Operation::yield || operation == kernel::Operation::signal;
+/// A set of places that objects have in common.
+using SharedPlaces = std::uint8_t;
+namespace place {
+inline constexpr SharedPlaces run = 1;  ///< read by every event
+inline constexpr SharedPlaces channels =
+    2;  ///< two sides of a channel are two objects, names are in a table, polls look at several
+inline constexpr SharedPlaces timers = 4;      ///< a tick acts on all timers that it drives
+inline constexpr SharedPlaces processors = 8;  ///< turns of the tasks on a shared processor
+inline constexpr SharedPlaces locks = 16;   ///< a wait for a condition releases its lock, which the kernel does not see
+inline constexpr SharedPlaces memory = 32;  ///< weak memory, which fences order
+inline constexpr int count = 6;
+}  // namespace place
+
+struct Effect {
+  SharedPlaces reads = 0, changes = 0;  ///< a place is in one of them at most
+  bool has_object = false;              ///< it acts on its object, or on something unknown, which is object 0
+  bool changes_object = false;
+};
+
+namespace operations {
+
+using kernel::Operation;
+
+inline constexpr Operations reads(Operation::load, Operation::stop_requested);
+/// A yielding task is not offered until another has acted; a signal acts at the next event of another task; whatever
+/// comes behind the end of the process does not happen.
+inline constexpr Operations acts_on_run(Operation::yield, Operation::signal, Operation::exit);
+inline constexpr Operations of_channels(Operation::open, Operation::close, Operation::connect, Operation::accept,
+                                        Operation::send, Operation::receive, Operation::poll);
+inline constexpr Operations of_timers(Operation::timer_start, Operation::timer_stop, Operation::timer_wait,
+                                      Operation::timer_tick);
+inline constexpr Operations of_locks(Operation::lock, Operation::try_lock, Operation::unlock, Operation::lock_shared,
+                                     Operation::try_lock_shared, Operation::unlock_shared);
+inline constexpr Operations of_memory(Operation::load, Operation::store, Operation::exchange,
+                                      Operation::compare_exchange, Operation::modify);
+/// Without an object, the others act on something that the kernel does not know as one: a descriptor, a file, a signal,
+/// memory between processes.
+inline constexpr Operations without_object(Operation::start, Operation::end, Operation::resume, Operation::timeout,
+                                           Operation::yield, Operation::sleep, Operation::fence);
+
+}  // namespace operations
+
+/// True if it does not change its object.
+inline bool is_read_only(kernel::Operation operation) { return operations::reads.contain(operation); }
+
+/// In weak memory loads of one location are dependent: a seq_cst one has its place in the order of all.
+inline Effect effect_of(const Action& action, Memory memory) {
+  const kernel::Operation operation = action.operation;
+  Effect effect{.reads = place::run};
+  if (operations::acts_on_run.contain(operation)) effect = {.changes = place::run};
+  if (operations::of_channels.contain(operation)) effect.changes |= place::channels;
+  if (operations::of_timers.contain(operation)) effect.changes |= place::timers;
+  if (action.is_on_shared_processor) effect.changes |= place::processors;
+  if (operations::of_locks.contain(operation)) effect.reads |= place::locks;
+  if (operation == kernel::Operation::wait) effect.changes |= place::locks;
+  const bool is_weak = memory == Memory::weak;
+  if (is_weak && operations::of_memory.contain(operation)) effect.reads |= place::memory;
+  if (is_weak && operation == kernel::Operation::fence) effect.changes |= place::memory;
+  effect.has_object = action.object != 0 || !operations::without_object.contain(operation);
+  const bool only_reads =
+      action.object != 0 && is_read_only(operation) && !(is_weak && operations::of_memory.contain(operation));
+  effect.changes_object = effect.has_object && !only_reads;
+  return effect;
 }
 
-/// The two sides of a channel are two objects, its name is in a table, and a poll looks at several.
-inline bool is_of_channel(kernel::Operation operation) {
-  switch (operation) {
-    case kernel::Operation::open:
-    case kernel::Operation::close:
-    case kernel::Operation::connect:
-    case kernel::Operation::accept:
-    case kernel::Operation::send:
-    case kernel::Operation::receive:
-    case kernel::Operation::poll: return true;
-    default: return false;
-  }
-}
-
-/// A tick acts on all timers that it drives.
-inline bool is_of_timer(kernel::Operation operation) {
-  switch (operation) {
-    case kernel::Operation::timer_start:
-    case kernel::Operation::timer_stop:
-    case kernel::Operation::timer_wait:
-    case kernel::Operation::timer_tick: return true;
-    default: return false;
-  }
-}
-
-/// A condition wait releases its lock, which the kernel does not see: it may be any lock.
-inline bool releases_unseen(kernel::Operation operation) { return operation == kernel::Operation::wait; }
-inline bool is_of_lock(kernel::Operation operation) {
-  switch (operation) {
-    case kernel::Operation::lock:
-    case kernel::Operation::try_lock:
-    case kernel::Operation::unlock:
-    case kernel::Operation::lock_shared:
-    case kernel::Operation::try_lock_shared:
-    case kernel::Operation::unlock_shared:
-    case kernel::Operation::wait: return true;
-    default: return false;
-  }
-}
-
-/// In weak memory, events whose order may change what loads return, though they do not change memory: two loads of one
-/// location, since a seq_cst one has its place in the order of all; and a fence with each access to memory.
-inline bool are_dependent_in_weak_memory(kernel::Operation a, std::uint64_t x, kernel::Operation b, std::uint64_t y) {
-  const auto is_access = [](kernel::Operation operation) {
-    switch (operation) {
-      case kernel::Operation::load:
-      case kernel::Operation::store:
-      case kernel::Operation::exchange:
-      case kernel::Operation::compare_exchange:
-      case kernel::Operation::modify:
-      case kernel::Operation::fence: return true;
-      default: return false;
-    }
-  };
-  const bool has_fence = a == kernel::Operation::fence || b == kernel::Operation::fence;
-  return is_access(a) && is_access(b) && (has_fence || x == y);
-}
-
-/// True if it acts on something that the kernel does not know as an object, if it is given none: a descriptor, a file,
-/// a signal, memory between processes.
-inline bool acts_on_unknown(kernel::Operation operation) {
-  switch (operation) {
-    case kernel::Operation::start:
-    case kernel::Operation::end:
-    case kernel::Operation::resume:
-    case kernel::Operation::timeout:
-    case kernel::Operation::yield:
-    case kernel::Operation::sleep:
-    case kernel::Operation::fence: return false;
-    default: return true;
-  }
-}
-
-/// `x` and `y` identify the objects; 0: none.
-inline bool are_dependent(kernel::Operation a, std::uint64_t x, kernel::Operation b, std::uint64_t y) {
-  // Whatever comes behind the end of the process does not happen.
-  if (a == kernel::Operation::exit || b == kernel::Operation::exit) return true;
-  if (x == 0 && y == 0) return acts_on_unknown(a) && acts_on_unknown(b);
-  return x == y && !(is_read_only(a) && is_read_only(b));
-}
-
-/// Compares the pending operations of two tasks.
-inline bool are_dependent(const kernel::Task& a, const kernel::Task& b) {
-  const auto identity = [](const kernel::Task& task) { return task.at != nullptr ? task.at->identity : 0; };
-  return are_dependent(a.operation, identity(a), b.operation, identity(b));
+inline bool are_dependent(const Action& a, const Action& b, Memory memory) {
+  const Effect x = effect_of(a, memory), y = effect_of(b, memory);
+  if ((x.changes & (y.reads | y.changes)) != 0 || (y.changes & x.reads) != 0) return true;
+  return a.object == b.object && x.has_object && y.has_object && (x.changes_object || y.changes_object);
 }
 
 }  // namespace waitpoint::exploration

@@ -16,22 +16,6 @@ bool any(const Where& where, Test test) {
 
 }  // namespace
 
-Dpor::Event Dpor::event_of(const Task& task) {
-  return {task.id, task.operation, task.at != nullptr ? task.at->identity : 0, task.seat != nullptr};
-}
-
-bool Dpor::are_dependent(const Event& a, const Event& b) const {
-  if (acts_on_any(a.operation) || acts_on_any(b.operation)) return true;
-  if (is_of_channel(a.operation) && is_of_channel(b.operation)) return true;
-  if (is_of_timer(a.operation) && is_of_timer(b.operation)) return true;
-  if (a.is_on_shared_processor && b.is_on_shared_processor) return true;
-  if (releases_unseen(a.operation) && is_of_lock(b.operation)) return true;
-  if (releases_unseen(b.operation) && is_of_lock(a.operation)) return true;
-  if (memory_ == Memory::weak && are_dependent_in_weak_memory(a.operation, a.object, b.operation, b.object))
-    return true;
-  return exploration::are_dependent(a.operation, a.object, b.operation, b.object);
-}
-
 void Dpor::join(Clock& into, const Clock& other) {
   for (const auto& [task, events] : other) {
     std::uint32_t& known = into[task];
@@ -68,7 +52,8 @@ void Dpor::begin(std::uint64_t, const Draws&, const Profile& profile) {
 bool Dpor::choose(State& state, const State* before) {
   if (before != nullptr)
     for (const Event& event : before->asleep)
-      if (event.task != before->done.task && !are_dependent(event, before->done)) state.asleep.push_back(event);
+      if (event.task != before->done.task && !are_dependent(event.action, before->done.action, memory_))
+        state.asleep.push_back(event);
   for (const Event& event : state.ready) {
     if (any(state.asleep, [&](const Event& asleep) { return asleep.task == event.task; })) continue;
     state.done = event;
@@ -93,7 +78,7 @@ std::vector<std::size_t> Dpor::racing_with(State& state) const {
   std::vector<std::size_t> racing;
   for (std::size_t i = depth_; i-- > 0;) {
     const State& earlier = path_[i];
-    if (!earlier.is_of_task() || !are_dependent(earlier.done, state.done)) continue;
+    if (!earlier.is_of_task() || !are_dependent(earlier.done.action, state.done.action, memory_)) continue;
     if (earlier.happens_before(state.clock)) continue;
     if (earlier.instant == state.instant) racing.push_back(i);
     join(state.clock, earlier.clock);
@@ -143,7 +128,7 @@ std::uint32_t Dpor::next(const SwitchPoint& at) {
   const bool is_new = depth_ == path_.size();
   if (is_new) {
     State state;
-    for (const Task* task : at.ready) state.ready.push_back(event_of(*task));
+    for (const Task* task : at.ready) state.ready.push_back({task->id, action_of(*task)});
     const State* before = nullptr;
     for (std::size_t i = depth_; i-- > 0 && before == nullptr;)
       if (path_[i].is_of_task()) before = &path_[i];

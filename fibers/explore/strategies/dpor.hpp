@@ -20,6 +20,9 @@
 
 namespace waitpoint::exploration {
 
+/// What a search by dpor covers, where that may not be assumed.
+inline constexpr const char* up_to_equivalence = " up to the order of independent events, if there are no data races";
+
 class Dpor final : public Strategy {
  public:
   void begin(std::uint64_t, const Draws&, const Profile&) override;
@@ -38,9 +41,7 @@ class Dpor final : public Strategy {
   using Clock = dpor::Clock;
   using State = dpor::State;
 
-  bool are_dependent(const Event& a, const Event& b) const;
   static void join(Clock& into, const Clock& other);
-  static Event event_of(const Task& task);
   bool choose(State& state, const State* before);
   void execute(State& state, const Task& task);
   Clock clock_of_making(const Task& task) const;

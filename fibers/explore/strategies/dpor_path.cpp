@@ -12,9 +12,9 @@ namespace {
 template <class Pass, class E>
 void pass_event(Pass& pass, E& event) {
   pass(event.task);
-  pass(event.operation);
-  pass(event.object);
-  pass(event.is_on_shared_processor);
+  pass(event.action.operation);
+  pass(event.action.object);
+  pass(event.action.is_on_shared_processor);
 }
 
 template <class Pass, class S>

@@ -8,16 +8,14 @@
 #include <span>
 #include <vector>
 
-#include "fibers/kernel/task.hpp"
+#include "fibers/explore/strategies/dependence.hpp"
 
 namespace waitpoint::exploration::dpor {
 
 /// The pending event of a task.
 struct Event {
   std::uint64_t task = 0;
-  kernel::Operation operation = kernel::Operation::start;
-  std::uint64_t object = 0;             ///< identity; 0: none
-  bool is_on_shared_processor = false;  ///< its turn delays the others', by an order that depends on their priorities
+  Action action;
 };
 
 /// By task, the number of its events that happen before: a vector clock.

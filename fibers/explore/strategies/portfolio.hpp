@@ -24,6 +24,9 @@ class Portfolio final : public Strategy {
     }
     return none;
   }
+  void hold(std::span<const Constraint> constraints) override {
+    for (const auto& part : parts_) part->hold(constraints);
+  }
   bool end() override { return part_->end(); }
   Strategy& deciding() override { return *part_; }
   std::uint32_t next(const SwitchPoint& at) override { return part_->next(at); }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // POS: partial order sampling (Yuan, Yang, Gu, "Partial order aware concurrency sampling", CAV 2018). Each pending
-// event has a random priority; the highest executes, and those that race with it, at the same object, redraw. So both
-// orders of two racing events are equally likely, however far apart they are.
+// event has a random priority; the highest executes, and those that race with it, i.e. that are dependent, redraw. So
+// both orders of two racing events are equally likely, however far apart they are.
 #pragma once
 
 #include "fibers/explore/strategies/dependence.hpp"
@@ -12,7 +12,10 @@ namespace waitpoint::exploration {
 /// The priorities of the pending events of one schedule.
 class EventPriorities {
  public:
-  void clear() { pending_.clear(); }
+  void clear(Memory memory) {
+    pending_.clear();
+    memory_ = memory;
+  }
 
   /// The index of the event of the highest priority among those that `permits(task)`; of all, if it permits none.
   template <class Permits>
@@ -45,11 +48,15 @@ class EventPriorities {
     return pending.priority;
   }
   void redraw_racing(const SwitchPoint& at, const Task& chosen, Draws& draws) {
+    if (at.ready.size() == 1) return;
+    const Action action = action_of(chosen);
     for (const Task* other : at.ready)
-      if (other != &chosen && are_dependent(*other, chosen)) pending_[other->number].priority = draws.bits();
+      if (other != &chosen && are_dependent(action_of(*other), action, memory_))
+        pending_[other->number].priority = draws.bits();
   }
 
   std::vector<Pending> pending_;  // by Task::number
+  Memory memory_ = Memory::sc;
 };
 
 class Pos final : public Drawn {
@@ -59,7 +66,7 @@ class Pos final : public Drawn {
   }
 
  private:
-  void start(const Profile&) override { priorities_.clear(); }
+  void start(const Profile& profile) override { priorities_.clear(profile.memory); }
 
   EventPriorities priorities_;
 };

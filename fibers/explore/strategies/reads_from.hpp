@@ -7,6 +7,7 @@
 
 #include <compare>
 #include <cstdint>
+#include <vector>
 
 #include "fibers/explore/strategies/dependence.hpp"
 
@@ -23,6 +24,14 @@ struct ReadsFrom {
   friend auto operator<=>(const ReadsFrom&, const ReadsFrom&) = default;
   std::uint64_t hash() const { return Digest::mix(object ^ Digest::mix(writer ^ Digest::mix(reader))); }
 };
+
+/// What a schedule shall have, or not have, of the relation.
+struct Constraint {
+  ReadsFrom pair;
+  bool is_wanted = true;
+  bool is_met = false;  ///< wanted, and has occurred in this schedule
+};
+using Constraints = std::vector<Constraint>;
 
 /// The abstract event that is pending in `task`; 0 if it has no object.
 inline std::uint64_t abstract_event(const kernel::Task& task) {

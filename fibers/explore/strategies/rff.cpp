@@ -1,66 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fibers/explore/strategies/rff.hpp"
 
-#include <algorithm>
+#include <utility>
 
 namespace waitpoint::exploration {
 
 void Rff::start(const Profile& profile) {
   held_steps_ = times_usual * profile.steps;
-  priorities_.clear();
+  priorities_.clear(profile.memory);
   changes_.clear();
   seen_.clear();
-  constraints_.clear();
-  if (known_.empty()) return;
-  if (!kept_.empty()) constraints_ = rare_one().constraints;
-  mutate();
-}
-
-// Of some kept ones, the one whose combination the fewest schedules had and that was taken the fewest times.
-Rff::Kept& Rff::rare_one() {
-  Kept* rarest = nullptr;
-  for (int i = 0; i < compared; ++i) {
-    Kept& one = kept_[draw(kept_.size())];
-    if (rarest == nullptr || one.taken + times_[one.combination] < rarest->taken + times_[rarest->combination])
-      rarest = &one;
-  }
-  ++rarest->taken;
-  return *rarest;
-}
-
-// A pair, or the writer of one with the reader of another at the same object.
-Rff::Constraint Rff::new_constraint() {
-  ReadsFrom pair = known_[draw(known_.size())];
-  const ReadsFrom& other = known_[draw(known_.size())];
-  if (other.object == pair.object) pair.writer = other.writer;
-  return {pair, draw(2) == 0};
-}
-
-// An abstract event reads from one other: a constraint takes the place of an earlier one of the same reader.
-void Rff::constrain(const Constraint& constraint) {
-  for (Constraint& other : constraints_)
-    if (other.pair.reader == constraint.pair.reader) {
-      other = constraint;
-      return;
-    }
-  if (constraints_.size() < constraints_max)
-    constraints_.push_back(constraint);
-  else
-    constraints_[draw(constraints_max)] = constraint;
-}
-
-// Adds a constraint, removes one, or reverses one, several times now and then.
-void Rff::mutate() {
-  do {
-    const std::uint32_t which = constraints_.empty() ? 0 : draw(4);
-    const auto at = static_cast<std::ptrdiff_t>(constraints_.empty() ? 0 : draw(constraints_.size()));
-    if (which == 2)
-      constraints_.erase(constraints_.begin() + at);
-    else if (which == 3)
-      constraints_[static_cast<std::size_t>(at)].is_wanted ^= true;
-    else
-      constrain(new_constraint());
-  } while (draw(4) == 0);
+  constraints_ = given_.empty() ? corpus_.draw(draws_) : given_;
 }
 
 std::uint64_t Rff::last_change(std::uint64_t object) const {
@@ -101,29 +51,8 @@ std::uint32_t Rff::next(const SwitchPoint& at) {
   return chosen;
 }
 
-void Rff::keep(std::uint64_t combination) {
-  for (Constraint& constraint : constraints_) constraint.is_met = false;
-  if (kept_.size() < kept_max)
-    kept_.push_back({constraints_, combination, 0});
-  else
-    kept_[draw(kept_max)] = {constraints_, combination, 0};
-}
-
-// A new pair becomes a constraint of the schedule that has it.
 bool Rff::end() {
-  std::sort(seen_.begin(), seen_.end());
-  seen_.erase(std::unique(seen_.begin(), seen_.end()), seen_.end());
-  std::uint64_t combination = 0;
-  bool is_new = false;
-  for (const ReadsFrom& pair : seen_) {
-    const std::uint64_t hash = pair.hash();
-    combination = Digest::mix(combination ^ hash);
-    if (times_[hash]++ > 0) continue;
-    known_.push_back(pair);
-    is_new = true;
-    constrain({pair, true});
-  }
-  if (times_[combination]++ == 0 || is_new) keep(combination);
+  corpus_.learn(std::move(constraints_), seen_, draws_);
   return true;
 }
 

@@ -11,7 +11,7 @@
 #include <unordered_map>
 
 #include "fibers/explore/strategies/pos.hpp"
-#include "fibers/explore/strategies/reads_from.hpp"
+#include "fibers/explore/strategies/reads_from_corpus.hpp"
 
 namespace waitpoint::exploration {
 
@@ -20,43 +20,24 @@ class Rff final : public Drawn {
   std::uint32_t next(const SwitchPoint& at) override;
   bool end() override;
   std::uint64_t first_learned(std::uint64_t from) const override { return from; }
+  void hold(std::span<const Constraint> constraints) override { given_.assign(constraints.begin(), constraints.end()); }
+  const std::vector<ReadsFrom>* pairs() const override { return &seen_; }
 
  private:
-  struct Constraint {
-    ReadsFrom pair;
-    bool is_wanted;
-    bool is_met = false;  // wanted, and has occurred in this schedule
-  };
-  using Constraints = std::vector<Constraint>;
-  struct Kept {
-    Constraints constraints;
-    std::uint64_t combination;  // of the pairs of its run
-    std::uint64_t taken;        // the schedules derived from it
-  };
-
   void start(const Profile& profile) override;
-  Kept& rare_one();
-  void mutate();
-  Constraint new_constraint();
-  void constrain(const Constraint& constraint);
   bool permits(const Task& task) const;
   void note(const Task& task);
-  void keep(std::uint64_t combination);
   std::uint64_t last_change(std::uint64_t object) const;
 
-  static constexpr std::size_t kept_max = 2000, constraints_max = 20;
-  static constexpr int compared = 8;
   static constexpr std::uint32_t times_usual = 2;  // the default order's length
 
+  ReadsFromCorpus corpus_;  // of this process's schedules
+  Constraints given_;       // of another process's corpus, for the next schedule
   EventPriorities priorities_;
   std::uint32_t held_steps_ = 0;  // the constraints hold up to there: a loop that waits for an event held would not end
   Constraints constraints_;
   std::unordered_map<std::uint64_t, std::uint64_t> changes_;  // by object: the event that has changed it last
   std::vector<ReadsFrom> seen_;                               // the pairs of this schedule
-
-  std::vector<ReadsFrom> known_;  // the pairs of all schedules, in the order of their first occurrence
-  std::unordered_map<std::uint64_t, std::uint64_t> times_;  // by pair, and by combination: the schedules that had it
-  std::vector<Kept> kept_;
 };
 
 }  // namespace waitpoint::exploration

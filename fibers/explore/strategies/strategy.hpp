@@ -13,6 +13,7 @@
 
 #include "fibers/explore/strategies/draws.hpp"
 #include "fibers/explore/strategies/profile.hpp"
+#include "fibers/explore/strategies/reads_from.hpp"
 #include "fibers/kernel/decisions.hpp"
 
 namespace waitpoint::exploration {
@@ -48,6 +49,11 @@ class Strategy {
   /// The first schedule, `from` or a later one, whose course those after it depend on: it must be run before them.
   virtual std::uint64_t first_learned(std::uint64_t from) const { return is_exhaustive() ? from : none; }
   static constexpr std::uint64_t none = ~std::uint64_t{0};
+  /// Before begin(), of a strategy that learns from schedules which other processes have executed: what that has led
+  /// to.
+  virtual void hold(std::span<const Constraint>) {}
+  /// Of such a strategy: the pairs of this schedule so far; else null.
+  virtual const std::vector<ReadsFrom>* pairs() const { return nullptr; }
   /// Ends the schedule; false if no other is left to try.
   virtual bool end() { return true; }
   /// Of an exhaustive strategy: " with at most 2 preemptions", or "" if it tries all.

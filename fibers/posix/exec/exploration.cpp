@@ -21,6 +21,7 @@ constexpr std::uint32_t steps_of_an_instant_max = 100'000'000;
 exploration::Profile profile_of(const Asked& asked) {
   exploration::Profile profile;
   profile.steps = asked.steps;
+  profile.memory = asked.memory;
   for (const Asked::TaskProfile& task : asked.tasks)
     profile.tasks.push_back({task.task, task.parent, task.events, {task.objects.begin(), task.objects.end()}});
   profile.shared.assign(asked.shared.begin(), asked.shared.end());
@@ -60,7 +61,9 @@ const Asked* shared_copy(const Asked& asked) {
 }
 
 Explored::Explored(kernel::Scheduler& scheduler, const Asked& asked)
-    : explorer(scheduler, steps_of_an_instant_max), narrator(scheduler, explorer), known(profile_of(asked)) {
+    : explorer(scheduler, steps_of_an_instant_max, asked.memory),
+      narrator(scheduler, explorer),
+      known(profile_of(asked)) {
   begin(asked);
   watch(scheduler, asked);
 }
@@ -68,8 +71,11 @@ Explored::Explored(kernel::Scheduler& scheduler, const Asked& asked)
 exploration::Course Explored::course_of(const Asked& asked) const {
   const auto id = static_cast<std::uint64_t>(family::own->id);
   const std::uint64_t number = family::is_first() ? asked.number : Digest::mix(asked.number ^ Digest::mix(id));
-  exploration::Course course{asked.strategy, asked.seed, number, {}, {}};
-  if (family::is_first()) course.progress = asked.progress;
+  exploration::Course course{asked.strategy, asked.seed, number};
+  if (family::is_first()) {
+    course.constraints = asked.constraints;
+    course.progress = asked.progress;
+  }
   if (asked.at_random_from != Asked::none) course.at_random_from = asked.at_random_from;
   return course;
 }
@@ -82,6 +88,7 @@ void Explored::continue_in_process(const Asked& asked) {
 void Explored::begin(const Asked& asked) {
   strategy = exploration::begin_course(course_of(asked), explorer, known);
   WAITPOINT_CHECK(strategy != nullptr, "a course of exploration has no strategy");
+  pairs = strategy->deciding().pairs();
   explorer.begin(*strategy, {.switches = asked.switches, .deviations = asked.deviations});
 }
 

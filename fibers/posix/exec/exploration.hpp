@@ -36,8 +36,9 @@ struct Asked {
   std::uint64_t number = 0;  ///< of the schedule: its random draws follow from this and the seed
   std::span<const exploration::Switch> switches = {};
   std::span<const exploration::Deviation> deviations = {};
-  std::span<const std::uint64_t> progress = {};  ///< as in exploration::Course; of the first process only
-  std::size_t at_random_from = none;             ///< after this decision, alternatives are chosen at random
+  std::span<const std::uint64_t> progress = {};               ///< as in exploration::Course; of the first process only
+  std::span<const exploration::Constraint> constraints = {};  ///< the same
+  std::size_t at_random_from = none;  ///< after this decision, alternatives are chosen at random
   std::uint32_t steps = 0;
   std::span<const TaskProfile> tasks = {};
   std::span<const std::uint64_t> shared = {};
@@ -74,6 +75,7 @@ struct Explored {
   std::optional<ProcessChoices> processes;
   exploration::Profile known;
   std::unique_ptr<exploration::Strategy> strategy;
+  const std::vector<exploration::ReadsFrom>* pairs = nullptr;  ///< Strategy::pairs() of the deciding strategy
   exploration::Profile profile;
   std::vector<exploration::DoneEvent> log;
   std::optional<HistoryRecorder> recorder;  ///< if events are asked for

@@ -23,9 +23,9 @@ using namespace std::chrono_literals;
 TEST(Explore, WhatHoldsInAllSchedulesPasses) {
   const ExploreReport report = explore([] { count_to_three(1); });
   EXPECT_TRUE(report.passed) << report;
-  EXPECT_GT(report.schedules, 9'000U);
-  EXPECT_GT(report.distinct, 50U);
-  EXPECT_FALSE(report.complete);
+  EXPECT_EQ(report.distinct,
+            36U);  // of three stores in any order; the first one's load has one place, the others 2 and 3
+  EXPECT_TRUE(report.complete);
   EXPECT_TRUE(simulate(lose_a_wake_up).passed);  // the default order passes
 }
 
