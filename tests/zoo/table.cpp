@@ -17,8 +17,8 @@
 
 namespace {
 
-constexpr const char* strategies[] = {"portfolio", "random", "pct:2", "pct:3",    "pos",
-                                      "urw",       "surw",   "rff",   "bounded:2"};
+constexpr const char* strategies[] = {"portfolio", "random", "pct:2", "pct:3",     "pos",
+                                      "urw",       "surw",   "rff",   "goexplore", "bounded:2"};
 constexpr std::uint64_t seeds = 20, schedules_max = 10'000;
 
 constexpr std::uint64_t schedules_of_share = 20'000;

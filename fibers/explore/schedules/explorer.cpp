@@ -33,7 +33,8 @@ void Explorer::begin(Strategy& strategy, const Played& played) {
   played_ = played;
   plays_ = !played.prefix.empty() || !played.switches.empty() || !played.deviations.empty() ||
            played.stop_at != Played().stop_at;
-  switches_.assign(played.switches.begin(), played.switches.end());
+  switches_.clear();
+  for (const Switch& change : played.switches) switches_.emplace_back(change, switches_.size());
   std::sort(switches_.begin(), switches_.end());
   schedule_.decisions.clear();
   schedule_.switches.clear();
@@ -68,8 +69,10 @@ const Decision* Explorer::of_prefix(Choice choice, std::uint32_t count) {
   return nullptr;
 }
 
-bool Explorer::is_played(const Switch& change) const {
-  return std::binary_search(switches_.begin(), switches_.end(), change);
+// The place of that switch among those to play; their number if it is none of them.
+std::size_t Explorer::place_of(const Switch& change) const {
+  const auto found = std::lower_bound(switches_.begin(), switches_.end(), std::pair(change, std::size_t{0}));
+  return found != switches_.end() && found->first == change ? found->second : switches_.size();
 }
 
 void Explorer::begin_instant(Time now) {
@@ -160,11 +163,16 @@ std::uint32_t Explorer::choose(std::span<Task* const> ready, std::uint32_t usual
   const auto count = static_cast<std::uint32_t>(ready.size());
   if (const Decision* decision = of_prefix(Choice::task, count)) return decision->chosen;
   if (const std::uint32_t chosen = of_deviations(count); chosen != count) return chosen;
-  if (!switches_.empty()) {
-    for (std::uint32_t i = 0; i < count; ++i)
-      if (i != usual && is_played({Choice::task, event_of(*ready[usual]), event_of(*ready[i])})) return i;
+  // Several may fit, if the default one is left waiting more than once: then in their order.
+  std::size_t first = switches_.size();
+  std::uint32_t chosen = count;
+  for (std::uint32_t i = 0; i < count && !switches_.empty(); ++i) {
+    if (i == usual) continue;
+    const std::size_t place = place_of({Choice::task, event_of(*ready[usual]), event_of(*ready[i])});
+    if (place < first) chosen = i;
+    first = std::min(first, place);
   }
-  return count;
+  return chosen;
 }
 
 // The tasks among `count` that are not offered, after leave_spinning_out().
@@ -285,7 +293,7 @@ std::uint32_t Explorer::alternative(Decision decision, const Task& task, std::ui
     if (const Decision* const played = of_prefix(choice, count)) chosen = played->chosen;
     if (chosen == count) chosen = of_deviations(count);
     for (std::uint32_t i = 1; i < count && !switches_.empty() && chosen == count; ++i)
-      if (is_played({choice, event_of(task), {i, time}})) chosen = i;
+      if (place_of({choice, event_of(task), {i, time}}) < switches_.size()) chosen = i;
   }
   if (chosen == count) chosen = offered > 1 ? strategy_->among(choice, task, offered) : 0;
   WAITPOINT_CHECK(chosen < count, "a strategy chose an alternative that does not exist");

@@ -11,6 +11,7 @@
 
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "fibers/explore/schedules/trace_hash.hpp"
@@ -27,7 +28,7 @@ inline constexpr std::uint32_t computing_steps = 64;
 struct Played {
   /// The first decisions, while the run has the same alternatives.
   std::span<const Decision> prefix = {};
-  /// After them: switches, each made wherever it fits.
+  /// After them: switches, each made wherever it fits, the first of those that do.
   std::span<const Switch> switches = {};
   /// Alternatives at decisions of these numbers, ascending.
   std::span<const Deviation> deviations = {};
@@ -117,7 +118,7 @@ class Explorer final : public kernel::Decisions {
   void note_look(const Task& task, RecentAccesses& habit);
   std::uint32_t of_deviations(std::uint32_t count);
   const Decision* of_prefix(Choice choice, std::uint32_t count);
-  bool is_played(const Switch& change) const;
+  std::size_t place_of(const Switch& change) const;
   void stop_spinning();
 
   kernel::Scheduler& scheduler_;
@@ -125,7 +126,7 @@ class Explorer final : public kernel::Decisions {
   Strategy* strategy_ = nullptr;
   Played played_;
   bool plays_ = false;
-  std::vector<Switch> switches_;  // those to play, in order: indexed, since a long run searches them often
+  std::vector<std::pair<Switch, std::size_t>> switches_;  // those to play, with their places; sorted, to be searched
   Schedule schedule_;
   TraceHash trace_;
   std::vector<RecentAccesses> habits_;

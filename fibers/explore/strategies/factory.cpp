@@ -9,6 +9,7 @@
 #include "fibers/explore/strategies/dfs.hpp"
 #include "fibers/explore/strategies/dpor.hpp"
 #include "fibers/explore/strategies/fifo.hpp"
+#include "fibers/explore/strategies/go_explore.hpp"
 #include "fibers/explore/strategies/pct.hpp"
 #include "fibers/explore/strategies/portfolio.hpp"
 #include "fibers/explore/strategies/pos.hpp"
@@ -21,11 +22,13 @@ namespace {
 
 using Made = std::unique_ptr<Strategy>;
 
+// The proportions are measured: docs/zoo.md.
 Made make_portfolio() {
-  std::vector<Made> parts;
-  for (const char* name : {"random", "pct:2", "pos", "surw", "pos", "urw", "rff", "pos", "pct:3", "surw"})
-    parts.push_back(make_strategy(name));
-  return std::make_unique<Portfolio>(std::move(parts));
+  const std::shared_ptr<Strategy> pos = make_strategy("pos"), surw = make_strategy("surw"),
+                                  returning = make_strategy("goexplore");
+  return std::make_unique<Portfolio>(std::vector<std::shared_ptr<Strategy>>{
+      make_strategy("random"), make_strategy("pct:2"), pos, returning, surw, pos, make_strategy("urw"), returning, pos,
+      make_strategy("pct:3"), surw, returning});
 }
 
 struct Known {
@@ -45,6 +48,7 @@ constexpr Known known[] = {
     {"urw", nullptr, 0, 0, [](std::uint32_t) -> Made { return std::make_unique<Urw>(false); }},
     {"surw", nullptr, 0, 0, [](std::uint32_t) -> Made { return std::make_unique<Urw>(true); }},
     {"rff", nullptr, 0, 0, [](std::uint32_t) -> Made { return std::make_unique<Rff>(); }},
+    {"goexplore", nullptr, 0, 0, [](std::uint32_t) -> Made { return std::make_unique<GoExplore>(); }},
     {"bounded", "K", 2, 0, [](std::uint32_t most) -> Made { return std::make_unique<Dfs>(most); }},
     {"dfs", nullptr, 0, 0, [](std::uint32_t) -> Made { return std::make_unique<Dfs>(); }},
     {"dpor", nullptr, 0, 0, [](std::uint32_t) -> Made { return std::make_unique<Dpor>(); }},

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Several strategies in turn, one schedule each: no single one finds all bugs.
+// Several strategies in turn, one schedule each: no single one finds all bugs. One may have several turns: with
+// feedback it learns from all of them.
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <vector>
 
@@ -11,16 +13,17 @@ namespace waitpoint::exploration {
 
 class Portfolio final : public Strategy {
  public:
-  explicit Portfolio(std::vector<std::unique_ptr<Strategy>> parts) : parts_(std::move(parts)) {}
+  /// In order of their turns; the same strategy for each of its turns.
+  explicit Portfolio(std::vector<std::shared_ptr<Strategy>> turns) : turns_(std::move(turns)) {}
 
   void begin(std::uint64_t number, const Draws& draws, const Profile& profile) override {
-    part_ = parts_[number % parts_.size()].get();
-    part_->begin(number / parts_.size(), draws, profile);
+    part_ = &part(number);
+    part_->begin(number_of_part(number), draws, profile);
   }
   std::uint64_t first_learned(std::uint64_t from) const override {
-    for (std::uint64_t number = from; number - from < parts_.size(); ++number) {
-      const std::uint64_t of_part = number / parts_.size();
-      if (parts_[number % parts_.size()]->first_learned(of_part) == of_part) return number;
+    for (std::uint64_t number = from; number - from < turns_.size(); ++number) {
+      const std::uint64_t of_part = number_of_part(number);
+      if (part(number).first_learned(of_part) == of_part) return number;
     }
     return none;
   }
@@ -35,7 +38,16 @@ class Portfolio final : public Strategy {
   }
 
  private:
-  std::vector<std::unique_ptr<Strategy>> parts_;
+  Strategy& part(std::uint64_t number) const { return *turns_[number % turns_.size()]; }
+  /// The number of its schedule, counted by its own turns.
+  std::uint64_t number_of_part(std::uint64_t number) const {
+    const auto& of = turns_[number % turns_.size()];
+    const auto begin = turns_.begin(), now = begin + static_cast<std::ptrdiff_t>(number % turns_.size());
+    const auto of_round = static_cast<std::uint64_t>(std::count(begin, turns_.end(), of));
+    return number / turns_.size() * of_round + static_cast<std::uint64_t>(std::count(begin, now, of));
+  }
+
+  std::vector<std::shared_ptr<Strategy>> turns_;
   Strategy* part_ = nullptr;
 };
 

@@ -52,17 +52,19 @@ Found first_failure(const std::string& name, std::uint64_t seed) {
 }
 
 TEST(Feedback, LeadsStepByStepToARareOrder) {
-  std::uint64_t by_feedback = 0, without = 0;
+  std::uint64_t by_pairs = 0, by_states = 0, without = 0;
   for (const std::uint64_t seed : {1, 2, 3, 4, 5}) {
-    by_feedback += first_failure("rff", seed).number;
+    by_pairs += first_failure("rff", seed).number;
+    by_states += first_failure("goexplore", seed).number;
     without += first_failure("pos", seed).number;
   }
-  EXPECT_LT(by_feedback * 2, without);
+  EXPECT_LT(by_pairs * 2, without);
+  EXPECT_LT(by_states * 8, without);
 }
 
 TEST(Feedback, ATokenByNumberRepeatsTheSchedulesBefore) {
   std::uint32_t call = 0;
-  for (const std::string strategy : {"rff", "portfolio"}) {
+  for (const std::string strategy : {"rff", "goexplore", "portfolio"}) {
     const Found found = first_failure(strategy, 3);
     const exploration::Token token{++call, exploration::token_digest(found.digest), strategy, 3, found.number, {}};
     const ExploreReport again = explore(alternate, {.replay = to_text(token), .minimize = false});

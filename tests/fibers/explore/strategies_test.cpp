@@ -16,7 +16,7 @@ namespace waitpoint {
 namespace {
 
 const std::vector<std::string> all = {"portfolio", "fifo", "random", "pct:2",     "pct:3",     "pos", "urw",
-                                      "surw",      "dfs",  "dpor",   "bounded:1", "bounded:2", "rff"};
+                                      "surw",      "dfs",  "dpor",   "bounded:1", "bounded:2", "rff", "goexplore"};
 
 // Two tasks append a letter each, `each` times: all possible words.
 std::set<std::string> words(const std::string& strategy, int each, bool& complete, std::uint64_t& schedules) {
