@@ -48,6 +48,7 @@ OWN_CASES = {
     "exec, repeatability": [sys.executable, str(ROOT / "tests/exec/repeatability_test.py"), BUILD],
     "explore --exec": [sys.executable, str(ROOT / "tests/exec/exploring_test.py"), BUILD],
     "explore --exec, ends": [sys.executable, str(ROOT / "tests/exec/ends_test.py"), BUILD],
+    "explore --exec, accesses": [sys.executable, str(ROOT / "tests/exec/accesses_test.py"), BUILD],
     "explore --exec, processes": [sys.executable, str(ROOT / "tests/exec/exploring_processes_test.py"), BUILD],
     "explore --exec, data races": [sys.executable, str(ROOT / "tests/exec/races_test.py"), BUILD],
     "explore --exec, weak memory": [sys.executable, str(ROOT / "tests/exec/weak_memory_test.py"), BUILD],

@@ -112,9 +112,47 @@ bool is_repeated(const ZydisDecodedInstruction& instruction) {
   return (instruction.attributes & (ZYDIS_ATTRIB_HAS_REP | ZYDIS_ATTRIB_HAS_REPE | ZYDIS_ATTRIB_HAS_REPNE)) != 0;
 }
 
+// Without what executes it and where: a copy of it is executed elsewhere.
+AccessInstruction coded(const ZydisDecodedInstruction& instruction, std::uint64_t address, const char* code) {
+  AccessInstruction access{};
+  access.offset = address;
+  access.base = access.index = access.bit = AccessInstruction::none;
+  access.length = instruction.length;
+  std::memcpy(access.code, code, instruction.length);
+  return access;
+}
+
+// Those that fill and copy memory.
+std::optional<AccessInstruction> string_access_of(const ZydisDecodedInstruction& instruction,
+                                                  const ZydisDecodedOperand& target, AccessInstruction access) {
+  const std::string_view name = ZydisMnemonicGetString(instruction.mnemonic);
+  if (instruction.address_width != 64 || (!name.starts_with("stos") && !name.starts_with("movs"))) return std::nullopt;
+  access.base = REG_RDI;
+  access.bytes = static_cast<std::uint8_t>(target.size / 8);
+  access.writes = true;
+  access.is_repeated = is_repeated(instruction);
+  access.copies = name.starts_with("movs");
+  return access;
+}
+
+bool names_bit(const ZydisDecodedInstruction& instruction) {
+  return instruction.mnemonic == ZYDIS_MNEMONIC_BT || instruction.mnemonic == ZYDIS_MNEMONIC_BTS ||
+         instruction.mnemonic == ZYDIS_MNEMONIC_BTR || instruction.mnemonic == ZYDIS_MNEMONIC_BTC;
+}
+
+// The whole register, of which the operand may be a part.
+ZydisRegister whole(ZydisRegister part) { return ZydisRegisterGetLargestEnclosing(ZYDIS_MACHINE_MODE_LONG_64, part); }
+
 std::optional<AccessInstruction> access_of(const ZydisDecodedInstruction& instruction,
-                                           std::span<const ZydisDecodedOperand> operands, std::uint64_t address) {
-  if (is_repeated(instruction)) return std::nullopt;
+                                           std::span<const ZydisDecodedOperand> operands, std::uint64_t address,
+                                           const char* code) {
+  AccessInstruction access = coded(instruction, address, code);
+  if (instruction.meta.category == ZYDIS_CATEGORY_STRINGOP)
+    return string_access_of(instruction, operands.front(), access);
+  // Calls and jumps: their copies would push and compute other addresses.
+  if (is_repeated(instruction) || instruction.meta.category == ZYDIS_CATEGORY_CALL ||
+      instruction.meta.category == ZYDIS_CATEGORY_UNCOND_BR)
+    return std::nullopt;
   for (const ZydisDecodedOperand& operand : operands.first(instruction.operand_count_visible)) {
     if (operand.type != ZYDIS_OPERAND_TYPE_MEMORY || operand.mem.type != ZYDIS_MEMOP_TYPE_MEM) continue;
     if (operand.mem.segment == ZYDIS_REGISTER_FS || operand.mem.segment == ZYDIS_REGISTER_GS) continue;
@@ -123,19 +161,21 @@ std::optional<AccessInstruction> access_of(const ZydisDecodedInstruction& instru
     const unsigned bytes = operand.size / 8;
     const auto base = saved_place(operand.mem.base), index = saved_place(operand.mem.index);
     if ((!writes && !reads) || bytes == 0 || bytes > 64 || !base || !index) continue;
-    const bool is_relative = operand.mem.base == ZYDIS_REGISTER_RIP;
     const std::int64_t next = static_cast<std::int64_t>(address + instruction.length);
-    const bool is_exchange = instruction.mnemonic == ZYDIS_MNEMONIC_XCHG;
-    return AccessInstruction{.offset = address,
-                             .displacement = (is_relative ? next : 0) + operand.mem.disp.value,
-                             .base = *base,
-                             .index = *index,
-                             .scale = operand.mem.scale,
-                             .bytes = static_cast<std::uint8_t>(bytes),
-                             .reads = reads,
-                             .writes = writes,
-                             .is_locked = is_exchange || (instruction.attributes & ZYDIS_ATTRIB_HAS_LOCK) != 0,
-                             .is_absolute = is_relative};
+    access.is_absolute = operand.mem.base == ZYDIS_REGISTER_RIP;
+    access.displacement = (access.is_absolute ? next : 0) + operand.mem.disp.value;
+    access.displacement_at = instruction.raw.disp.offset;
+    access.base = *base;
+    access.index = *index;
+    access.scale = operand.mem.scale;
+    access.bytes = static_cast<std::uint8_t>(bytes);
+    access.reads = reads;
+    access.writes = writes;
+    access.is_locked =
+        instruction.mnemonic == ZYDIS_MNEMONIC_XCHG || (instruction.attributes & ZYDIS_ATTRIB_HAS_LOCK) != 0;
+    if (names_bit(instruction) && operands[1].type == ZYDIS_OPERAND_TYPE_REGISTER)
+      access.bit = saved_place(whole(operands[1].reg.value)).value_or(AccessInstruction::none);
+    return access;
   }
   return std::nullopt;
 }
@@ -147,11 +187,14 @@ void add_accesses(const ZydisDecoder& decoder, const Piece& piece, std::span<con
   for (std::uint64_t at = 0; at < bytes.size(); at += instruction.length) {
     if (!ZYAN_SUCCESS(ZydisDecoderDecodeFull(&decoder, bytes.data() + at, bytes.size() - at, &instruction, operands)))
       return;
-    if (const auto access = access_of(instruction, operands, piece.begin + at)) found.push_back(*access);
+    if (const auto access = access_of(instruction, operands, piece.begin + at, bytes.data() + at))
+      found.push_back(*access);
   }
 }
 
 }  // namespace
+
+bool has_disassembler() { return true; }
 
 std::vector<AccessInstruction> access_instructions(const std::filesystem::path& program) {
   std::ifstream file(program, std::ios::binary);

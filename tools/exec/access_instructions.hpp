@@ -9,9 +9,12 @@
 
 namespace waitpoint::tools {
 
-/// In the order of their offsets; without those that push, pop and call, repeated ones, and those of thread-local
-/// variables. Functions are told apart by the symbols; without symbols the code is one piece. Empty for a file that is
-/// no program for x86-64.
+/// False in a build without a disassembler.
+bool has_disassembler();
+
+/// In the order of their offsets; without those that push, pop, call, jump and compare strings, and those of
+/// thread-local variables. Functions are told apart by the symbols; without symbols the code is one piece. Empty for a
+/// file that is no program for x86-64.
 std::vector<posix::AccessInstruction> access_instructions(const std::filesystem::path& program);
 
 }  // namespace waitpoint::tools

@@ -6,6 +6,8 @@
 
 namespace waitpoint::tools {
 
+bool has_disassembler() { return false; }
+
 std::vector<posix::AccessInstruction> access_instructions(const std::filesystem::path&) {
   throw BadInput("--switch-at", "this waitpoint was built without Zydis, which finds accesses (Debian's libzydis-dev)");
 }

@@ -76,7 +76,7 @@ ProgramFiles::ProgramFiles(const std::vector<std::string>& given, bool quiet, Sw
   }
   instrumented = is_instrumented(program);
   if (instrumented) (void)find_part("libtsan.so.2");  // the program would not start without it
-  if (!instrumented && at == SwitchAt::accesses) accesses = access_instructions(program);
+  if (!instrumented && at == SwitchAt::accesses && program != host) accesses = access_instructions(program);
   if (watches_accesses()) library = find_part("libwaitpoint-exec-races.so");
 }
 

@@ -3,13 +3,17 @@
 
 #include <cstdio>
 
+#include "tools/explore/switch_points.hpp"
+
 namespace waitpoint::tools {
 
 void Discoveries::take(FailedRun run) {
   const ExploreOptions& options = target_.options();
   std::vector<std::string> lines;
   if (options.races == Races::report && !run.finding.races.empty())
-    lines = races_.take(run.finding, name_of(run, options), replay_command(options, to_text(token_of(run, options))));
+    lines =
+        races_.take(run.finding, name_of(run, options),
+                    replay_command(with_switches_at(run.finding.switch_at, options), to_text(token_of(run, options))));
   const Finding::Kind kind = run.finding.kind;
   const bool is_first = kind != Finding::Kind::passed && !first_.contains(kind);
   if (is_first && (kind != Finding::Kind::race || options.races == Races::fail))
@@ -25,8 +29,10 @@ std::string Discoveries::besides(const std::vector<ToldRace>& told) const {
   std::string text;
   for (const auto& [kind, run] : first_)
     if (&run != gravest() && kind != Finding::Kind::race)
-      text.insert(0, "also found, by " + name_of(run, options) + ": " + run.finding.headline() +
-                         "\nreplay: " + replay_command(options, to_text(token_of(run, options))) + "\n");
+      text.insert(
+          0, "also found, by " + name_of(run, options) + ": " + run.finding.headline() + "\nreplay: " +
+                 replay_command(with_switches_at(run.finding.switch_at, options), to_text(token_of(run, options))) +
+                 "\n");
   return text + races_.besides(told);
 }
 

@@ -15,6 +15,7 @@ std::optional<Plan> Exhaustive::after(const Finding& finding) {
   }
   left_out_turns_ = left_out_turns_ || finding.cuts_polls_short;
   left_out_accesses_ = left_out_accesses_ || finding.has_unlearned_code;
+  is_at_calls_ = is_at_calls_ || finding.switch_at == SwitchAt::calls;
   left_out_values_ = left_out_values_ || finding.has_left_out_values;
   for (const Decision& decision : finding.choices) {
     left_out_turns_ = left_out_turns_ || decision.spinning != 0;
@@ -35,7 +36,7 @@ std::optional<std::string> Exhaustive::scope() const {
   add(left_out_spurious_, "spurious wake-ups");
   add(left_out_accesses_, "switches at first accesses to memory that the default order does not share");
   add(left_out_values_, values_left_out);
-  return scope_ + but;
+  return scope_ + (is_at_calls_ ? ", switching at calls" : "") + but;
 }
 
 }  // namespace waitpoint::tools

@@ -32,7 +32,7 @@ class Exhaustive {
   std::string scope_;
   bool is_broken_ = false;
   bool left_out_turns_ = false, left_out_costs_ = false, left_out_spurious_ = false, left_out_accesses_ = false;
-  bool left_out_values_ = false;
+  bool left_out_values_ = false, is_at_calls_ = false;
 };
 
 }  // namespace waitpoint::tools

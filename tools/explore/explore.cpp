@@ -13,6 +13,7 @@
 #include "modules/scenario/scenario_reader.hpp"
 #include "tools/command/interruption.hpp"
 #include "tools/command/program_layer.hpp"
+#include "tools/exec/access_obstacles.hpp"
 #include "tools/explore/discoveries.hpp"
 #include "tools/explore/failure_report.hpp"
 #include "tools/explore/program_replay.hpp"
@@ -60,10 +61,12 @@ std::string sum(const Target& target, const Search& search, double seconds) {
   const std::string all = search.has_drawn() ? "; exhausted, no other ordering exists" : "; exhaustive";
   const std::string scope = search.scope() ? all + *search.scope() : "";
   const std::string raced = search.raced() > 0 ? fmt::format(" ({} by a data race alone)", search.raced()) : "";
-  return fmt::format("{}: {}, {} distinct, {} failed{}, in {:.1f} s ({:.1f} a second){}{}\n", target.name(),
+  const std::string obstacle = words_of(search.obstacle());
+  const std::string at_calls = obstacle.empty() ? "" : "; switches at calls only: " + obstacle;
+  return fmt::format("{}: {}, {} distinct, {} failed{}, in {:.1f} s ({:.1f} a second){}{}{}\n", target.name(),
                      counted(search.schedules(), "schedule"), search.distinct(), search.failures(), raced, seconds,
                      seconds > 0 ? static_cast<double>(search.schedules()) / seconds : 0,
-                     search.interrupted() ? "; stopped by a signal" : "", scope);
+                     search.interrupted() ? "; stopped by a signal" : "", scope, at_calls);
 }
 
 // Failures of a graver kind than a data race are analysed without regard to races, which may be in each run.
@@ -71,6 +74,10 @@ FailureReport report_of(Target& target, SearchProgress& progress, const Discover
   const FailedRun& gravest = *discoveries.gravest();
   const bool is_race = gravest.finding.kind == Finding::Kind::race;
   if (!is_race) target.ignore_races();
+  if (gravest.finding.switch_at == SwitchAt::accesses) {
+    target.set_profile(gravest.finding.profile);
+    target.switch_at(SwitchAt::accesses);
+  }
   FailureReport result = gravest.number ? report(target, progress, gravest) : report_default(target, gravest.finding);
   result.text += discoveries.besides(is_race ? result.races : std::vector<ToldRace>());
   return result;

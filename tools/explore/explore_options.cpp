@@ -82,9 +82,10 @@ Races races_of(const std::string& option) {
 SwitchAt switch_at_named(const std::string& option) {
   std::string where = "--switch-at";
   const std::string text = text_of(option, "WAITPOINT_SWITCH_AT", where);
+  if (text == "calls") return SwitchAt::calls;
   if (text == "accesses") return SwitchAt::accesses;
-  if (!text.empty() && text != "calls") refuse(where, "calls or accesses", text);
-  return SwitchAt::calls;
+  if (!text.empty() && text != "auto") refuse(where, "auto, calls or accesses", text);
+  return SwitchAt::automatic;
 }
 
 Memory memory_of(const std::string& option) {
@@ -142,9 +143,10 @@ ExploreArguments::ExploreArguments(CommandLine& line)
                   "data races of a program compiled with -fsanitize=thread (default: $WAITPOINT_RACES, or\n"
                   "report): failures, each reported once, that do not end the search; failures like any\n"
                   "other, the first of which ends it; or no failures");
-  command_.option("--switch-at", switch_at_, "calls|accesses",
-                  "switch points of a program (default: $WAITPOINT_SWITCH_AT, or calls): simulated\n"
-                  "calls; accesses to shared memory, too, as always with -fsanitize=thread");
+  command_.option("--switch-at", switch_at_, "auto|calls|accesses",
+                  "switch points of a program (default: $WAITPOINT_SWITCH_AT, or auto): simulated\n"
+                  "calls; accesses to shared memory, too, as always with -fsanitize=thread; or, after\n"
+                  "twenty schedules at calls, ten of each in turn, where that is possible");
   command_.option("--memory", memory_, "sc|weak",
                   "memory of a program compiled with -fsanitize=thread (default: $WAITPOINT_MEMORY, or sc):\n"
                   "atomic loads return the newest value; or, as C++20 allows for their memory orders, older\n"

@@ -45,11 +45,11 @@ struct ExploreOptions {
   std::optional<std::filesystem::path> results, trace, schedule;  ///< output files
   std::string replay;  ///< a token or a file's name, to run only that schedule
   bool minimize = true;
-  bool forks_each = false;               ///< each schedule of a program has a process of its own
-  ProgramConditions conditions;          ///< of a program
-  Races races = Races::report;           ///< of a program compiled with -fsanitize=thread
-  Memory memory = Memory::sc;            ///< the same
-  SwitchAt switch_at = SwitchAt::calls;  ///< of a program without it
+  bool forks_each = false;                   ///< each schedule of a program has a process of its own
+  ProgramConditions conditions;              ///< of a program
+  Races races = Races::report;               ///< of a program compiled with -fsanitize=thread
+  Memory memory = Memory::sc;                ///< the same
+  SwitchAt switch_at = SwitchAt::automatic;  ///< of a program without it
 
   /// The end of a run, for a scenario whose own limit is `own`.
   Time limit(Duration own) const { return Time() + until.value_or(own); }

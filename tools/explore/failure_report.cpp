@@ -10,6 +10,7 @@
 #include "tools/explore/fewer_switches.hpp"
 #include "tools/explore/reversed_events.hpp"
 #include "tools/explore/search.hpp"
+#include "tools/explore/switch_points.hpp"
 
 namespace waitpoint::tools {
 namespace {
@@ -53,7 +54,7 @@ void tell_run(Target& target, const Plan& plan, const Finding& least, FailureRep
 
 FailureReport report_default(Target& target, const Finding& finding) {
   FailureReport report;
-  const ExploreOptions& options = target.options();
+  const ExploreOptions options = with_switches_at(finding.switch_at, target.options());
   report.text =
       headline(target.has_noise() ? "the default order, with the scenario's own noise," : "the default order", finding);
   report.schedule = {target.fingerprint(),
@@ -72,7 +73,7 @@ FailureReport report_default(Target& target, const Finding& finding) {
 }
 
 FailureReport report(Target& target, SearchProgress& progress, const FailedRun& failed) {
-  const ExploreOptions& options = target.options();
+  const ExploreOptions options = with_switches_at(failed.finding.switch_at, target.options());
   FailureReport report;
   report.text = headline(name_of(failed, options) + ",", failed.finding);
   const Token found = token_of(failed, options);

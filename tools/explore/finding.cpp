@@ -48,6 +48,8 @@ void pass_fields(Pass& pass, F& finding) {
   pass(finding.cuts_polls_short);
   pass(finding.has_unlearned_code);
   pass(finding.has_left_out_values);
+  pass(finding.switch_at);
+  pass(finding.obstacle);
   pass(finding.parted);
   pass(finding.racing);
   pass(finding.details);

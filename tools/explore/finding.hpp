@@ -16,6 +16,8 @@
 #include "fibers/explore/strategies/profile.hpp"
 #include "fibers/explore/strategies/reads_from.hpp"
 #include "fibers/explore/strategies/schedule.hpp"
+#include "fibers/posix/traps/access_obstacle.hpp"
+#include "tools/exec/switch_at.hpp"
 
 namespace waitpoint::tools {
 
@@ -53,9 +55,11 @@ struct Finding {
   bool was_cut = false;                 ///< dpor has ended it before its end: its rest is equivalent to others'
   bool cuts_polls_short = false;        ///< as in exploration::Schedule
   bool has_unlearned_code = false;  ///< its first accesses to shared memory were no switch points; if choices are asked
-  bool has_left_out_values = false;         ///< a load was not offered a value that it may have returned
-  bool parted = false;                      ///< the plan did not fit the run
-  std::vector<RacingCode> racing;           ///< of its data races, whatever its kind
+  bool has_left_out_values = false;          ///< a load was not offered a value that it may have returned
+  SwitchAt switch_at = SwitchAt::automatic;  ///< of a program that is not instrumented: calls or accesses
+  posix::AccessObstacle obstacle = posix::AccessObstacle::none;  ///< why it has calls in place of accesses
+  bool parted = false;                                           ///< the plan did not fit the run
+  std::vector<RacingCode> racing;                                ///< of its data races, whatever its kind
   std::vector<ToldRace> races;              ///< the same in words, if places are requested, or new to the process
   std::string details;                      ///< for failures, if places are requested: lines specific to the kind
   std::string told;                         ///< if requested: the switches, a decision or an event, in words

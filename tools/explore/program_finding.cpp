@@ -15,6 +15,7 @@
 #include "fibers/explore/strategies/dpor.hpp"
 #include "fibers/posix/exec/exploration.hpp"
 #include "tools/command/signal_words.hpp"
+#include "tools/exec/access_obstacles.hpp"
 #include "tools/exec/family_report.hpp"
 #include "tools/exec/last_calls_report.hpp"
 #include "tools/exec/misuse_report.hpp"
@@ -188,6 +189,7 @@ Finding finding_of_run(const RunMemory& memory, int status, const std::string& o
   judge(memory, status, finding);
   if (!finding.passed() && !output.empty()) finding.words += "\n" + output;
   const posix::Record& record = memory.record();
+  finding.obstacle = obstacle_of(record);
   finding.racing = racing_code(record);
   if (request.places) tell_races(record, finding);
   if (request.places && !finding.passed()) finding.details = last_calls_of(record);

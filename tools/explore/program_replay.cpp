@@ -7,6 +7,7 @@
 #include <cstdio>
 
 #include "core/error.hpp"
+#include "tools/exec/access_obstacles.hpp"
 #include "tools/exec/family_report.hpp"
 #include "tools/exec/program_run.hpp"
 #include "tools/explore/feedback.hpp"
@@ -32,12 +33,19 @@ Finding look(const ProgramFiles& files, const ExploreOptions& options, const Pla
   return finding;
 }
 
+void check_obstacle(const Finding& finding) {
+  if (const std::string words = words_of(finding.obstacle); !words.empty())
+    throw BadInput("--switch-at", words + "; expected calls");
+}
+
 /// The parts of the profile that the schedule depends on.
 exploration::Profile take_profile(const ProgramFiles& files, const ExploreOptions& options, const Plan& plan) {
   exploration::Profile known, profile;
   known.code = learn_code(files, [&](const Plan& learning, const std::vector<std::uint64_t>& code) {
     known.code = code;
-    return look(files, options, learning, {.learn = true}, known);
+    Finding finding = look(files, options, learning, {.learn = true}, known);
+    check_obstacle(finding);
+    return finding;
   });
   if (plan.drawn && needs_profile(options.strategy))
     profile = look(files, options, {.drawn = false}, {.profile = true}, known).profile;
@@ -71,6 +79,7 @@ int replay_program(const ExploreOptions& asked) {
     finding.kind = Finding::Kind::no_progress;
     finding.words = over_limit(limit_s);
   }
+  check_obstacle(finding);
   if (memory.record().explored == nullptr) throw BadInput("exec", "the program ended before main()");
   const posix::History* const history = history_of(memory.record());
   const std::vector<exploration::Told> told =

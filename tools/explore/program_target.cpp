@@ -13,12 +13,14 @@
 
 #include "core/digest.hpp"
 #include "core/error.hpp"
+#include "tools/exec/access_instructions.hpp"
 #include "tools/exec/accounts.hpp"
 #include "tools/exec/family_report.hpp"
 #include "tools/exec/program_run.hpp"
 #include "tools/exec/watchdog.hpp"
 #include "tools/explore/learned_code.hpp"
 #include "tools/explore/program_finding.hpp"
+#include "tools/explore/switch_points.hpp"
 #include "tools/output/progress.hpp"
 
 namespace waitpoint::tools {
@@ -86,36 +88,110 @@ void check_memory(const ExploreOptions& options, const ProgramFiles& files) {
 
 ProgramTarget::ProgramTarget(const ExploreOptions& options)
     : options_(options),
-      files_(options.program, false, options.switch_at),
-      fingerprint_(fingerprint_of(files_, options)),
+      calls_(ProgramFiles(options.program)),
+      fingerprint_(fingerprint_of(calls_.files, options)),
       given_input_(open_input()) {
-  options.conditions.check(files_.named());
-  check_memory(options, files_);
+  options.conditions.check(calls_.files.named());
+  check_memory(options, calls_.files);
   if (options.races == Races::ignore) ignore_races();
 }
 
 ProgramTarget::~ProgramTarget() {
   close(given_input_);
-  close_streams();
+  for (const Runs* runs : {&calls_, accesses_ ? &*accesses_ : nullptr})
+    for (const int each : {runs != nullptr ? runs->input : -1, runs != nullptr ? runs->output : -1})
+      if (each >= 0) close(each);
 }
 
-void ProgramTarget::close_streams() const {
-  for (const int each : {input_, output_})
-    if (each >= 0) close(each);
+void ProgramTarget::prepare() {
+  if (options_.switch_at == SwitchAt::accesses && !has_disassembler()) (void)access_instructions({});  // refuses
+  const ForkServer server(calls_.files, settings_of(options_));
 }
 
-void ProgramTarget::prepare() { const ForkServer server(files_, settings_of(options_)); }
-
-// The default order's profile is taken with the switch points that all runs have.
 Finding ProgramTarget::run(const Plan& plan, const Request& request) {
-  if (!request.profile || !files_.watches_accesses()) return run_once(plan, request);
-  profile_.code = learn_code(files_, [&](const Plan& learning, const std::vector<std::uint64_t>& code) {
-    profile_.code = code;
-    return run_once(learning, {.learn = true});
-  });
-  Finding finding = run_once(plan, request);
-  finding.profile.code = profile_.code;
+  const SwitchAt at = fixed_switch_at().value_or(switch_points_of(plan, options_));
+  return at == SwitchAt::calls || calls_.files.instrumented ? run_at_calls(plan, request)
+                                                            : run_at_accesses(plan, request);
+}
+
+Finding ProgramTarget::run_at_calls(const Plan& plan, const Request& request) {
+  const bool learns = request.profile && calls_.files.instrumented;
+  exploration::Profile learned;
+  // The default order's profile is taken with the switch points that all runs have.
+  if (learns)
+    learned.code = learn_code(calls_.files, [&](const Plan& learning, const std::vector<std::uint64_t>& code) {
+      learned.code = code;
+      return run_once(calls_, learning, {.learn = true}, learned);
+    });
+  Finding finding = run_once(calls_, plan, request, learns ? learned : profile_of_calls());
+  if (request.profile) finding.profile.code = learned.code;
+  if (!calls_.files.instrumented) finding.switch_at = SwitchAt::calls;
   return finding;
+}
+
+// A run that would be disturbed by breakpoints is made again without, so that a correct program does not fail.
+Finding ProgramTarget::run_at_accesses(const Plan& plan, const Request& request) {
+  posix::AccessObstacle obstacle = prepare_accesses();
+  if (obstacle == posix::AccessObstacle::none) {
+    const exploration::Profile& known = *accesses_->profile;
+    Finding finding = run_once(*accesses_, plan, request, known);
+    finding.switch_at = SwitchAt::accesses;
+    // Of other instructions than the learned ones nothing is known.
+    if (request.choices) finding.has_unlearned_code = true;
+    if (request.profile) finding.profile.code = known.code;
+    if (!request.profile && !finding.passed()) finding.profile = known;
+    if (finding.obstacle == posix::AccessObstacle::none || is_to_stop != 0) return finding;
+    obstacle = finding.obstacle;
+    if (obstacle == posix::AccessObstacle::endless) obstacle_ = obstacle;  // the next could take as long
+  }
+  Finding finding = run_at_calls(plan, request);
+  finding.obstacle = obstacle;
+  return finding;
+}
+
+// Runs at calls and at accesses have different profiles; the search's own is of what its options ask for.
+const exploration::Profile& ProgramTarget::profile_of_calls() {
+  const bool is_given =
+      calls_.files.instrumented || fixed_switch_at().value_or(options_.switch_at) != SwitchAt::accesses;
+  if (is_given || !needs_profile(options_.strategy)) return profile_;
+  if (!calls_.profile) {
+    calls_.profile.emplace();
+    calls_.profile = run_once(calls_, {.drawn = false}, {.profile = true}, *calls_.profile).profile;
+  }
+  return *calls_.profile;
+}
+
+// Once for each process that makes runs: all learn the same.
+posix::AccessObstacle ProgramTarget::prepare_accesses() {
+  if (!obstacle_) obstacle_ = learn_accesses();
+  return *obstacle_;
+}
+
+posix::AccessObstacle ProgramTarget::learn_accesses() {
+  using posix::AccessObstacle;
+  if (!has_disassembler()) return AccessObstacle::no_disassembler;
+  accesses_.emplace(ProgramFiles(options_.program, false, SwitchAt::accesses));
+  if (accesses_->files.accesses.empty()) return AccessObstacle::several_programs;
+  exploration::Profile& profile = accesses_->profile.emplace();
+  if (fixed_switch_at().value_or(options_.switch_at) == SwitchAt::accesses && !profile_.code.empty()) {
+    profile = profile_;
+    return AccessObstacle::none;
+  }
+  AccessObstacle obstacle = AccessObstacle::none;
+  profile.code = learn_code(accesses_->files, [&](const Plan& learning, const std::vector<std::uint64_t>& code) {
+    profile.code = code;
+    Finding finding = run_once(*accesses_, learning, {.learn = true}, profile);
+    obstacle = finding.obstacle;
+    return finding;
+  });
+  if (obstacle != AccessObstacle::none) return obstacle;
+  if (profile.code.empty()) return AccessObstacle::nothing_shared;
+  if (!needs_profile(options_.strategy)) return obstacle;
+  const Finding usual = run_once(*accesses_, {.drawn = false}, {.profile = true}, profile);
+  const std::vector<std::uint64_t> code = std::move(profile.code);
+  profile = usual.profile;
+  profile.code = code;
+  return usual.obstacle;
 }
 
 // Looking up source lines takes a second: a process tells of each race once, in the first run that shows it.
@@ -126,37 +202,45 @@ bool ProgramTarget::shows_new_races(const Finding& finding) {
 }
 
 // A process that makes another run has those of the last one.
-void ProgramTarget::open_streams() {
-  if (server_->is_rerun()) {
-    lseek(input_, 0, SEEK_SET);
-    if (lseek(output_, 0, SEEK_END) > 0 && ftruncate(output_, 0) == 0) lseek(output_, 0, SEEK_SET);
+void ProgramTarget::open_streams(Runs& runs) const {
+  if (runs.server->is_rerun()) {
+    lseek(runs.input, 0, SEEK_SET);
+    if (lseek(runs.output, 0, SEEK_END) > 0 && ftruncate(runs.output, 0) == 0) lseek(runs.output, 0, SEEK_SET);
     return;
   }
-  close_streams();
-  input_ = opened_again(given_input_);
-  output_ = memfd_create("waitpoint-output", MFD_CLOEXEC);
+  for (const int each : {runs.input, runs.output})
+    if (each >= 0) close(each);
+  runs.input = opened_again(given_input_);
+  runs.output = memfd_create("waitpoint-output", MFD_CLOEXEC);
 }
 
-Finding ProgramTarget::run_once(const Plan& plan, const Request& request) {
+Finding ProgramTarget::run_once(Runs& runs, const Plan& plan, const Request& request,
+                                const exploration::Profile& profile) {
   const posix::Settings settings = settings_of(options_);
-  if (!server_) {
+  if (!runs.server) {
+    // A process has one memory of runs.
+    calls_.server.reset();
+    if (accesses_) accesses_->server.reset();
     std::signal(SIGTERM, note_stop);
-    server_.emplace(files_, settings);
+    runs.server.emplace(runs.files, settings);
   }
-  Finding finding = run_in_process(settings, plan, request);
-  if (!server_->is_followed() || finding.kind <= Finding::Kind::misuse || is_to_stop != 0) return finding;
+  Finding finding = run_in_process(runs, settings, plan, request, profile);
+  if (!runs.server->is_followed() || finding.kind <= Finding::Kind::misuse || is_to_stop != 0 ||
+      finding.obstacle != posix::AccessObstacle::none)
+    return finding;
   // A failure is reported as it happens in a process of its own, whose calls are not trapped.
-  server_->fork_next();
+  runs.server->fork_next();
   posix::Settings plain = settings;
   plain.makes_reruns = false;
-  return run_in_process(plain, plan, request);
+  return run_in_process(runs, plain, plan, request, profile);
 }
 
-Finding ProgramTarget::run_in_process(const posix::Settings& settings, const Plan& plan, const Request& request) {
-  RunMemory& memory = server_->begin(settings);
-  ask_for_run(memory, files_, options_, plan, request, profile_);
-  open_streams();
-  const pid_t process = server_->start(input_, output_);
+Finding ProgramTarget::run_in_process(Runs& runs, const posix::Settings& settings, const Plan& plan,
+                                      const Request& request, const exploration::Profile& profile) {
+  RunMemory& memory = runs.server->begin(settings);
+  ask_for_run(memory, runs.files, options_, plan, request, profile);
+  open_streams(runs);
+  const pid_t process = runs.server->start(runs.input, runs.output);
   Watchdog watchdog(memory.record());
   const double start_s = wall_clock_s();
   std::uint64_t events = 0;
@@ -176,7 +260,7 @@ Finding ProgramTarget::run_in_process(const posix::Settings& settings, const Pla
       has_gone_on = events_of(memory.record()) != std::exchange(events, events_of(memory.record()));
     return !stalled.empty();
   };
-  while (!(status = server_->wait(look_around_ms)))
+  while (!(status = runs.server->wait(look_around_ms)))
     if (stalled.empty() && is_stalled()) kill(process, SIGKILL);
   // Those left behind take part in the run, up to its end.
   double looked_s = wall_clock_s();
@@ -186,9 +270,8 @@ Finding ProgramTarget::run_in_process(const posix::Settings& settings, const Pla
     return is_stalled();
   };
   if (stalled.empty() && !request.stop_before) end_others(memory.record(), is_stalled_by_now);
-  Finding finding = finding_of_run(memory, *status, end_of(output_), request, options_.trace.has_value(), races_fail());
-  // Of other instructions than the learned ones nothing is known.
-  if (request.choices && !files_.accesses.empty()) finding.has_unlearned_code = true;
+  Finding finding =
+      finding_of_run(memory, *status, end_of(runs.output), request, options_.trace.has_value(), races_fail());
   if (options_.races == Races::report && !request.learn && !request.places && shows_new_races(finding))
     tell_races(memory.record(), finding);
   if (!stalled.empty()) {
@@ -196,8 +279,9 @@ Finding ProgramTarget::run_in_process(const posix::Settings& settings, const Pla
     finding.kind = Finding::Kind::no_progress;
     finding.words = stalled;
     if (has_gone_on) finding.digest = 0;  // how far it came is the wall clock's
+    if (!runs.files.accesses.empty()) finding.obstacle = posix::AccessObstacle::endless;
   }
-  server_->end();
+  runs.server->end();
   return finding;
 }
 

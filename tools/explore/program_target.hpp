@@ -3,7 +3,7 @@
 // progress.
 //
 // Each run is a process forked just before the program's main(). All runs have the same random numbers and addresses;
-// only the schedules differ.
+// only the schedules differ, and their switch points.
 #pragma once
 
 #include <set>
@@ -20,7 +20,7 @@ class ProgramTarget final : public Target {
 
   ~ProgramTarget() override;
 
-  std::string name() const override { return files_.programs.title(); }
+  std::string name() const override { return calls_.files.programs.title(); }
   std::uint64_t fingerprint() const override { return fingerprint_; }
   bool has_noise() const override { return false; }
   const ExploreOptions& options() const override { return options_; }
@@ -31,19 +31,35 @@ class ProgramTarget final : public Target {
 
  private:
   bool has_processes() const override { return true; }
+
+  // The runs with the same switch points, and the process that makes them.
+  struct Runs {
+    explicit Runs(const ProgramFiles& of) : files(of) {}
+
+    ProgramFiles files;
+    std::optional<exploration::Profile> profile = {};  // of the default order with these switch points
+    int input = -1, output = -1;                       // of the present or last run
+    std::optional<ForkServer> server = {};
+  };
+
   bool shows_new_races(const Finding& finding);
-  void open_streams();
-  void close_streams() const;
-  Finding run_once(const Plan& plan, const Request& request);
-  Finding run_in_process(const posix::Settings& settings, const Plan& plan, const Request& request);
+  void open_streams(Runs& runs) const;
+  const exploration::Profile& profile_of_calls();
+  posix::AccessObstacle prepare_accesses();
+  posix::AccessObstacle learn_accesses();
+  Finding run_at_accesses(const Plan& plan, const Request& request);
+  Finding run_at_calls(const Plan& plan, const Request& request);
+  Finding run_once(Runs& runs, const Plan& plan, const Request& request, const exploration::Profile& profile);
+  Finding run_in_process(Runs& runs, const posix::Settings& settings, const Plan& plan, const Request& request,
+                         const exploration::Profile& profile);
 
   const ExploreOptions& options_;
-  ProgramFiles files_;
+  Runs calls_;                    // with accesses, too, if the program is instrumented
+  std::optional<Runs> accesses_;  // with breakpoints
+  std::optional<posix::AccessObstacle> obstacle_ = {};
   std::uint64_t fingerprint_;
-  int given_input_;                   // of the runs: each reads it from its beginning
-  int input_ = -1, output_ = -1;      // of the present or last run
-  std::set<RacingCode> told_;         // the races of this process's findings so far
-  std::optional<ForkServer> server_;  // of the process that runs schedules
+  int given_input_;            // of the runs: each reads it from its beginning
+  std::set<RacingCode> told_;  // the races of this process's findings so far
 };
 
 /// A digest of the program's file, its words and the settings that its runs share.

@@ -179,6 +179,7 @@ void Search::report(bool at_end) {
                       .was_cut = finding.was_cut,
                       .is_beyond = finding.is_beyond_enumeration});
     has_races_ = has_races_ || !finding.racing.empty();
+    if (obstacle_ == posix::AccessObstacle::none) obstacle_ = finding.obstacle;
     if (results_ != nullptr) results_->take(*run.number, finding);
     if (finding.passed() && finding.racing.empty()) continue;
     if (!last_ || place <= *last_) discoveries_.take(std::move(run));

@@ -41,6 +41,8 @@ class Search {
   std::uint64_t failures() const { return failures_; }
   /// Those that did not end the search, as they failed by a data race alone.
   std::uint64_t raced() const { return raced_; }
+  /// The first one to accesses as switch points, in the order of the schedules.
+  posix::AccessObstacle obstacle() const { return obstacle_; }
   bool interrupted() const { return interrupted_; }
   /// The scope of an exhausted search; nothing if it was not.
   const std::optional<std::string>& scope() const { return scope_; }
@@ -77,6 +79,7 @@ class Search {
   std::map<std::uint64_t, FailedRun> running_;  // by place, without their findings
   std::map<std::uint64_t, FailedRun> waiting_;  // ended before those of earlier places
   std::vector<Ended> ended_;                    // by place
+  posix::AccessObstacle obstacle_ = posix::AccessObstacle::none;
   bool interrupted_ = false;
 
   std::optional<Feedback> feedback_;

@@ -35,6 +35,11 @@ void Target::set_limit(double seconds) {
   limit_s_ = seconds;
 }
 
+void Target::switch_at(SwitchAt at) {
+  runs_.reset();
+  fixed_switch_at_ = at;
+}
+
 void Target::ignore_races() {
   runs_.reset();
   races_fail_ = false;

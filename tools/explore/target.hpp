@@ -52,6 +52,9 @@ class Target {
   /// Wall clock limit of each following run; 0: none. There must be no run.
   void set_limit(double seconds);
 
+  /// All following runs have these switch points. There must be no run.
+  void switch_at(SwitchAt at);
+
   /// Data races are no failures of the following runs. There must be no run.
   void ignore_races();
 
@@ -69,6 +72,7 @@ class Target {
   virtual bool has_processes() const = 0;
   double limit_s() const { return limit_s_; }
   bool races_fail() const { return races_fail_; }
+  const std::optional<SwitchAt>& fixed_switch_at() const { return fixed_switch_at_; }
   exploration::Profile profile_;
 
  private:
@@ -76,6 +80,7 @@ class Target {
 
   double limit_s_ = 0;
   bool races_fail_ = true;
+  std::optional<SwitchAt> fixed_switch_at_;
   std::optional<Children> runs_;
 };
 

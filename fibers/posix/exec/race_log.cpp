@@ -71,13 +71,15 @@ void begin_access_log(bool learn, bool notes, std::span<const AccessInstruction>
   runtime.set_weak(false);
   for (const std::uint64_t offset : code) runtime.know(offset);
   // By time: a breakpoint takes some microseconds.
-  constexpr std::uint32_t learning_of_one_max = 10'000, learning_max = 200'000, exploring_max = 50'000;
+  constexpr std::uint32_t of_one_max = 300, learning_max = 20'000, exploring_max = 4'000, spins_max = 20'000;
   trap_accesses({.instructions = instructions,
                  .report = runtime.accessed,
                  .let_others_run = kernel::yield_after_computing,
-                 .missed = [] { log().has_other_code = true; },
-                 .hits_of_one_max = learn ? learning_of_one_max : exploring_max,
-                 .hits_max = learn ? learning_max : exploring_max});
+                 .missed = [] { log().has_other_code = log().has_lost_breakpoints = true; },
+                 .prevented = [](AccessObstacle obstacle) { log().obstacle = obstacle; },
+                 .hits_of_one_max = of_one_max,
+                 .hits_max = learn ? learning_max : exploring_max,
+                 .spins_max = spins_max});
 }
 
 }  // namespace waitpoint::posix

@@ -13,6 +13,7 @@
 #include "fibers/explore/races/located_race.hpp"
 #include "fibers/explore/strategies/memory_option.hpp"
 #include "fibers/posix/traps/access_instruction.hpp"
+#include "fibers/posix/traps/access_obstacle.hpp"
 
 namespace waitpoint::posix {
 
@@ -25,9 +26,11 @@ struct RaceOfProcess {
 /// family::Part::races.
 struct RaceLog {
   std::vector<RaceOfProcess> races;
-  std::vector<std::uint64_t> code;   ///< that accesses shared memory, if the run records it
-  bool has_other_code = false;       ///< other code accesses shared memory than that of the earlier run
-  bool has_left_out_values = false;  ///< in weak memory, a load was not offered a value that it may have returned
+  std::vector<std::uint64_t> code;    ///< that accesses shared memory, if the run records it
+  bool has_other_code = false;        ///< other code accesses shared memory than that of the earlier run
+  bool has_left_out_values = false;   ///< in weak memory, a load was not offered a value that it may have returned
+  bool has_lost_breakpoints = false;  ///< some were removed, as there were too many hits
+  AccessObstacle obstacle = AccessObstacle::none;  ///< to breakpoints
 };
 
 /// True if this library is the one with the runtime, which instrumented programs load.

@@ -24,6 +24,7 @@
 #include "fibers/posix/traps/processor_counter.hpp"
 #include "fibers/posix/traps/processor_features.hpp"
 #include "fibers/posix/traps/raw_calls.hpp"
+#include "fibers/posix/traps/signal_frame.hpp"
 
 extern "C" void* _dl_allocate_tls(void*);  // of the dynamic linker
 
@@ -193,10 +194,8 @@ void interrupt_if_computing(const ucontext_t& interrupted) {
   spend_tick();
 }
 
-void catch_signal(int signal, siginfo_t* information, void* context) {
-  if (signal == SIGSYS && (answer_library_call(*information, context) || answer_raw_call(*information, context)))
-    return;
-  if (signal == SIGTRAP && answer_access(context)) return;
+void deal_with(siginfo_t* information, ucontext_t* context) {
+  const int signal = information->si_signo;
   const int error = errno;
   if (is_question(*information)) {
     if (answer_question != nullptr) answer_question();
@@ -204,7 +203,7 @@ void catch_signal(int signal, siginfo_t* information, void* context) {
     return;
   }
   if (is_tick(*information)) {
-    interrupt_if_computing(*static_cast<ucontext_t*>(context));
+    interrupt_if_computing(*context);
     errno = error;
     return;
   }
@@ -224,9 +223,32 @@ void catch_signal(int signal, siginfo_t* information, void* context) {
     handle_signals();
   } else {
     if (!is_retry(*information)) keep(*information);
-    if (has_come_from_outside()) handle_what_has_come(*static_cast<ucontext_t*>(context));
+    if (has_come_from_outside()) handle_what_has_come(*context);
   }
   errno = error;
+}
+
+// Where the program expects the frame of this signal.
+void* stack_of_program(int signal, const ucontext_t& interrupted) {
+  const auto here = static_cast<std::uintptr_t>(interrupted.uc_mcontext.gregs[REG_RSP]);
+  void* const below = reinterpret_cast<void*>(here - static_cast<std::uintptr_t>(red_zone_bytes));
+  if (!is_simulated() || (program_now().signals.actions[signal].sa_flags & SA_ONSTACK) == 0) return below;
+  const stack_t& alternate = this_thread().alternate;
+  const auto low = reinterpret_cast<std::uintptr_t>(alternate.ss_sp);
+  const bool is_on_it = here >= low && here - low < alternate.ss_size;
+  if ((alternate.ss_flags & SS_DISABLE) != 0 || is_on_it) return below;
+  return static_cast<char*>(alternate.ss_sp) + alternate.ss_size;
+}
+
+void catch_signal(int signal, siginfo_t* information, void* context) {
+  if (signal == SIGSYS && (answer_library_call(*information, context) || answer_raw_call(*information, context)))
+    return;
+  auto* const interrupted = static_cast<ucontext_t*>(context);
+  if (signal == SIGTRAP && answer_access(information, interrupted)) return;
+  leave_copies(interrupted);
+  if (is_on_stack_of_traps(interrupted))
+    continue_on(stack_of_program(signal, *interrupted), information, interrupted, deal_with);
+  deal_with(information, interrupted);
 }
 
 // A signal from outside: of several programs, the running one if it handles it, else the first one that does.
@@ -277,6 +299,10 @@ void install(int signal) {
   struct sigaction real {};
   real.sa_flags = SA_SIGINFO | SA_NODEFER | (action.sa_flags & (SA_RESTART | SA_ONSTACK | SA_NOCLDSTOP | SA_NOCLDWAIT));
   real.sa_sigaction = catch_signal;
+  if (signal == SIGTRAP && are_accesses_trapped()) {
+    if (signals.is_handled(signal)) prevent_breakpoints(AccessObstacle::trap_handler);
+    real.sa_flags |= SA_ONSTACK;
+  }
   if (!contains(faults, signal)) real.sa_mask = to_sigset(one_by_one);
   if (signal == bell) real.sa_flags |= SA_RESTART;  // the program did not ask for it, and must not see EINTR
   const bool is_default = !signals.is_handled(signal);

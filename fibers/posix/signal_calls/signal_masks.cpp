@@ -12,6 +12,7 @@
 #include "fibers/posix/base/interposed.hpp"
 #include "fibers/posix/program/program.hpp"
 #include "fibers/posix/signals/signals.hpp"
+#include "fibers/posix/traps/access_breakpoints.hpp"
 
 namespace waitpoint::posix {
 namespace {
@@ -214,6 +215,7 @@ WAITPOINT_INTERPOSED int sigaltstack(const stack_t* stack, stack_t* old) noexcep
     if (flags != 0 && flags != SS_DISABLE && flags != SS_ONSTACK) return fail(EINVAL);
     if (flags != SS_DISABLE && stack->ss_size < 2048) return fail(ENOMEM);
     if (WAITPOINT_NEXT(sigaltstack)(stack, nullptr) != 0 && errno != EPERM) return -1;
+    keep_stack_of_traps();
     thread.alternate = *stack;
     thread.alternate.ss_flags = flags == SS_DISABLE ? SS_DISABLE : 0;
     if (flags == SS_DISABLE) thread.alternate = {nullptr, SS_DISABLE, 0};

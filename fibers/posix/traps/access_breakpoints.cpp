@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fibers/posix/traps/access_breakpoints.hpp"
 
+#include <dlfcn.h>
 #include <link.h>
 #include <sys/mman.h>
 #include <sys/syscall.h>
-#include <ucontext.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -17,84 +17,135 @@
 #include "fibers/posix/program/program.hpp"
 #include "fibers/posix/program/thread.hpp"
 #include "fibers/posix/signals/signals.hpp"
+#include "fibers/posix/traps/instruction_copies.hpp"
+#include "fibers/posix/traps/memory_peek.hpp"
+#include "fibers/posix/traps/report_stacks.hpp"
+#include "fibers/posix/traps/signal_frame.hpp"
+#include "fibers/posix/traps/spinning.hpp"
 
 namespace waitpoint::posix {
 namespace {
 
 constexpr std::uint8_t breakpoint = 0xCC;  // int3
-constexpr greg_t trap_flag = 0x100;        // of EFLAGS
 constexpr std::uint64_t page_bytes = 4096;
 
 struct Breakpoint {
-  std::uint8_t original;
   bool is_set;
   std::uint32_t hits;
 };
 
+// Of the threads by their ids; two that share one are told apart.
+constexpr std::size_t spinning_kept = 1024;
+struct Tables {
+  Spinning spinning[spinning_kept];
+  Breakpoint placed[];  // for each of the instructions
+};
+
 Breakpoints asked{};
-Breakpoint* placed = nullptr;  // for each of the instructions
+Tables* tables = nullptr;
+std::size_t table_bytes = 0;
+InstructionCopies copies;
+ReportStacks stacks;
 std::uint64_t loaded_at = 0;
-std::uint32_t hits = 0;
-std::uint64_t stepped = 0;  // the address of the instruction in its single step; 0: none
-bool is_trapped = false;
+std::uint32_t hits = 0, spins = 0;
+bool is_trapped = false, is_prevented = false;
 
 std::uint8_t* code_at(const AccessInstruction& instruction) {
   return reinterpret_cast<std::uint8_t*>(loaded_at + instruction.offset);
 }
 
-int note_load_address(dl_phdr_info* program, std::size_t, void*) {
+// Notes where the program, which is the first, was loaded; 2 if some of its code is writable.
+int look_at_program(dl_phdr_info* program, std::size_t, void*) {
   loaded_at = program->dlpi_addr;
-  return 1;  // the program is the first
+  for (int i = 0; i < program->dlpi_phnum; ++i)
+    if (constexpr unsigned both = PF_W | PF_X;
+        program->dlpi_phdr[i].p_type == PT_LOAD && (program->dlpi_phdr[i].p_flags & both) == both)
+      return 2;
+  return 1;
 }
 
-void set_breakpoint(std::size_t i) {
-  std::uint8_t* const code = code_at(asked.instructions[i]);
-  placed[i] = {*code, true, placed[i].hits};
-  *code = breakpoint;
+AccessObstacle obstacle_before() {
+  if (program_now().signals.is_handled(SIGTRAP)) return AccessObstacle::trap_handler;
+  if (dl_iterate_phdr(look_at_program, nullptr) == 2) return AccessObstacle::changed_code;
+  for (const AccessInstruction& one : asked.instructions)
+    if (std::memcmp(code_at(one), one.code, one.length) != 0) return AccessObstacle::changed_code;
+  Dl_info of_allocator{}, of_program{};
+  const bool is_known = dladdr(dlsym(RTLD_DEFAULT, "malloc"), &of_allocator) != 0 &&
+                        dladdr(code_at(asked.instructions.front()), &of_program) != 0;
+  if (is_known && of_allocator.dli_fbase == of_program.dli_fbase) return AccessObstacle::allocator;
+  return AccessObstacle::none;
 }
 
-void remove_breakpoint(std::size_t i) {
-  if (!placed[i].is_set) return;
-  *code_at(asked.instructions[i]) = placed[i].original;
-  placed[i].is_set = false;
+void set_access_to_code_at(std::uint64_t page, int access) {
+  WAITPOINT_CHECK(call_directly(SYS_mprotect, static_cast<long>(page), page_bytes, access) == 0,
+                  "the protection of the program's code cannot be changed");
 }
 
-// Of the pages with breakpoints, one by one.
-bool set_access_to_code(int access) {
-  std::uint64_t done_to = 0;
-  for (const AccessInstruction& instruction : asked.instructions) {
-    const std::uint64_t page = reinterpret_cast<std::uint64_t>(code_at(instruction)) & ~(page_bytes - 1);
-    if (page < done_to) continue;
-    done_to = page + page_bytes;
-    if (call_directly(SYS_mprotect, static_cast<long>(page), page_bytes, access) != 0) return false;
+// Changes the first bytes of these instructions; page by page.
+template <class Change>
+void change_code(std::size_t from, std::size_t to, Change change) {
+  std::uint64_t writable = 0;
+  for (std::size_t i = from; i < to; ++i) {
+    const std::uint64_t page = reinterpret_cast<std::uint64_t>(code_at(asked.instructions[i])) & ~(page_bytes - 1);
+    if (page != writable && writable != 0) set_access_to_code_at(writable, PROT_READ | PROT_EXEC);
+    if (page != writable) set_access_to_code_at(page, PROT_READ | PROT_WRITE | PROT_EXEC);
+    writable = page;
+    change(i);
   }
+  if (writable != 0) set_access_to_code_at(writable, PROT_READ | PROT_EXEC);
+}
+
+void set_breakpoints() {
+  change_code(0, asked.instructions.size(), [](std::size_t i) {
+    tables->placed[i].is_set = true;
+    *code_at(asked.instructions[i]) = breakpoint;
+  });
+}
+
+void remove_breakpoints(std::size_t from, std::size_t to) {
+  change_code(from, to, [](std::size_t i) {
+    if (tables->placed[i].is_set) *code_at(asked.instructions[i]) = asked.instructions[i].code[0];
+    tables->placed[i].is_set = false;
+  });
+}
+
+bool make_tables() {
+  table_bytes = sizeof(Tables) + asked.instructions.size() * sizeof(Breakpoint);
+  const long memory = call_directly(SYS_mmap, 0, static_cast<long>(table_bytes), PROT_READ | PROT_WRITE,
+                                    MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+  if (memory < 0 && memory > -4096) return false;
+  tables = reinterpret_cast<Tables*>(memory);
   return true;
 }
 
-std::size_t bytes_of_placed() { return asked.instructions.size() * sizeof(Breakpoint); }
-
 void set_all() {
   before_first_thread = nullptr;
-  dl_iterate_phdr(note_load_address, nullptr);
-  const long memory = call_directly(SYS_mmap, 0, static_cast<long>(bytes_of_placed()), PROT_READ | PROT_WRITE,
-                                    MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
-  if (memory < 0 && memory > -4096) refuse("there is no memory for breakpoints at accesses");
-  placed = reinterpret_cast<Breakpoint*>(memory);
-  if (!set_access_to_code(PROT_READ | PROT_WRITE | PROT_EXEC))
-    refuse("the program's code cannot be made writable for breakpoints at accesses");
+  AccessObstacle obstacle = obstacle_before();
+  if (obstacle == AccessObstacle::none &&
+      !(make_tables() && stacks.make() && copies.make(asked.instructions, loaded_at)))
+    obstacle = AccessObstacle::no_memory;
+  if (obstacle != AccessObstacle::none) {
+    is_prevented = true;
+    return asked.prevented(obstacle);
+  }
   is_trapped = true;
   install(SIGTRAP);
-  for (std::size_t i = 0; i < asked.instructions.size(); ++i) set_breakpoint(i);
+  set_breakpoints();
 }
 
-// The number of the instruction at this address; that of all if there is none.
-std::size_t instruction_at(std::uint64_t address) {
+// The number of the first instruction at or behind this address; that of all if there is none.
+std::size_t instruction_from(std::uint64_t address) {
   const auto all = asked.instructions;
   const auto found = std::lower_bound(
       all.begin(), all.end(), address - loaded_at,
       [](const AccessInstruction& instruction, std::uint64_t offset) { return instruction.offset < offset; });
-  return found != all.end() && found->offset == address - loaded_at ? static_cast<std::size_t>(found - all.begin())
-                                                                    : all.size();
+  return static_cast<std::size_t>(found - all.begin());
+}
+
+bool is_code(std::uint64_t address, std::uint64_t bytes) {
+  if (address < loaded_at) return false;
+  const std::size_t i = instruction_from(address);
+  return i < asked.instructions.size() && loaded_at + asked.instructions[i].offset - address < bytes;
 }
 
 std::uint64_t address_of(const AccessInstruction& instruction, const greg_t* registers) {
@@ -102,40 +153,110 @@ std::uint64_t address_of(const AccessInstruction& instruction, const greg_t* reg
   if (instruction.base != AccessInstruction::none) address += static_cast<std::uint64_t>(registers[instruction.base]);
   if (instruction.index != AccessInstruction::none)
     address += static_cast<std::uint64_t>(registers[instruction.index]) * instruction.scale;
+  if (instruction.bit != AccessInstruction::none) {
+    // The number of the bit has the size of the word, and a sign.
+    const int unused = 64 - 8 * instruction.bytes;
+    const std::int64_t bit = static_cast<std::int64_t>(registers[instruction.bit]) << unused >> unused;
+    const std::int64_t word = bit >> (instruction.bytes == 8 ? 6 : instruction.bytes == 4 ? 5 : 4);
+    address += static_cast<std::uint64_t>(word * instruction.bytes);
+  }
   return instruction.is_absolute ? address + loaded_at : address;
 }
 
-void count_hit(std::size_t i) {
-  constexpr std::uint32_t looks_like_a_loop = 1000;
-  const bool is_last = ++hits >= asked.hits_max, is_last_of_one = ++placed[i].hits >= asked.hits_of_one_max;
-  if (is_last || is_last_of_one) asked.missed();
-  if (is_last_of_one) remove_breakpoint(i);
-  for (std::size_t each = 0; is_last && each < asked.instructions.size(); ++each) remove_breakpoint(each);
-  if (placed[i].hits % looks_like_a_loop == 0 && is_simulated()) asked.let_others_run();
+Spinning& spinning_of(const Thread& thread) {
+  return tables->spinning[static_cast<std::size_t>(thread.id) % spinning_kept];
 }
 
-// Other threads may run before it. An instruction that reads, changes and writes without a lock is two accesses: what
-// others write between them is lost, as on several processors.
-void report(const AccessInstruction& instruction, std::uint64_t address) {
-  const bool is_split = instruction.reads && instruction.writes && !instruction.is_locked;
-  void* const memory = reinterpret_cast<void*>(address);
-  std::uint8_t before[64];
-  if (is_split) {
-    asked.report(address, instruction.bytes, false, false, instruction.offset);
-    std::memcpy(before, memory, instruction.bytes);
+// False if the breakpoint is removed.
+bool count_hit(std::size_t i) {
+  const bool is_last = ++hits >= asked.hits_max || spins >= asked.spins_max;
+  const bool is_last_of_one = ++tables->placed[i].hits >= asked.hits_of_one_max;
+  if (!is_last && !is_last_of_one) return true;
+  asked.missed();
+  remove_breakpoints(is_last ? 0 : i, is_last ? asked.instructions.size() : i + 1);
+  return false;
+}
+
+// An instruction that reads, changes and writes without a lock is two accesses: what others write between them is lost,
+// as on several processors.
+void report_both(const AccessInstruction& instruction, std::uint64_t address) {
+  std::uint8_t before[64], now[64];
+  asked.report(address, instruction.bytes, false, false, instruction.offset);
+  const bool is_readable = peek(address, before, instruction.bytes);
+  asked.report(address, instruction.bytes, true, false, instruction.offset);
+  if (is_readable && peek(address, now, instruction.bytes) && std::memcmp(now, before, instruction.bytes) != 0)
+    (void)poke(address, before, instruction.bytes);
+}
+
+// Of a string instruction, up to this many bytes, which go up.
+constexpr std::uint64_t string_max = 4096;
+std::uint64_t bytes_of(const AccessInstruction& instruction, const greg_t* registers) {
+  if (!instruction.is_repeated) return instruction.bytes;
+  constexpr greg_t goes_down = 0x400;  // of EFLAGS
+  if ((registers[REG_EFL] & goes_down) != 0) return 0;
+  return std::min(static_cast<std::uint64_t>(registers[REG_RCX]), string_max / instruction.bytes) * instruction.bytes;
+}
+
+void report(std::size_t i, const greg_t* registers) {
+  const AccessInstruction& instruction = asked.instructions[i];
+  const std::uint64_t address = address_of(instruction, registers), bytes = bytes_of(instruction, registers);
+  const auto source = static_cast<std::uint64_t>(registers[REG_RSI]);
+  if (is_code(address, bytes) || (instruction.copies && is_code(source, bytes)))
+    return prevent_breakpoints(AccessObstacle::own_code);
+  Thread& thread = this_thread();
+  const bool spins_here =
+      instruction.reads && !instruction.is_repeated &&
+      spinning_of(thread).reads(thread.id, thread.task->sequence, instruction.offset, address, bytes);
+  if (spins_here) {
+    ++spins;
+    --hits;
+    --tables->placed[i].hits;
+    asked.let_others_run();
+  } else if (bytes != 0) {
+    if (instruction.copies) asked.report(source, static_cast<std::uint32_t>(bytes), false, false, instruction.offset);
+    if (instruction.reads && instruction.writes && !instruction.is_locked)
+      report_both(instruction, address);
+    else
+      asked.report(address, static_cast<std::uint32_t>(bytes), instruction.writes, instruction.is_locked,
+                   instruction.offset);
   }
-  asked.report(address, instruction.bytes, instruction.writes, instruction.is_locked, instruction.offset);
-  if (is_split && std::memcmp(memory, before, instruction.bytes) != 0) std::memcpy(memory, before, instruction.bytes);
+  if (!is_prevented) spinning_of(thread).passed(thread.task->sequence);
 }
 
-// The instruction has been executed.
-bool end_step(greg_t* registers) {
-  if (stepped == 0) return false;
-  registers[REG_EFL] &= ~trap_flag;
-  const std::size_t i = instruction_at(stepped);
-  if (placed[i].is_set) *code_at(asked.instructions[i]) = breakpoint;
-  stepped = 0;
-  return true;
+// The number of the instruction before which the context is.
+std::size_t instruction_of(const ucontext_t* context) {
+  return instruction_from(static_cast<std::uint64_t>(context->uc_mcontext.gregs[REG_RIP]));
+}
+
+void go_on_in_copy(ucontext_t* context) {
+  if (is_prevented) return;
+  context->uc_mcontext.gregs[REG_RIP] = static_cast<greg_t>(copies.of(instruction_of(context)));
+}
+
+// Stacks are unwound from here if the thread is cancelled: the context is that of the program's own code until then.
+void handle_and_return(siginfo_t*, ucontext_t* context) {
+  {
+    const ErrorNumberKept kept;
+    handle_signals();
+  }
+  go_on_in_copy(context);
+}
+
+// On a report's stack. A handler of a signal that came with the report is run on the program's own afterwards, so that
+// it is neither between the two accesses of an instruction nor on a stack that is not its thread's.
+void report_and_return(siginfo_t* information, ucontext_t* context) {
+  greg_t* const registers = context->uc_mcontext.gregs;
+  Thread& thread = this_thread();
+  {
+    const ErrorNumberKept kept;
+    const bool in_wait = thread.in_wait;
+    thread.in_wait = true;
+    report(instruction_of(context), registers);
+    thread.in_wait = in_wait;
+  }
+  stacks.give_back(context);
+  if (!thread.delivery_due) return go_on_in_copy(context);
+  continue_on(reinterpret_cast<void*>(registers[REG_RSP] - red_zone_bytes), information, context, handle_and_return);
 }
 
 }  // namespace
@@ -148,31 +269,51 @@ void trap_accesses(const Breakpoints& breakpoints) {
 
 bool are_accesses_trapped() { return is_trapped; }
 
+void prevent_breakpoints(AccessObstacle obstacle) {
+  if (!is_trapped || is_prevented) return;
+  is_prevented = true;
+  asked.prevented(obstacle);
+  remove_breakpoints(0, asked.instructions.size());
+}
+
+void prevent_breakpoints_in(const void* begin, std::size_t bytes) {
+  if (is_trapped && is_code(reinterpret_cast<std::uint64_t>(begin), bytes))
+    prevent_breakpoints(AccessObstacle::changed_code);
+}
+
 void restore_code() {
   if (!is_trapped) return;
-  for (std::size_t i = 0; i < asked.instructions.size(); ++i) remove_breakpoint(i);
-  WAITPOINT_CHECK(set_access_to_code(PROT_READ | PROT_EXEC), "the code's protection cannot be restored");
-  call_directly(SYS_munmap, reinterpret_cast<long>(placed), static_cast<long>(bytes_of_placed()));
+  if (!is_prevented) remove_breakpoints(0, asked.instructions.size());
+  copies.remove();
+  stacks.remove();
+  call_directly(SYS_munmap, reinterpret_cast<long>(tables), static_cast<long>(table_bytes));
   is_trapped = false;
 }
 
-bool answer_access(void* context) {
-  if (!is_trapped) return false;
-  greg_t* const registers = static_cast<ucontext_t*>(context)->uc_mcontext.gregs;
-  if (end_step(registers)) return true;
+bool answer_access(siginfo_t* information, ucontext_t* context) {
+  if (!is_trapped || information->si_code <= 0) return false;
+  greg_t* const registers = context->uc_mcontext.gregs;
   const std::uint64_t at = static_cast<std::uint64_t>(registers[REG_RIP]) - 1;
-  const std::size_t i = instruction_at(at);
-  if (i == asked.instructions.size()) return false;
-  const ErrorNumberKept kept;
+  const std::size_t i = instruction_from(at);
+  if (i == asked.instructions.size() || loaded_at + asked.instructions[i].offset != at) return false;
+  if (*code_at(asked.instructions[i]) == breakpoint && !tables->placed[i].is_set) return false;  // the program's own
+  registers[REG_RIP] = static_cast<greg_t>(tables->placed[i].is_set ? copies.of(i) : at);
+  if (!is_simulated() || !tables->placed[i].is_set || !count_hit(i)) return true;
+  void* const stack = stacks.take();
+  if (stack == nullptr) return true;
   registers[REG_RIP] = static_cast<greg_t>(at);
-  const AccessInstruction& instruction = asked.instructions[i];
-  if (placed[i].is_set) count_hit(i);
-  if (is_simulated()) report(instruction, address_of(instruction, registers));
-  if (!placed[i].is_set) return true;  // removed, maybe meanwhile
-  *code_at(instruction) = placed[i].original;
-  registers[REG_EFL] |= trap_flag;
-  stepped = at;
-  return true;
+  continue_on(stack, information, context, report_and_return);
+}
+
+void leave_copies(ucontext_t* context) {
+  greg_t& place = context->uc_mcontext.gregs[REG_RIP];
+  if (is_trapped) place = static_cast<greg_t>(copies.original_of(static_cast<std::uint64_t>(place)));
+}
+
+bool is_on_stack_of_traps(const ucontext_t* context) { return is_trapped && stacks.is_of_system(context); }
+
+void keep_stack_of_traps() {
+  if (is_trapped) stacks.keep_for_system();
 }
 
 }  // namespace waitpoint::posix

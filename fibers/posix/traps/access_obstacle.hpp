@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Why a program's accesses are no switch points: with breakpoints it could fail although it is correct.
+#pragma once
+
+#include <cstdint>
+
+namespace waitpoint::posix {
+
+enum class AccessObstacle : std::uint8_t {
+  none,
+  trap_handler,  ///< it handles SIGTRAP itself
+  changed_code,  ///< its code is not that of its file, is writable, or is made so
+  own_code,      ///< it reads or writes its own code as data
+  allocator,     ///< it defines malloc(), which the C library calls while it holds locks of its own
+  no_memory,     ///< there is none for breakpoints
+  // Noticed by the explorer.
+  endless,           ///< a schedule with breakpoints did not end
+  nothing_shared,    ///< no access to memory that threads share and write was seen
+  several_programs,  ///< or one that is a shared object
+  no_disassembler,   ///< this waitpoint was built without one
+};
+
+}  // namespace waitpoint::posix

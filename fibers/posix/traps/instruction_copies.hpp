@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copies of a program's instructions, each followed by a jump back to behind the original: where that is replaced by a
+// breakpoint, the copy is executed.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "fibers/posix/traps/access_instruction.hpp"
+
+namespace waitpoint::posix {
+
+class InstructionCopies {
+ public:
+  /// Of a program that is loaded at this address; false without memory that its code can reach.
+  bool make(std::span<const AccessInstruction> instructions, std::uint64_t loaded_at);
+  void remove();
+
+  /// The address of the copy of an instruction, by its number.
+  std::uint64_t of(std::size_t instruction) const { return begin_ + instruction * copy_bytes; }
+  /// For a place within the copies, that in the program's code where execution is; any other remains.
+  std::uint64_t original_of(std::uint64_t place) const;
+
+ private:
+  static constexpr std::uint64_t copy_bytes = 32;
+
+  std::span<const AccessInstruction> instructions_;
+  std::uint64_t loaded_at_ = 0, begin_ = 0, end_ = 0;
+};
+
+}  // namespace waitpoint::posix

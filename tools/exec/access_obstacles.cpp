@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/exec/access_obstacles.hpp"
+
+#include "fibers/posix/exec/race_log.hpp"
+#include "tools/exec/family_report.hpp"
+
+namespace waitpoint::tools {
+
+using posix::AccessObstacle;
+
+AccessObstacle obstacle_of(const posix::Record& record) {
+  const auto* const log = static_cast<const posix::RaceLog*>(common_of(record, posix::family::Part::races));
+  return log != nullptr ? log->obstacle : AccessObstacle::none;
+}
+
+std::string words_of(AccessObstacle obstacle) {
+  switch (obstacle) {
+    case AccessObstacle::none:
+    case AccessObstacle::nothing_shared: return "";
+    case AccessObstacle::trap_handler: return "the program handles SIGTRAP";
+    case AccessObstacle::changed_code: return "the program's code is changed";
+    case AccessObstacle::own_code: return "the program accesses its own code";
+    case AccessObstacle::allocator: return "the program defines malloc()";
+    case AccessObstacle::no_memory: return "there is no memory for breakpoints";
+    case AccessObstacle::endless: return "a schedule with breakpoints at accesses did not end";
+    case AccessObstacle::several_programs: return "there are several programs";
+    case AccessObstacle::no_disassembler: return "built without Zydis";
+  }
+  return "";
+}
+
+}  // namespace waitpoint::tools
