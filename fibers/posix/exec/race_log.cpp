@@ -71,7 +71,7 @@ void begin_access_log(bool learn, bool notes, std::span<const AccessInstruction>
   runtime.set_weak(false);
   for (const std::uint64_t offset : code) runtime.know(offset);
   // By time: a breakpoint takes some microseconds.
-  constexpr std::uint32_t of_one_max = 300, learning_max = 20'000, exploring_max = 4'000, spins_max = 20'000;
+  constexpr std::uint32_t of_one_max = 1'000, learning_max = 20'000, exploring_max = 6'000, spins_max = 20'000;
   trap_accesses({.instructions = instructions,
                  .report = runtime.accessed,
                  .let_others_run = kernel::yield_after_computing,

@@ -64,15 +64,23 @@ int look_at_program(dl_phdr_info* program, std::size_t, void*) {
   return 1;
 }
 
+// Its own, not a jump to another's, by which it may know the address, too.
+bool defines_allocator() {
+  Dl_info of_allocator{}, of_program{};
+  const ElfW(Sym)* symbol = nullptr;
+  if (dladdr1(dlsym(RTLD_DEFAULT, "malloc"), &of_allocator, const_cast<void**>(reinterpret_cast<const void**>(&symbol)),
+              RTLD_DL_SYMENT) == 0 ||
+      dladdr(code_at(asked.instructions.front()), &of_program) == 0)
+    return false;
+  return of_allocator.dli_fbase == of_program.dli_fbase && symbol != nullptr && symbol->st_shndx != SHN_UNDEF;
+}
+
 AccessObstacle obstacle_before() {
   if (program_now().signals.is_handled(SIGTRAP)) return AccessObstacle::trap_handler;
   if (dl_iterate_phdr(look_at_program, nullptr) == 2) return AccessObstacle::changed_code;
   for (const AccessInstruction& one : asked.instructions)
     if (std::memcmp(code_at(one), one.code, one.length) != 0) return AccessObstacle::changed_code;
-  Dl_info of_allocator{}, of_program{};
-  const bool is_known = dladdr(dlsym(RTLD_DEFAULT, "malloc"), &of_allocator) != 0 &&
-                        dladdr(code_at(asked.instructions.front()), &of_program) != 0;
-  if (is_known && of_allocator.dli_fbase == of_program.dli_fbase) return AccessObstacle::allocator;
+  if (defines_allocator()) return AccessObstacle::allocator;
   return AccessObstacle::none;
 }
 
