@@ -10,7 +10,7 @@ namespace waitpoint::tools {
 using exploration::Draws;
 
 Feedback::Feedback(const std::string& strategy, std::uint64_t seed)
-    : strategy_(exploration::make_strategy(strategy)), seed_(seed), next_(strategy_->first_learned(0)) {}
+    : strategy_(exploration::make_strategy(strategy)), seed_(seed), next_(strategy_->first_held(0)) {}
 
 // From a whole generation; false while some of it has not ended.
 bool Feedback::learn() {
@@ -29,7 +29,7 @@ std::optional<Plan> Feedback::plan_of_next() {
   Draws draws(seed_, "constraints", next_);
   Plan plan{.number = next_, .constraints = corpus_.draw(draws)};
   lessons_[next_].constraints = plan.constraints;
-  next_ = strategy_->first_learned(next_ + 1);
+  next_ = strategy_->first_held(next_ + 1);
   return plan;
 }
 

@@ -26,7 +26,7 @@ class Feedback {
 
   /// The first schedule that learns whose plan was not asked for; Strategy::none if there is none.
   std::uint64_t next() const { return next_; }
-  bool is_learned(std::uint64_t number) const { return strategy_->first_learned(number) == number; }
+  bool is_learned(std::uint64_t number) const { return strategy_->first_held(number) == number; }
   /// The plan of schedule next(), which becomes the one after; nothing until all of the generations before were told.
   std::optional<Plan> plan_of_next();
   /// Such a schedule has ended; its pairs were requested.

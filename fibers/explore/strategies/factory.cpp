@@ -27,8 +27,8 @@ Made make_portfolio() {
   const std::shared_ptr<Strategy> pos = make_strategy("pos"), surw = make_strategy("surw"),
                                   returning = make_strategy("goexplore");
   return std::make_unique<Portfolio>(std::vector<std::shared_ptr<Strategy>>{
-      make_strategy("random"), make_strategy("pct:2"), pos, returning, surw, pos, make_strategy("urw"), returning, pos,
-      make_strategy("pct:3"), surw, returning});
+      make_strategy("random"), make_strategy("pct:2"), pos, returning, surw, make_strategy("rff"), make_strategy("urw"),
+      returning, pos, make_strategy("pct:3"), surw, returning});
 }
 
 struct Known {

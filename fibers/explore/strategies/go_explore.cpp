@@ -5,9 +5,9 @@
 
 namespace waitpoint::exploration {
 
-void GoExplore::start(const Profile&) {
+void GoExplore::start(const Profile& profile) {
   ++schedules_;
-  priorities_.clear();
+  priorities_.clear(profile.memory);
   state_.clear();
   choices_.clear();
   passed_.clear();

@@ -21,14 +21,13 @@ class Portfolio final : public Strategy {
     part_->begin(number_of_part(number), draws, profile);
   }
   std::uint64_t first_learned(std::uint64_t from) const override {
-    for (std::uint64_t number = from; number - from < turns_.size(); ++number) {
-      const std::uint64_t of_part = number_of_part(number);
-      if (part(number).first_learned(of_part) == of_part) return number;
-    }
-    return none;
+    return first(from, [](const Strategy& part, std::uint64_t number) { return part.first_learned(number); });
+  }
+  std::uint64_t first_held(std::uint64_t from) const override {
+    return first(from, [](const Strategy& part, std::uint64_t number) { return part.first_held(number); });
   }
   void hold(std::span<const Constraint> constraints) override {
-    for (const auto& part : parts_) part->hold(constraints);
+    for (const auto& part : turns_) part->hold(constraints);
   }
   bool end() override { return part_->end(); }
   Strategy& deciding() override { return *part_; }
@@ -38,6 +37,15 @@ class Portfolio final : public Strategy {
   }
 
  private:
+  template <class FirstOfPart>
+  std::uint64_t first(std::uint64_t from, FirstOfPart first_of_part) const {
+    for (std::uint64_t number = from; number - from < turns_.size(); ++number) {
+      const std::uint64_t of_part = number_of_part(number);
+      if (first_of_part(part(number), of_part) == of_part) return number;
+    }
+    return none;
+  }
+
   Strategy& part(std::uint64_t number) const { return *turns_[number % turns_.size()]; }
   /// The number of its schedule, counted by its own turns.
   std::uint64_t number_of_part(std::uint64_t number) const {

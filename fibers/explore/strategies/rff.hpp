@@ -20,6 +20,7 @@ class Rff final : public Drawn {
   std::uint32_t next(const SwitchPoint& at) override;
   bool end() override;
   std::uint64_t first_learned(std::uint64_t from) const override { return from; }
+  std::uint64_t first_held(std::uint64_t from) const override { return from; }
   void hold(std::span<const Constraint> constraints) override { given_.assign(constraints.begin(), constraints.end()); }
   const std::vector<ReadsFrom>* pairs() const override { return &seen_; }
 

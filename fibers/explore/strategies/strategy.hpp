@@ -49,8 +49,10 @@ class Strategy {
   /// The first schedule, `from` or a later one, whose course those after it depend on: it must be run before them.
   virtual std::uint64_t first_learned(std::uint64_t from) const { return is_exhaustive() ? from : none; }
   static constexpr std::uint64_t none = ~std::uint64_t{0};
-  /// Before begin(), of a strategy that learns from schedules which other processes have executed: what that has led
-  /// to.
+  /// The first schedule, `from` or a later one, that learns also from schedules which other processes have executed: by
+  /// hold() and pairs().
+  virtual std::uint64_t first_held(std::uint64_t) const { return none; }
+  /// Before begin(), for such a schedule: what those before have led to.
   virtual void hold(std::span<const Constraint>) {}
   /// Of such a strategy: the pairs of this schedule so far; else null.
   virtual const std::vector<ReadsFrom>* pairs() const { return nullptr; }
