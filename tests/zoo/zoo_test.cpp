@@ -45,7 +45,8 @@ TEST(Zoo, NoCorrectTwinIsReported) {
   }
 }
 
-// For seven of eight, at most one switch more than the minimum.
+// For nine of ten, at most one switch more than the minimum. Most others have many tasks: so few runs do not try all
+// single switches. The rest need more than two, which are not searched exhaustively.
 TEST(Zoo, ThePortfolioFindsEachAndItIsCutShort) {
   std::uint32_t failures = 0, longer = 0;
   for (const Specimen& specimen : specimens()) {
@@ -63,7 +64,7 @@ TEST(Zoo, ThePortfolioFindsEachAndItIsCutShort) {
       EXPECT_GE(switches, specimen.switches) << specimen.name << " needs fewer than it says";
     }
   }
-  EXPECT_LE(longer * 8, failures);
+  EXPECT_LE(longer * 10, failures);
 }
 
 TEST(Zoo, WhatWasChosenRepeatsTheFailure) {
