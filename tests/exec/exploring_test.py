@@ -47,7 +47,7 @@ class Exploring(ExecCase):
             self.assertIn("the same run as in the record", explore(*replay_words(raw.stdout)).stderr, strategy)
 
     def test_a_correct_program_passes_under_many_schedules(self):
-        done = explore("--iterations", "100", "--", self.compile("lost_update.c"), "locked")
+        done = explore("--iterations", "100", "--switch-at", "calls", "--", self.compile("lost_update.c"), "locked")
         self.assertEqual(done.returncode, 0, done.stdout)
         # Who locks first, and whether the other comes to the lock before it is free.
         self.assertIn("lost_update: 100 schedules, 4 distinct, 0 failed", done.stdout)

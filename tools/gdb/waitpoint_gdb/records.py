@@ -180,12 +180,12 @@ def scheduler():
 def events_of(run):
     """The number of events executed in this scheduler's run, as in Scheduler::events()."""
     inverse = constant("PairDigest", "inverse_of_step")
-    hashed = run.number("roster_.ended_robots_digest_.last_key_") * inverse
+    events = run.number("roster_.ended_robots_digest_.last_key_") * inverse
     robot = run.follow("roster_.first_robot_", "Robot")
     while robot:
-        hashed += robot.number("digest.last_key_") * inverse
+        events += robot.number("digest.last_key_") * inverse - robot.number("outputs")
         robot = robot.follow("next", "Robot")
-    return (hashed - run.number("outputs_")) % 2**64
+    return events % 2**64
 
 
 def seconds(time_ns):
