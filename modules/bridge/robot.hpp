@@ -101,7 +101,7 @@ class Robot {
   genom::NameSpace names_;
   std::vector<std::unique_ptr<genom::Module>> modules_;
   std::vector<const scenario::ModuleScenario*> module_scenarios_;  // by module
-  std::optional<RobotBridge> bridge_;                               // none: it is elsewhere
+  std::optional<RobotBridge> bridge_;                              // none: it is elsewhere
   genom::TaskComputing computing_;
   std::unique_ptr<executive::Executive> executive_;  // null without goals
   Evaluation evaluation_;

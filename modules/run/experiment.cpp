@@ -85,7 +85,8 @@ Experiment::Experiment(const scenario::Scenario& scenario, std::span<const genom
     return;
   }
   if (options.order == kernel::Order::explored)
-    throw BadInput("--ranks", "expected fifo or seeded order, found explored order: a strategy chooses for one process");
+    throw BadInput("--ranks",
+                   "expected fifo or seeded order, found explored order: a strategy chooses for one process");
   options.ranks->act_together([&] { make(scenario, types); });
   join_ranks();
 }
@@ -107,8 +108,9 @@ void Experiment::make(const scenario::Scenario& scenario, std::span<const genom:
 }
 
 void Experiment::join_ranks() {
-  ranked_ = std::make_unique<RankedRun>(*options_.ranks, RankedParts{simulation_, assembly_->world(), robots(), lanes_,
-                                                                     *operator_, *network_, assembly_->scenario().step});
+  ranked_ =
+      std::make_unique<RankedRun>(*options_.ranks, RankedParts{simulation_, assembly_->world(), robots(), lanes_,
+                                                               *operator_, *network_, assembly_->scenario().step});
   ranked_->add_intervention = [this](const Intervention& intervention, std::optional<Time> date) {
     return operator_->add(intervention, date);
   };
@@ -180,7 +182,7 @@ void Experiment::step_world() {
   if (ranked_ == nullptr) return assembly_->world().step();
   const double begin_s = processor_s();
   assembly_->world().step();
-  ranked_->add_world_time(processor_s() - begin_s);
+  ranked_->windows().add_world_time(processor_s() - begin_s);
 }
 
 void Experiment::run_world() {
@@ -192,7 +194,7 @@ void Experiment::run_world() {
     constexpr std::size_t ahead = 6;  // a crowd does not fit into the cache
     for (std::size_t i = 0; i < lanes_.size(); ++i) {
       if (!is_here(i)) {
-        ranked_->step(i);
+        ranked_->windows().step(i);
         continue;
       }
       if (i + ahead < lanes_.size()) robots()[i + ahead]->fetch_evaluation();
@@ -291,7 +293,7 @@ bridge::RunResult Experiment::result() const {
   for (std::size_t i = 0; i < lanes_.size(); ++i) complete(result.robots[i], i);
   if (ranked_) ranked_->complete(result);
   result.events = events();
-  result.trouble = ranked_ ? ranked_->trouble() : simulation_.trouble();
+  result.trouble = ranked_ ? ranked_->windows().trouble() : simulation_.trouble();
   const bool is_at_limit_after_end = last_end() && end_ == RunEnd::time_reached;
   result.outcome = outcome_of(is_at_limit_after_end ? RunEnd::ended : end_);
   return result;

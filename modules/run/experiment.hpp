@@ -22,7 +22,7 @@
 #include "modules/bridge/run_result.hpp"
 #include "modules/run/assembly.hpp"
 #include "modules/run/operator.hpp"
-#include "modules/run/ranks/ranked_run.hpp"
+#include "modules/run/ranked_run.hpp"
 #include "modules/run/robot_program.hpp"
 
 namespace waitpoint::run {
@@ -51,7 +51,7 @@ class Experiment {
   RunEnd run_before(Time until, const std::function<bool(const kernel::EventRecord&)>& enough);
   bool paused() const { return paused_; }
   /// When the last task but services ended.
-  std::optional<Time> last_end() const { return ranked_ ? ranked_->last_end() : last_end_; }
+  std::optional<Time> last_end() const { return ranked_ ? ranked_->windows().last_end() : last_end_; }
   /// The number of events so far: with ranks, when the records were gathered.
   std::uint64_t events() const;
 

@@ -74,8 +74,8 @@ std::unique_ptr<run::Transport> join_ranks(int wanted) {
   if (join == nullptr) throw BadInput("--ranks", "the library for ranks is of another version");
   std::unique_ptr<run::Transport> transport(join());
   if (wanted != 1 && wanted != transport->ranks())
-    throw BadInput("--ranks", "expected " + std::to_string(transport->ranks()) + ", as many as mpirun has started, found " +
-                                  std::to_string(wanted));
+    throw BadInput("--ranks", "expected " + std::to_string(transport->ranks()) +
+                                  ", as many as mpirun has started, found " + std::to_string(wanted));
   return transport;
 }
 
@@ -84,8 +84,7 @@ run::Ranks::Waiting watch_over(run::Transport& transport, double limit_s) {
     // The launcher interrupts all when one has ended, and the user one that leads, which then ends all in order.
     constexpr double leads_s = 0.4, follows_s = 0.9, first_told_s = 5;
     const double now_s = wall_clock_s();
-    if (interruption() == 0)
-      interrupted_s = now_s;
+    if (interruption() == 0) interrupted_s = now_s;
     const double since_s = now_s - interrupted_s;
     if (transport.rank() != 0) {
       if (since_s > follows_s && transport.rank() == 1 && !transport.has_first_failed())
@@ -95,7 +94,8 @@ run::Ranks::Waiting watch_over(run::Transport& transport, double limit_s) {
     }
     const std::string missing = transport.missing(), who = missing.empty() ? "another rank" : missing;
     if (seconds < told_s) told_s = 0;  // another wait
-    if (since_s > leads_s && seconds > leads_s) throw std::runtime_error(who + " has ended or does not answer, " + where);
+    if (since_s > leads_s && seconds > leads_s)
+      throw std::runtime_error(who + " has ended or does not answer, " + where);
     const std::string so_long = " has not answered for " + std::to_string(static_cast<long>(seconds)) + " s, " + where;
     if (limit_s > 0 && seconds > limit_s) throw std::runtime_error(who + so_long);
     if (seconds < first_told_s || seconds < 2 * told_s) return;

@@ -26,9 +26,7 @@ constexpr std::size_t block_bytes = 4096, block_room = block_bytes - sizeof(std:
 // The tags of messages to the first rank, and from it.
 constexpr int i_wait = 1, i_failed = 2;
 
-double clock_s() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
+double clock_s() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
 class MpiTransport final : public run::Transport {
  public:

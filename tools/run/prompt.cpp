@@ -174,8 +174,7 @@ void Prompt::until(std::string_view rest) {
         session_.until(), [&](const kernel::EventRecord&) { return condition(); }, terminal_);
   // Of several processes' events none is the one after which it holds: a step of the world is.
   const Duration step = session_.experiment().world().description().step;
-  while (!condition() && !session_.over() && interruption() == 0)
-    session_.carry_on(session_.now() + step);
+  while (!condition() && !session_.over() && interruption() == 0) session_.carry_on(session_.now() + step);
   interrupted_ = interruption() != 0;
   tell_place();
 }

@@ -24,11 +24,11 @@ struct RunOptions {
   std::vector<std::filesystem::path> confined_to;  ///< the only folders to read from; empty: all
   std::vector<std::string> assignments;            ///< of --set, in their order: "world.step_ms=5"
   std::uint64_t seed = 1;
-  std::optional<SeedRange> seeds;  ///< instead of `seed`
-  int ranks = 1;                   ///< processes of one run
+  std::optional<SeedRange> seeds;      ///< instead of `seed`
+  int ranks = 1;                       ///< processes of one run
   std::vector<std::string> places;     ///< of --place, "ROBOT=RANK" each
   std::vector<std::string> arguments;  ///< of the program, as given, to start it as ranks
-  std::optional<Duration> until;   ///< instead of the scenario's
+  std::optional<Duration> until;       ///< instead of the scenario's
   kernel::Order order = kernel::Order::fifo;
   double speed = 0;                          ///< simulated seconds per second; 0: unthrottled
   Duration idle = std::chrono::seconds(60);  ///< of a wait without a timeout, to be listed at the end; 0: none are

@@ -27,9 +27,9 @@ namespace waitpoint::run {
 
 /// Copied byte by byte: without padding and pointers.
 template <class T>
-concept Plain = std::is_arithmetic_v<T> || std::is_enum_v<T> || std::is_same_v<T, Time> ||
-                std::is_same_v<T, Duration> || std::is_same_v<T, Point> || std::is_same_v<T, Pose> ||
-                std::is_same_v<T, Digest> || std::is_same_v<T, PairDigest>;
+concept Plain =
+    std::is_arithmetic_v<T> || std::is_enum_v<T> || std::is_same_v<T, Time> || std::is_same_v<T, Duration> ||
+    std::is_same_v<T, Point> || std::is_same_v<T, Pose> || std::is_same_v<T, Digest> || std::is_same_v<T, PairDigest>;
 
 class Packing {
  public:
@@ -61,8 +61,7 @@ class Packing {
     if (value) put(*value);
   }
   template <class T>
-    requires(!Plain<T>)
-  void put(const T& value) {
+  requires(!Plain<T>) void put(const T& value) {
     carry(*this, const_cast<T&>(value));  // which it only reads
   }
 
@@ -112,10 +111,7 @@ class Unpacking {
     if (is_there) take(value.emplace());
   }
   template <class T>
-    requires(!Plain<T>)
-  void take(T& value) {
-    carry(*this, value);
-  }
+  requires(!Plain<T>) void take(T& value) { carry(*this, value); }
 
   std::string_view rest_;
 };

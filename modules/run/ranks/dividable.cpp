@@ -13,8 +13,10 @@ void check_clocks(const std::vector<Setting>& settings) {
     const bool is_kind = setting.key == "clock" || setting.key.ends_with(".clock") || setting.key == "clock.kind" ||
                          setting.key.ends_with(".clock.kind");
     if (is_kind && (setting.text == "cpu" || setting.text == "proportional"))
-      throw setting.bad("expected a clock that is not measured, as there are several ranks: fixed, interval or counted; "
-                        "found '" + setting.text + "'");
+      throw setting.bad(
+          "expected a clock that is not measured, as there are several ranks: fixed, interval or counted; "
+          "found '" +
+          setting.text + "'");
   }
 }
 
@@ -27,7 +29,8 @@ void check_dividable(const scenario::Scenario& scenario) {
       if (module.enabled) check_clocks(module.settings);
     for (const scenario::ProgramScenario& program : robot.programs)
       if (program.command.empty())
-        throw program.written.bad("expected no program that is a shared object, as there are several ranks: use `command`");
+        throw program.written.bad(
+            "expected no program that is a shared object, as there are several ranks: use `command`");
   }
 }
 

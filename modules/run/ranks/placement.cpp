@@ -46,9 +46,9 @@ Placement::Placement(const scenario::Scenario& scenario, int rank, int ranks, st
       if (scenario.robots[i].programs.empty() || is_given[i] != given_ones) continue;
       if (!of_programs) of_programs = rank_of_[i];
       if (is_given[i] && rank_of_[i] != *of_programs)
-        throw BadInput("--place", "expected robots with programs on one rank, found robot '" +
-                                      scenario.robots[i].name + "' on rank " + std::to_string(rank_of_[i]) +
-                                      ", another on rank " + std::to_string(*of_programs));
+        throw BadInput("--place", "expected robots with programs on one rank, found robot '" + scenario.robots[i].name +
+                                      "' on rank " + std::to_string(rank_of_[i]) + ", another on rank " +
+                                      std::to_string(*of_programs));
       rank_of_[i] = *of_programs;
     }
 }

@@ -54,9 +54,9 @@ void Ranks::check_same(const char* what, const std::string& value) {
   const std::vector<Named> all = gather(Named{transport_.host(), value});
   for (std::size_t i = 1; i < all.size(); ++i)
     if (all[i].value != all[0].value)
-      throw BadInput("rank " + std::to_string(i) + " on " + all[i].host,
-                     std::string("expected the same ") + what + " on all ranks, '" + all[0].value + "', found '" +
-                         all[i].value + "'");
+      throw BadInput("rank " + std::to_string(i) + " on " + all[i].host, std::string("expected the same ") + what +
+                                                                             " on all ranks, '" + all[0].value +
+                                                                             "', found '" + all[i].value + "'");
 }
 
 }  // namespace waitpoint::run

@@ -56,8 +56,8 @@ void carry(auto& archive, bridge::DatedPose& at) { archive(at.date, at.pose); }
 void carry(auto& archive, bridge::RobotResult& result) {
   archive(result.name, result.digest, result.goals, result.present, result.collisions, result.distance_m,
           result.position_error_mean_m, result.position_error_max_m, result.odometry_error_max_m,
-          result.odometry_error_end_m, result.true_path, result.estimated_path, result.odometry_path,
-          result.late_tasks, result.battery, result.programs, result.segments);
+          result.odometry_error_end_m, result.true_path, result.estimated_path, result.odometry_path, result.late_tasks,
+          result.battery, result.programs, result.segments);
 }
 void carry(auto& archive, bridge::RankFigures& figures) {
   archive(figures.computing_s, figures.world_s, figures.exchange_s);

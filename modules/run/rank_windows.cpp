@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "modules/run/ranks/ranked_run.hpp"
+#include "modules/run/rank_windows.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -28,23 +28,7 @@ RunEnd end_of(Failure::Kind kind) { return kind == Failure::Kind::deadlock ? Run
 
 }  // namespace
 
-/// A call of the leader's, for the others.
-struct RankedRun::Call {
-  enum class Kind : std::uint8_t { run_before, intervene, idle, gather_records, complete, end };
-
-  Kind kind = Kind::end;
-  Time until = {};
-  std::string text = {}, file = {};  // of an intervention, and where it is written
-  int line = 0;
-  std::optional<Time> date = {};
-  Duration least = {};
-
-  friend void carry(auto& archive, Call& call) {
-    archive(call.kind, call.until, call.text, call.file, call.line, call.date, call.least);
-  }
-};
-
-RankedRun::RankedRun(Ranks& ranks, const RankedParts& parts)
+RankWindows::RankWindows(Ranks& ranks, const RankedParts& parts)
     : ranks_(ranks), parts_(parts), remote_steps_(parts.robots.size()), told_(parts.robots.size()) {
   ranks.set_place([this] {
     return "in window " + std::to_string(windows_ + 1) + ", from " + to_string(reached_) + " s of virtual time on";
@@ -56,15 +40,7 @@ RankedRun::RankedRun(Ranks& ranks, const RankedParts& parts)
   }
 }
 
-RankedRun::~RankedRun() {
-  if (!ranks_.leads() || is_over_) return;
-  try {
-    tell({.kind = Call::Kind::end});
-  } catch (const std::exception&) {  // a rank is lost, which has been reported
-  }
-}
-
-void RankedRun::send_elsewhere() {
+void RankWindows::send_elsewhere() {
   std::set<std::string, std::less<>> elsewhere;
   for (std::size_t i = 0; i < parts_.robots.size(); ++i)
     if (!is_here(i)) elsewhere.insert(parts_.robots[i]->name());
@@ -76,118 +52,7 @@ void RankedRun::send_elsewhere() {
   });
 }
 
-// --- the leader's calls, and their execution elsewhere ---
-
-void RankedRun::tell(const Call& call) {
-  is_over_ = true;  // if it fails
-  (void)ranks_.from_leader(call);
-  is_over_ = false;
-}
-
-RunEnd RankedRun::run_before(Time until) {
-  tell({.kind = Call::Kind::run_before, .until = until});
-  return carry_on(until);
-}
-
-Time RankedRun::intervene(const Intervention& intervention, std::optional<Time> date) {
-  tell({.kind = Call::Kind::intervene,
-        .text = intervention.text,
-        .file = intervention.written.file,
-        .line = intervention.written.line,
-        .date = date});
-  Time at;
-  ranks_.act_together([&] { at = add_intervention(intervention, date); });
-  return at;
-}
-
-std::string RankedRun::idle(Duration least) {
-  if (is_over_) return "";
-  tell({.kind = Call::Kind::idle, .least = least});
-  std::string all;
-  for (const std::string& part : ranks_.gather(describe_idle(least))) all += part;
-  return all;
-}
-
-void RankedRun::gather_records() {
-  if (is_over_) return;
-  if (ranks_.leads()) tell({.kind = Call::Kind::gather_records});
-  Records own;
-  own.pairs_after_ends = parts_.simulation.scheduler().roster().pairs_after_ends();
-  for (std::size_t i = 0; i < parts_.lanes.size(); ++i) {
-    const kernel::Robot& lane = *parts_.lanes[i];
-    if (is_here(i))
-      own.robots.push_back({static_cast<std::uint32_t>(i), lane.digest, lane.outputs, lane.ended, lane.end_time});
-  }
-  after_ends_elsewhere_ = 0;
-  const std::vector<Records> all = ranks_.gather(own);
-  for (std::size_t rank = 0; rank < all.size(); ++rank) {
-    if (rank == static_cast<std::size_t>(ranks_.rank())) continue;
-    after_ends_elsewhere_ += all[rank].pairs_after_ends;
-    for (const RobotRecord& record : all[rank].robots) {
-      kernel::Robot& lane = *parts_.lanes[record.robot];
-      lane.digest = record.digest;
-      lane.outputs = record.outputs;
-      lane.ended = record.ended;
-      lane.end_time = record.end_time;
-    }
-  }
-}
-
-void RankedRun::complete(bridge::RunResult& result) {
-  if (is_over_) return;
-  if (ranks_.leads()) tell({.kind = Call::Kind::complete});
-  Results own;
-  own.figures = figures_;
-  for (std::size_t i = 0; i < parts_.robots.size(); ++i) {
-    if (!is_here(i) || ranks_.leads()) continue;
-    own.robots.push_back(static_cast<std::uint32_t>(i));
-    own.results.push_back(result_of(i));
-  }
-  for (const Results& of_rank : ranks_.gather(own)) {
-    result.ranks.push_back(of_rank.figures);
-    for (std::size_t i = 0; i < of_rank.robots.size() && ranks_.leads(); ++i) {
-      bridge::RobotResult& robot = result.robots[of_rank.robots[i]];
-      world::Shape shape = std::move(robot.shape);
-      robot = of_rank.results[i];
-      robot.shape = std::move(shape);
-    }
-  }
-}
-
-void RankedRun::follow() {
-  for (;;) {
-    const Call call = ranks_.from_leader(Call());
-    if (call.kind == Call::Kind::end) return;
-    obey(call);
-  }
-}
-
-void RankedRun::obey(const Call& call) {
-  switch (call.kind) {
-    case Call::Kind::run_before: carry_on(call.until); break;
-    case Call::Kind::intervene:
-      try {
-        ranks_.act_together([&] {
-          const scenario::Location written{call.file, call.line};
-          add_intervention(parse_intervention(call.text, written), call.date);
-        });
-      } catch (const BadInput&) {  // the leader tells of it
-      }
-      break;
-    case Call::Kind::idle: ranks_.gather(describe_idle(call.least)); break;
-    case Call::Kind::gather_records: gather_records(); break;
-    case Call::Kind::complete: {
-      bridge::RunResult none;
-      complete(none);
-      break;
-    }
-    case Call::Kind::end: break;
-  }
-}
-
-// --- windows ---
-
-Time RankedRun::end_of_window() const {
+Time RankWindows::end_of_window() const {
   const Duration begun = parts_.step * (reached_.since_start() / parts_.step);
   const Duration lookahead = parts_.simulation.scheduler().lookahead();
   const Time step = Time() + begun + parts_.step;
@@ -195,9 +60,8 @@ Time RankedRun::end_of_window() const {
   return std::min(step, Time() + begun + lookahead * ((reached_.since_start() - begun) / lookahead + 1));
 }
 
-RunEnd RankedRun::carry_on(Time until) {
+RunEnd RankWindows::run_before(Time until) {
   RunEnd end = RunEnd::time_reached;
-  is_over_ = true;  // if it fails, all ranks leave
   while (end == RunEnd::time_reached && reached_ < until) {
     const Time next = std::min(until, end_of_window());
     const double begin_s = processor_s();
@@ -208,12 +72,10 @@ RunEnd RankedRun::carry_on(Time until) {
     figures_.exchange_s += wall_s() - wait_s;
     end = take_over(all, next);
   }
-  ship();
-  is_over_ = false;
   return end;
 }
 
-Window RankedRun::run_window(Time end) {
+Window RankWindows::run_window(Time end) {
   commands_.clear();
   messages_.clear();
   Window window;
@@ -240,7 +102,7 @@ Window RankedRun::run_window(Time end) {
   return window;
 }
 
-Failure RankedRun::failure_in(Time end) {
+Failure RankWindows::failure_in(Time end) {
   Simulation& simulation = parts_.simulation;
   try {
     RunEnd stopped = simulation.run_before(end);
@@ -255,7 +117,7 @@ Failure RankedRun::failure_in(Time end) {
 }
 
 // Since the first window each bridge waits for the world's step.
-void RankedRun::note_steps(Window& window) const {
+void RankWindows::note_steps(Window& window) const {
   const kernel::Task* task = parts_.simulation.scheduler().first_task();
   for (; task != nullptr; task = task->next) {
     if (task->phase != kernel::Phase::world || task->blocked_on == nullptr ||
@@ -268,7 +130,7 @@ void RankedRun::note_steps(Window& window) const {
 }
 
 // All ranks come to the same result.
-RunEnd RankedRun::take_over(const std::vector<Window>& windows, Time end) {
+RunEnd RankWindows::take_over(const std::vector<Window>& windows, Time end) {
   reached_ = end;
   ++windows_;
   std::uint64_t live_tasks = 0;
@@ -299,7 +161,7 @@ RunEnd RankedRun::take_over(const std::vector<Window>& windows, Time end) {
   return live_tasks == 0 && last_end_ && is_whole_step ? RunEnd::ended : RunEnd::time_reached;
 }
 
-void RankedRun::check_replicas(const std::vector<Window>& windows, Time end) {
+void RankWindows::check_replicas(const std::vector<Window>& windows, Time end) {
   std::size_t other = 1;
   const auto is_same = [&](const Window& window) {
     return window.environment == windows[0].environment && window.bodies == windows[0].bodies;
@@ -317,13 +179,6 @@ void RankedRun::check_replicas(const std::vector<Window>& windows, Time end) {
     }
   throw std::runtime_error("rank " + std::to_string(other) + " is not equal to rank 0 after window " +
                            std::to_string(windows_) + ", which ends at " + to_string(end) + " s: " + what);
-}
-
-void RankedRun::ship() {
-  for (Freight* const freight : freights_) {
-    const std::vector<std::string> loads = ranks_.gather(freight->load());
-    if (ranks_.leads()) freight->unload(loads);
-  }
 }
 
 }  // namespace waitpoint::run

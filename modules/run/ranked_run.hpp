@@ -3,7 +3,7 @@
 // robot are on one rank.
 //
 //   window [T_k, T_k+1)      each rank alone: the world's step at T_k, then its own robots
-//   exchange at its end      commands to bodies, goals, ends, failures: see window.hpp
+//   exchange at its end      commands to bodies, goals, ends, failures: see rank_window.hpp
 //   window [T_k+1, ...)      the world's step takes the commands of all
 //
 // A command is latched by the world's next step, in one process too, so nothing comes too late; messages between robots
@@ -27,24 +27,12 @@
 #include "modules/bridge/robot.hpp"
 #include "modules/bridge/run_result.hpp"
 #include "modules/run/operator.hpp"
+#include "modules/run/rank_windows.hpp"
 #include "modules/run/ranks/freight.hpp"
 #include "modules/run/ranks/ranks.hpp"
-#include "modules/run/ranks/remote_step.hpp"
 #include "modules/run/ranks/results.hpp"
-#include "modules/run/ranks/window.hpp"
 
 namespace waitpoint::run {
-
-/// The parts of an experiment; all must outlive the RankedRun.
-struct RankedParts {
-  Simulation& simulation;
-  world::World& world;
-  const std::vector<std::unique_ptr<bridge::Robot>>& robots;
-  const std::vector<kernel::Robot*>& lanes;  // by robot
-  Operator& the_operator;
-  io::Network& network;
-  Duration step;
-};
 
 class RankedRun {
  public:
@@ -55,15 +43,12 @@ class RankedRun {
   RankedRun(const RankedRun&) = delete;
   RankedRun& operator=(const RankedRun&) = delete;
 
-  /// On the world's task: releases the bridge of a robot elsewhere.
-  void step(std::size_t robot) { remote_steps_[robot].release(); }
-  /// The processor time that the world's step took.
-  void add_world_time(double seconds) { figures_.world_s += seconds; }
+  RankWindows& windows() { return windows_; }
+  const RankWindows& windows() const { return windows_; }
 
   // The leader's calls.
 
-  /// Experiment::run_before(). Throws std::runtime_error for an exception in a task of any rank, and if replicated
-  /// state differs.
+  /// See RankWindows::run_before().
   RunEnd run_before(Time until);
   Time intervene(const Intervention& intervention, std::optional<Time> date);
   /// Experiment::idle() of all ranks.
@@ -78,9 +63,6 @@ class RankedRun {
 
   /// Shipped after each run_before(). On all ranks in the same order, before the first one. It must outlive this.
   void add(Freight& freight) { freights_.push_back(&freight); }
-  std::optional<Time> last_end() const { return last_end_; }
-  /// See Simulation::trouble().
-  const std::string& trouble() const { return trouble_; }
   /// The number of events of services elsewhere after the ends of their robots; after gather_records().
   std::uint64_t events_after_ends_elsewhere() const { return after_ends_elsewhere_; }
 
@@ -95,30 +77,14 @@ class RankedRun {
   void tell(const Call& call);
   void obey(const Call& call);
   RunEnd carry_on(Time until);
-  void send_elsewhere();
-  Time end_of_window() const;
-  Window run_window(Time end);
-  Failure failure_in(Time end);
-  void note_steps(Window& window) const;
-  RunEnd take_over(const std::vector<Window>& windows, Time end);
-  void check_replicas(const std::vector<Window>& windows, Time end);
   void ship();
   bool is_here(std::size_t robot) const { return ranks_.placement().is_here(robot); }
 
   Ranks& ranks_;
   RankedParts parts_;
-  std::vector<bridge::BodyCommand> commands_;  // of robots here, in this window
-  std::vector<Message> messages_;              // to robots elsewhere, in this window
-  std::vector<RemoteStep> remote_steps_;       // by robot; unused for those here
-  std::vector<GoalCounts> told_;               // by robot
-  std::size_t seen_outcomes_ = 0;
+  RankWindows windows_;
   std::vector<Freight*> freights_;
-  Time reached_;
-  std::uint64_t windows_ = 0;
-  std::optional<Time> last_end_here_, last_end_;  // of a task but services, on this rank; of the last one of all
   std::uint64_t after_ends_elsewhere_ = 0;
-  std::string trouble_;
-  bridge::RankFigures figures_;
   bool is_over_ = false;  // the others do not wait for a call
 };
 
