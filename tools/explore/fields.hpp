@@ -46,6 +46,7 @@ class FieldReader {
   void operator()(std::vector<T>& values) requires std::is_trivially_copyable_v<T> {
     get(values);
   }
+  bool is_at_end() const { return rest_.empty(); }
 
  private:
   void take(void* to, std::size_t size) {

@@ -20,20 +20,11 @@ constexpr std::uint64_t generation = 64;
 // number.
 constexpr std::uint64_t lesson = std::uint64_t{1} << 63;
 
-Finding outcome_of(const Children::Ended& ended) {
-  const std::string death = death_of(ended);
-  if (death.empty()) return finding_of(std::string_view(ended.bytes));
-  Finding finding;
-  finding.kind = Finding::Kind::killed;
-  finding.words = death;
-  return finding;
-}
-
 // A program's run that has gone on for long says what its threads do.
 void stop(Target& target) {
   if (target.options().program.empty()) return;
   if (const auto ended = target.runs().stop_longest())
-    if (const std::string words = outcome_of(*ended).words; !words.empty())
+    if (const std::string words = Target::findings_of(*ended).back().words; !words.empty())
       std::fprintf(stderr, "waitpoint: %s\n", words.c_str());
 }
 
@@ -42,14 +33,14 @@ void stop(Target& target) {
 std::optional<Finding> run_apart(Target& target, const Plan& plan, const Target::Request& request) {
   target.runs().start(0, Target::to_request(plan, request));
   while (interruption() == 0)
-    if (const auto ended = target.runs().wait(look_around_ms)) return outcome_of(*ended);
+    if (const auto ended = target.runs().wait(look_around_ms)) return Target::findings_of(*ended).front();
   stop(target);
   target.runs().kill_from(0);
   return std::nullopt;
 }
 
 Search::Search(Target& target, SearchProgress& progress, Discoveries& discoveries, ResultsFile* results)
-    : target_(target), progress_(progress), discoveries_(discoveries), results_(results) {
+    : target_(target), progress_(progress), discoveries_(discoveries), results_(results), batches_(target.batch_max()) {
   const ExploreOptions& options = target.options();
   enumeration_ = Enumeration::of_options(options.strategy);
   is_exhaustive_ = enumeration_.has_value();
@@ -65,7 +56,12 @@ bool Search::may_start() const {
   // Without noise the default order is a single schedule.
   const bool is_one = options.strategy == "fifo" && !target_.has_noise();
   return number < (is_one ? std::min<std::uint64_t>(options.iterations, 1) : options.iterations) && !last_ &&
-         !is_over_ && !(options.time_limit_s > 0 && progress_.seconds() >= options.time_limit_s);
+         !is_over_ && has_time();
+}
+
+bool Search::has_time() const {
+  const double limit_s = target_.options().time_limit_s;
+  return limit_s <= 0 || progress_.seconds() < limit_s;
 }
 
 // Tells `exhaustion_` of the first `count` schedules.
@@ -100,14 +96,50 @@ std::optional<Search::Origin> Search::next_origin() {
   return Origin::enumerated;
 }
 
-// False if it depends on one that still runs, or must wait for its turn.
+// False if none can be started for now.
+bool Search::start_next() {
+  if (start_left()) return true;
+  const std::optional<Origin> origin = may_start() ? next_origin() : std::nullopt;
+  if (origin == Origin::enumerated) start_enumerated();
+  return origin == Origin::enumerated || (origin == Origin::drawn && start_drawn());
+}
+
+// The rest of a batch; it is of drawn schedules. Those of earlier places than the failure that ends the search are run
+// at any rate.
+bool Search::start_left() {
+  if (!last_ && !has_time()) return false;
+  const std::optional<Batches::Batch> left = batches_.take_left(last_.value_or(lesson));
+  if (left) start(*left, {.number = *running_.at(left->place).number}, {});
+  return left.has_value();
+}
+
+std::uint64_t Search::next_drawn() const {
+  const Shard& shard = target_.options().shard;
+  return shard.index - 1 + drawn_ * shard.count;
+}
+
+bool Search::learns(std::uint64_t number) const { return feedback_ && feedback_->is_learned(number); }
+
+// As many at once as a batch has, up to one that may come about otherwise, or learns.
 bool Search::start_drawn() {
-  const ExploreOptions& options = target_.options();
-  const std::uint64_t number = options.shard.index - 1 + drawn_ * options.shard.count;
+  if (learns(next_drawn())) return start_learning();
+  Batches::Batch batch{started_, 0};
+  const std::uint64_t first = next_drawn();
+  do {
+    running_[started_++] = {.number = next_drawn(), .finding = {}};
+    ++drawn_;
+    ++batch.count;
+  } while (batch.count < batches_.size() && may_start() && next_origin() == Origin::drawn && !learns(next_drawn()));
+  start(batch, {.number = first}, {});
+  return true;
+}
+
+// False if it depends on one that still runs, or must wait for its turn.
+bool Search::start_learning() {
+  const std::uint64_t number = next_drawn();
   Plan plan{.number = number};
-  const bool learns = feedback_ && feedback_->is_learned(number);
-  while (learns && feedback_->next() <= number) {
-    if (target_.runs().count() == options.jobs) return false;
+  while (feedback_->next() <= number) {
+    if (target_.runs().count() == target_.options().jobs) return false;
     const std::optional<Plan> next = feedback_->plan_of_next();
     if (!next) return false;
     if (next->number == number)
@@ -116,24 +148,34 @@ bool Search::start_drawn() {
       target_.runs().start(lesson | next->number, Target::to_request(*next, {.pairs = true}));
   }
   ++drawn_;
-  start({.number = number, .finding = {}, .constraints = plan.constraints}, plan, {.pairs = learns});
+  running_[started_] = {.number = number, .finding = {}, .constraints = plan.constraints};
+  start({started_++, 1}, plan, {.pairs = true});
   return true;
 }
 
 void Search::start_enumerated() {
   enumerating_ = started_;
-  start({.number = enumeration_->number(), .finding = {}, .enumeration = enumeration_->name()}, *enumeration_->next(),
-        {.choices = true});
+  running_[started_] = {.number = enumeration_->number(), .finding = {}, .enumeration = enumeration_->name()};
+  start({started_++, 1}, *enumeration_->next(), {.choices = true});
 }
 
-void Search::start(FailedRun run, const Plan& plan, const Target::Request& request) {
-  running_[started_] = std::move(run);
-  target_.runs().start(started_, Target::to_request(plan, request));
-  ++started_;
+// `plan` is of the first.
+void Search::start(const Batches::Batch& batch, const Plan& plan, const Target::Request& request) {
+  batches_.start(batch, progress_.seconds());
+  const Target::Repeats repeats{.step = target_.options().shard.count, .count = batch.count - 1};
+  target_.runs().start(batch.place, Target::to_request(plan, request, repeats));
+}
+
+void Search::take_ended(const Children::Ended& ended) {
+  std::vector<Finding> findings = Target::findings_of(ended);
+  if ((ended.number & lesson) != 0) return feedback_->take(ended.number & ~lesson, findings.front());
+  if (!death_of(ended).empty() && batches_.divide(ended.number)) return;
+  batches_.end(ended.number, static_cast<std::uint32_t>(findings.size()), progress_.seconds());
+  std::uint64_t place = ended.number;
+  for (Finding& finding : findings) take(place++, std::move(finding));
 }
 
 void Search::take(std::uint64_t place, Finding finding) {
-  if ((place & lesson) != 0) return feedback_->take(place & ~lesson, finding);
   ++schedules_;
   if (finding.kind != Finding::Kind::killed && !finding.was_cut) orders_.insert(finding.order);
   const bool goes_on = finding.passed() || goes_on_after(finding.kind, target_.options());
@@ -146,7 +188,7 @@ void Search::take(std::uint64_t place, Finding finding) {
   const bool is_enumerated = enumerating_ == place;
   if (is_enumerated) enumeration_->take(finding);
   FailedRun run = std::move(running_.extract(place).mapped());
-  if (!is_enumerated && feedback_ && feedback_->is_learned(*run.number)) feedback_->take(*run.number, finding);
+  if (!is_enumerated && learns(*run.number)) feedback_->take(*run.number, finding);
   run.finding = std::move(finding);
   waiting_.emplace(place, std::move(run));
   report(false);
@@ -190,16 +232,10 @@ void Search::run() {
   const ExploreOptions& options = target_.options();
   if (results_ != nullptr) results_->begin(target_);
   while (!interrupted_) {
-    while (target_.runs().count() < options.jobs && may_start()) {
-      const std::optional<Origin> origin = next_origin();
-      if (!origin) break;
-      if (*origin == Origin::enumerated)
-        start_enumerated();
-      else if (!start_drawn())
-        break;
+    while (target_.runs().count() < options.jobs && start_next()) {
     }
     if (target_.runs().count() == 0) break;
-    if (const auto ended = target_.runs().wait(look_around_ms)) take(ended->number, outcome_of(*ended));
+    if (const auto ended = target_.runs().wait(look_around_ms)) take_ended(*ended);
     progress_.update(schedules_, distinct(), failures_);
     interrupted_ = interruption() != 0;
   }

@@ -5,7 +5,8 @@
 // and later ones are killed: the reported failure is the first, regardless of the number of processes.
 //
 // Most schedules are drawn, each by its number. When draws bring nothing new (exploration::Exhaustion), an exhaustive
-// strategy follows, one schedule at a time, since each is derived from the one before.
+// strategy follows, one schedule at a time, since each is derived from the one before. Drawn ones whose plans do not
+// wait for results are run in batches, which change neither places nor outcomes.
 #pragma once
 
 #include <map>
@@ -15,6 +16,7 @@
 #include <vector>
 
 #include "fibers/explore/schedules/exhaustion.hpp"
+#include "tools/explore/batches.hpp"
 #include "tools/explore/discoveries.hpp"
 #include "tools/explore/enumeration.hpp"
 #include "tools/explore/feedback.hpp"
@@ -58,12 +60,19 @@ class Search {
     bool is_enumerated, is_lost, was_cut, is_beyond;
   };
 
+  bool has_time() const;
   bool may_start() const;
   std::optional<Origin> next_origin();
   void tell_exhaustion(std::uint64_t count);
+  std::uint64_t next_drawn() const;
+  bool learns(std::uint64_t number) const;
+  bool start_next();
+  bool start_left();
   bool start_drawn();
+  bool start_learning();
   void start_enumerated();
-  void start(FailedRun run, const Plan& plan, const Target::Request& request);
+  void start(const Batches::Batch& batch, const Plan& plan, const Target::Request& request);
+  void take_ended(const Children::Ended& ended);
   void take(std::uint64_t place, Finding finding);
   void end_enumeration();
   void report(bool at_end);
@@ -72,6 +81,7 @@ class Search {
   SearchProgress& progress_;
   Discoveries& discoveries_;
   ResultsFile* results_;
+  Batches batches_;
   std::uint64_t started_ = 0, drawn_ = 0;
   std::uint64_t schedules_ = 0, failures_ = 0, raced_ = 0;
   std::unordered_set<std::uint64_t> orders_;

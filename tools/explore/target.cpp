@@ -8,8 +8,8 @@
 namespace waitpoint::tools {
 namespace {
 
-template <class Pass, class P, class R>
-void pass_fields(Pass& pass, P& plan, R& request) {
+template <class Pass, class P, class R, class S>
+void pass_fields(Pass& pass, P& plan, R& request, S& repeats) {
   pass(plan.number);
   pass(plan.drawn);
   pass(plan.strategy);
@@ -21,6 +21,7 @@ void pass_fields(Pass& pass, P& plan, R& request) {
   pass(plan.attempt);
   pass(plan.until);
   pass(request);
+  pass(repeats);
 }
 
 }  // namespace
@@ -54,18 +55,39 @@ Children& Target::runs() {
   return *runs_;
 }
 
-std::string Target::to_request(const Plan& plan, const Request& request) {
+std::string Target::to_request(const Plan& plan, const Request& request, const Repeats& repeats) {
   FieldWriter writer;
-  pass_fields(writer, plan, request);
+  pass_fields(writer, plan, request, repeats);
   return std::move(writer.bytes);
 }
 
 std::string Target::execute(std::string_view bytes) {
   Plan plan;
   Request request;
+  Repeats repeats;
   FieldReader reader(bytes);
-  pass_fields(reader, plan, request);
-  return to_bytes(run(plan, request));
+  pass_fields(reader, plan, request, repeats);
+  FieldWriter results;
+  for (std::uint32_t left = repeats.count;; --left, plan.number += repeats.step) {
+    const Finding finding = run(plan, request);
+    results(to_bytes(finding));
+    if (left == 0 || !finding.passed()) return std::move(results.bytes);
+  }
+}
+
+std::vector<Finding> Target::findings_of(const Children::Ended& ended) {
+  std::vector<Finding> findings;
+  if (const std::string death = death_of(ended); !death.empty()) {
+    findings.emplace_back().kind = Finding::Kind::killed;
+    findings.back().words = death;
+    return findings;
+  }
+  for (FieldReader reader(ended.bytes); !reader.is_at_end();) {
+    std::string bytes;
+    reader(bytes);
+    findings.push_back(finding_of(bytes));
+  }
+  return findings;
 }
 
 bool needs_profile(const std::string& strategy) {

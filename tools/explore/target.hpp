@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "core/time.hpp"
 #include "tools/explore/children.hpp"
@@ -32,6 +33,12 @@ class Target {
     std::optional<std::uint32_t> trail = {};   ///< of scenarios: a mark after each 2^N events; excludes the above
     /// Ends the run before this event, and describes its task's next operation and call stack.
     std::optional<exploration::EventOf> stop_before = {};
+  };
+
+  /// The same request for further schedules, whose numbers grow by `step`; up to the first that does not pass.
+  struct Repeats {
+    std::uint64_t step = 1;
+    std::uint32_t count = 0;
   };
 
   virtual ~Target() = default;
@@ -64,7 +71,14 @@ class Target {
 
   /// The processes that execute runs, by requests.
   Children& runs();
-  static std::string to_request(const Plan& plan, const Request& request);
+  static std::string to_request(const Plan& plan, const Request& request) {
+    return to_request(plan, request, Repeats());
+  }
+  static std::string to_request(const Plan& plan, const Request& request, const Repeats& repeats);
+  /// The findings of the plan and its repeats, from the process that has run them; one that it was killed, if it was.
+  static std::vector<Finding> findings_of(const Children::Ended& ended);
+  /// The greatest number of schedules that one process can run in turn.
+  std::uint32_t batch_max() const { return has_processes() ? 16 : 1; }
 
  protected:
   /// True if runs are processes by themselves: one process can execute several, one after the other, and waits for
