@@ -41,6 +41,8 @@ void Scheduler::reserve_ahead() {
   ReadySet ready;
   ready.reserve(tasks_max);
   stacks.reserve_all();
+  constexpr std::uint32_t usual_tasks = 8;
+  stacks.guard_ahead(usual_tasks);
 }
 
 void Scheduler::set_decisions(Decisions& decisions) {

@@ -4,6 +4,8 @@
 #include <sys/mman.h>
 #include <sys/resource.h>
 
+#include <algorithm>
+
 #include "core/error.hpp"
 #include "fibers/switch/reserved_pages.hpp"
 #include "fibers/switch/sanitizer.hpp"
@@ -31,6 +33,13 @@ std::size_t bytes_max() {
   return limit.rlim_cur / 8;
 }
 
+// Of each size, of pages that are kept: the first slots have their guards from guard_ahead() on.
+struct GuardedAhead {
+  const char* base;
+  std::uint32_t slots;
+};
+constinit GuardedAhead guarded_ahead[stack_sizes] = {};
+
 }  // namespace
 
 StackArena::StackArena() {
@@ -42,8 +51,19 @@ void StackArena::reserve_all() {
   if (Range& programs = range_of(StackSize::program); programs.base == nullptr) reserve(programs, StackSize::program);
 }
 
+void StackArena::guard_ahead(std::uint32_t slots) {
+  for (int i = 0; i < stack_sizes; ++i) {
+    guarded_ahead[i] = {ranges_[i].base, 0};
+    std::uint32_t& guarded = guarded_ahead[i].slots;
+    while (guarded < std::min(slots, ranges_[i].slots) &&
+           madvise(ranges_[i].base + guarded * bytes(static_cast<StackSize>(i)), page, madv_guard_install) == 0)
+      ++guarded;
+  }
+}
+
 void StackArena::reserve(Range& range, StackSize of) {
-  const std::size_t most = bytes_max();
+  std::size_t most = ~std::size_t{0};
+  if (guarded_ahead[static_cast<int>(of)].base == nullptr) most = bytes_max();
   // With little address space (limits, strict overcommit) there are fewer slots, not a failure.
   for (range.slots = slots_max[static_cast<int>(of)]; range.slots > 0; range.slots /= 2) {
     const std::size_t size = range.slots * bytes(of);
@@ -87,7 +107,10 @@ bool StackArena::take(StackSize size, Stack& stack) {
   } else {
     if (range.opened == range.slots) return false;
     const std::uint32_t slot = range.opened++;
-    if (slot < range.unguarded_from && !install_guard(range.base + slot * bytes(size))) range.unguarded_from = slot;
+    const GuardedAhead& ahead = guarded_ahead[static_cast<int>(size)];
+    const bool is_guarded = range.base == ahead.base && slot < ahead.slots;
+    if (!is_guarded && slot < range.unguarded_from && !install_guard(range.base + slot * bytes(size)))
+      range.unguarded_from = slot;
     stack = describe(range, size, slot);
   }
   if (sanitizer::present) sanitizer::open_stack(stack);

@@ -31,6 +31,8 @@ class StackArena {
 
   /// Reserves address space for stacks of every size, also of sizes that have it from their first use on only.
   void reserve_all();
+  /// Installs the guards of the first stacks of each size, which stay for later arenas on the same pages (PagesKept).
+  void guard_ahead(std::uint32_t slots);
   /// Takes a stack of bytes(size), minus the guard page and the shift, which is less than a page. False if all slots
   /// are in use.
   bool take(StackSize size, Stack& stack);

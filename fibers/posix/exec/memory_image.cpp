@@ -112,14 +112,22 @@ bool MemoryImage::has_anonymous(const Pages& pages) const {
 }
 
 bool MemoryImage::restore(const PageMap& map) {
-  return std::all_of(ranges_, ranges_ + count_, [&](const Range& range) {
+  written_count_ = 0;
+  const bool is_told = std::all_of(ranges_, ranges_ + count_, [&](const Range& range) {
     return for_each_page(range, map, [this, &range](std::size_t number, PageMap::Entry entry) {
       const bool is_written = entry.is_present() && !entry.is_of_file() && entry.is_exclusive();
       const bool is_gone = !entry.is_present() && was_there_[range.first_mark + number];
       if (is_written || is_gone || entry.is_swapped())
-        copy_page(reinterpret_cast<char*>(range.pages.begin) + number * page_bytes, range.copy + number * page_bytes);
+        written_[written_count_++] = {reinterpret_cast<char*>(range.pages.begin) + number * page_bytes,
+                                      range.copy + number * page_bytes};
     });
   });
+  if (is_told) restore_again();
+  return is_told;
+}
+
+void MemoryImage::restore_again() const {
+  for (const Written* each = written_; each != written_ + written_count_; ++each) copy_page(each->page, each->copy);
 }
 
 }  // namespace waitpoint::posix

@@ -20,6 +20,9 @@ class MemoryImage {
   bool has_anonymous(const Pages& pages) const;
   /// False if the system does not tell which pages were written.
   bool restore(const PageMap& map);
+  /// The same after a run that has written no other pages than the runs before: a page that the process no longer
+  /// shares stays so.
+  void restore_again() const;
 
  private:
   struct Range {
@@ -41,6 +44,11 @@ class MemoryImage {
   char* next_;                 // of the room, free
   bool was_there_[pages_max];  // a mark for each page: it had contents of its own
   std::size_t marks_;
+  struct Written {
+    char* page;
+    const char* copy;
+  } written_[pages_max];
+  std::size_t written_count_;
   PageMap::Entry entries_[4096];
   char text_[std::size_t{1} << 18];
 };

@@ -4,9 +4,8 @@
 #include <fcntl.h>
 #include <sys/ioctl.h>
 #include <sys/mman.h>
+#include <sys/resource.h>
 #include <sys/syscall.h>
-
-#include <iterator>
 
 #include "fibers/posix/base/direct_call.hpp"
 
@@ -15,19 +14,11 @@ namespace {
 
 // Of Linux 6.7, as <linux/fs.h> has it.
 enum Category : std::uint64_t { present = 1 << 3, swapped = 1 << 4, of_zeros = 1 << 5 };
-struct Found {
-  std::uint64_t begin, end, categories;
-};
 struct Scan {
   std::uint64_t size, flags, begin, end, reached, found, found_max, pages_max;
   std::uint64_t inverted, all_of, any_of, returned;
 };
 constexpr unsigned long scan_request = _IOWR('f', 16, Scan);
-
-void zero_words(std::uint64_t begin, std::uint64_t end) {
-  std::uint64_t words = (end - begin) / sizeof(std::uint64_t);
-  asm volatile("rep stosq" : "+D"(begin), "+c"(words) : "a"(0) : "memory");
-}
 
 }  // namespace
 
@@ -45,16 +36,16 @@ bool PageMap::read(std::uintptr_t from, Entry* entries, std::size_t count) const
                        static_cast<long>(from / page_bytes * sizeof *entries)) == bytes;
 }
 
-// Pages that stay need not be allocated again.
-void PageMap::zero(const Pages& pages) const {
-  Found found[64];
+bool PageMap::Found::is_in_memory() const { return (categories & swapped) == 0; }
+
+long PageMap::scan(const Pages& pages, Found (&found)[found_max]) const {
   Scan scan{.size = sizeof scan,
             .flags = 0,
             .begin = pages.begin,
             .end = pages.end,
             .reached = 0,
             .found = reinterpret_cast<std::uint64_t>(found),
-            .found_max = std::size(found),
+            .found_max = found_max,
             .pages_max = 1024,
             .inverted = of_zeros,
             .all_of = of_zeros,
@@ -62,12 +53,17 @@ void PageMap::zero(const Pages& pages) const {
             .returned = swapped};
   const long count =
       call_directly(SYS_ioctl, descriptor_, static_cast<long>(scan_request), reinterpret_cast<long>(&scan));
-  bool is_done = count >= 0 && scan.reached == pages.end;
-  for (long i = 0; is_done && i < count; ++i) is_done = (found[i].categories & swapped) == 0;
-  if (!is_done)
-    call_directly(SYS_madvise, static_cast<long>(pages.begin), static_cast<long>(pages.end - pages.begin),
-                  MADV_DONTNEED);
-  for (long i = 0; is_done && i < count; ++i) zero_words(found[i].begin, found[i].end);
+  return scan.reached == pages.end ? count : -1;
+}
+
+void PageMap::discard(const Pages& pages) {
+  call_directly(SYS_madvise, static_cast<long>(pages.begin), static_cast<long>(pages.end - pages.begin), MADV_DONTNEED);
+}
+
+long page_faults() {
+  rusage used{};
+  call_directly(SYS_getrusage, RUSAGE_SELF, reinterpret_cast<long>(&used));
+  return used.ru_minflt + used.ru_majflt;
 }
 
 }  // namespace waitpoint::posix

@@ -33,11 +33,40 @@ class PageMap {
 
   /// False if the system does not tell.
   bool read(std::uintptr_t from, Entry* entries, std::size_t count) const;
-  /// Zeroes these pages of private memory that belongs to no file; few of them have been used.
-  void zero(const Pages& pages) const;
+  /// Finds those of these pages of private memory, which belongs to no file, that have been used: few. `take` is called
+  /// with each range of them. Pages that are not in memory are discarded, all if the system does not tell.
+  template <class Take>
+  void find_used(const Pages& pages, Take take) const;
 
  private:
+  static constexpr std::size_t found_max = 64;
+  struct Found {
+    std::uint64_t begin, end, categories;
+    bool is_in_memory() const;
+  };
+  /// The number of ranges; negative if the system does not tell.
+  long scan(const Pages& pages, Found (&found)[found_max]) const;
+  static void discard(const Pages& pages);
+
   int descriptor_;
 };
+
+template <class Take>
+void PageMap::find_used(const Pages& pages, Take take) const {
+  Found found[found_max];
+  const long count = scan(pages, found);
+  if (count < 0) return discard(pages);
+  for (long i = 0; i < count; ++i) {
+    const Pages one{found[i].begin, found[i].end};
+    if (found[i].is_in_memory())
+      take(one);
+    else
+      discard(one);  // a guard stays
+  }
+}
+
+/// The number of page faults of this process so far: without any, the pages in memory are the same as before, unless
+/// some were discarded, and none has become its own.
+long page_faults();
 
 }  // namespace waitpoint::posix

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fibers/posix/exec/run.hpp"
 
+#include <malloc.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -93,6 +94,8 @@ Time keep_pace(kernel::Scheduler& scheduler) {
     for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) trap_stream(stream);
   }
   notice_stream = trap_stream;
+  // Each thread would reserve a heap of its own, which no other thread of the system competes for.
+  if (record->settings.order == kernel::Order::explored) mallopt(M_ARENA_MAX, 1);
   begin_to_answer();
   draw_random_bytes_of_the_process();
   if (record->settings.trap_rdtsc) trap_processor_counter();
@@ -119,7 +122,10 @@ kernel::Scheduler& begin_run() {
     serve_runs(server);
     trap_raw_calls_of_child();
     instead_of_ending = rerun_instead_of_ending;
+    begin_crash_log();
     begin_reruns();
+  } else {
+    begin_crash_log();
   }
   WAITPOINT_CHECK(kernel::running == nullptr, "a run begins within a task");
   reserve_waitables();
@@ -136,7 +142,6 @@ kernel::Scheduler& begin_run() {
       begin_race_log(asked->learn, asked->notes, asked->memory, asked->code);
   }
   begin_misuse_log();
-  begin_crash_log();
   if (!kernel::Scheduler::has_address_space())
     refuse("there is no address space for the run's tables (a limit such as ulimit -v)");
   kernel::Scheduler& scheduler =

@@ -35,6 +35,8 @@ bool (*may_be_unmapped)(LibraryRange range) = nullptr;
 SystemAction actions_before[actions_end];
 std::uint64_t mask_before = 0;
 bool has_changed[actions_end] = {};
+bool has_discarded = false;
+bool is_for_snapshots = false;
 long break_before = 0;
 
 bool is_mapped_since(std::uintptr_t begin, std::size_t bytes) {
@@ -70,6 +72,11 @@ bool can_advise(const CallWords& words) {
   const int advice = words.word<int>(2);
   return advice == MADV_DONTNEED || advice == guard_install ||
          is_mapped_since(words.word<std::uintptr_t>(0), words.word<std::size_t>(1));
+}
+
+bool discards(long number, const CallWords& words) {
+  if (number == SYS_madvise) return words.at[2] == MADV_DONTNEED;
+  return number == SYS_munmap || (number == SYS_brk && words.at[0] != 0);
 }
 
 bool is_standard_stream(const CallWords& words) { return words.at[0] >= 0 && words.at[0] <= STDERR_FILENO; }
@@ -131,6 +138,29 @@ bool can_be_undone(long number, const CallWords& words) {
   }
 }
 
+bool opens_for_reading(long number, const CallWords& words) {
+  const int flags = words.word<int>(number == SYS_open ? 1 : 2);
+  return (flags & O_ACCMODE) == O_RDONLY && (flags & (O_CREAT | O_TRUNC)) == 0;
+}
+
+bool is_copied_by_fork(long number, const CallWords& words) {
+  switch (number) {
+    case SYS_mmap: return (words.word<int>(3) & MAP_PRIVATE) != 0;
+    case SYS_munmap:
+    case SYS_mremap:
+    case SYS_mprotect:
+    case SYS_madvise:
+    case SYS_prlimit64:
+    case SYS_sigaltstack:
+    case SYS_umask: return true;
+    case SYS_open:
+    case SYS_openat:
+      if (!opens_for_reading(number, words)) return false;
+      [[fallthrough]];
+    default: return can_be_undone(number, words);
+  }
+}
+
 // The handler's return would set another mask.
 long change_mask(const CallWords& words, ucontext_t& context) {
   std::uint64_t now = 0;
@@ -168,22 +198,39 @@ void begin_to_follow_calls(bool (*can_map_again)(LibraryRange range)) {
   call_directly(SYS_rt_sigprocmask, SIG_SETMASK, 0, reinterpret_cast<long>(&mask_before), sizeof mask_before);
 }
 
-bool follow_call(long number, const CallWords& words, ucontext_t& context) {
-  if (!can_be_undone(number, words)) return false;
+void begin_to_follow_calls_for_snapshots() { is_for_snapshots = true; }
+
+namespace {
+
+// What is needed to undo it.
+void note_before(long number, const CallWords& words) {
   if (number == SYS_rt_sigaction && words.at[0] > 0 && words.at[0] < actions_end && !has_changed[words.at[0]])
     has_changed[words.at[0]] = action_of(words.at[0], &actions_before[words.at[0]]) == 0;
   if (number == SYS_munmap && !is_mapped_since(words.word<std::uintptr_t>(0), words.word<std::size_t>(1)))
     unmapped[unmapped_count++] = range_of(words);
-  const long result = number == SYS_rt_sigprocmask ? change_mask(words, context)
-                                                   : call_directly(number, words.at[0], words.at[1], words.at[2],
-                                                                   words.at[3], words.at[4], words.at[5]);
+  has_discarded = has_discarded || discards(number, words);
+}
+void note_after(long number, const CallWords& words, long result) {
   if (number == SYS_mmap && result > 0)
     mapped[mapped_count++] = {static_cast<std::uintptr_t>(result),
                               static_cast<std::uintptr_t>(result) + words.word<std::size_t>(1)};
+}
+
+}  // namespace
+
+bool follow_call(long number, const CallWords& words, ucontext_t& context) {
+  if (is_for_snapshots ? !is_copied_by_fork(number, words) : !can_be_undone(number, words)) return false;
+  if (!is_for_snapshots) note_before(number, words);
+  const long result = number == SYS_rt_sigprocmask ? change_mask(words, context)
+                                                   : call_directly(number, words.at[0], words.at[1], words.at[2],
+                                                                   words.at[3], words.at[4], words.at[5]);
+  if (!is_for_snapshots) note_after(number, words, result);
   if (result >= 0) note_descriptors(number, words, result);
   context.uc_mcontext.gregs[REG_RAX] = result;
   return true;
 }
+
+bool have_calls_discarded() { return has_discarded; }
 
 void undo_calls() {
   close_descriptors_of_run();

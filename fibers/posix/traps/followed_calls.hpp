@@ -13,8 +13,14 @@ namespace waitpoint::posix {
 /// Before the first call: notes the state that they may change. `can_map_again` is true for a range of memory that is
 /// anonymous, private and readable and writable, whose contents will be put back.
 void begin_to_follow_calls(bool (*can_map_again)(LibraryRange range));
-/// Makes the call, and puts its result into the context. False, without having made it, if it could not be undone.
+/// The calls are not to be undone, but a fork of the process must copy all that they change: they are such calls, or
+/// use descriptors that the run has opened, which must be closed at the fork.
+void begin_to_follow_calls_for_snapshots();
+/// Makes the call, and puts its result into the context. False, without having made it, if it could not be undone
+/// or copied.
 bool follow_call(long number, const CallWords& words, ucontext_t& context);
+/// True if a call since then may have taken pages away from memory that was mapped before.
+bool have_calls_discarded();
 /// Undoes the calls, apart from the contents of memory; on no memory that was mapped since.
 void undo_calls();
 
