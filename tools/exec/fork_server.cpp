@@ -75,7 +75,8 @@ bool has_ended(posix::RerunControl& control, int timeout_ms) {
 
 }  // namespace
 
-ForkServer::ForkServer(const ProgramFiles& files, const posix::Settings& settings) : memory_(settings) {
+ForkServer::ForkServer(const ProgramFiles& files, const posix::Settings& settings)
+    : memory_(settings), listener_(memory_.rerun_control()) {
   int ends[2];
   if (socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends) != 0) fail("cannot create a socket");
   const int of_program = fcntl(ends[1], F_DUPFD, least_descriptor);  // stays open in the program
@@ -100,8 +101,21 @@ ForkServer::~ForkServer() {
   }
 }
 
-RunMemory& ForkServer::begin(const posix::Settings& settings) {
+RunMemory* ForkServer::begin_in(const Snapshot& snapshot, const posix::Settings& settings,
+                                const SnapshotsAsked& asked) {
   memory_.begin_anew(settings, was_orderly_);
+  listener_.ask_for(asked);
+  of_run_ = snapshot.socket();
+  const char byte = 0;
+  (void)send(of_run_, &byte, 1, MSG_NOSIGNAL);
+  posix::ServerReady ready;
+  return receive(of_run_, ready) ? &memory_ : nullptr;
+}
+
+RunMemory& ForkServer::begin(const posix::Settings& settings, const SnapshotsAsked& asked) {
+  of_run_ = socket_;
+  memory_.begin_anew(settings, was_orderly_);
+  listener_.ask_for(asked);
   memory_.record().settings.makes_reruns = settings.makes_reruns && gain_.is_worth_preparing();
   return memory_;
 }
@@ -114,9 +128,9 @@ pid_t ForkServer::start(int input, int output) {
     ask_again(control);
     return run_;
   }
-  ask(socket_, {input, output});
+  ask(of_run_, {input, output});
   posix::RunStarted started{};
-  if (!receive(socket_, started)) throw BadInput("exec", "the program has ended");
+  if (!receive(of_run_, started)) throw BadInput("exec", "the program has ended");
   if (started.process < 0) throw BadInput("exec", "cannot create a process");
   return run_ = started.process;
 }
@@ -124,7 +138,7 @@ pid_t ForkServer::start(int input, int output) {
 std::optional<int> ForkServer::wait(int timeout_ms) {
   posix::RerunControl& control = memory_.rerun_control();
   if (!has_ended(control, timeout_ms)) {
-    pollfd one{socket_, 0, 0};
+    pollfd one{of_run_, 0, 0};
     if (poll(&one, 1, 0) <= 0) return std::nullopt;
     return SIGKILL;  // the server is gone
   }
@@ -135,9 +149,9 @@ std::optional<int> ForkServer::wait(int timeout_ms) {
     return control.status;
   }
   posix::RunEnded ended{SIGKILL};
-  (void)receive(socket_, ended);
+  (void)receive(of_run_, ended);
   was_orderly_ = WIFEXITED(ended.status);
-  if (is_followed()) gain_.note_lost();
+  if (memory_.record().settings.makes_reruns) gain_.note_lost();
   return ended.status;
 }
 
@@ -158,9 +172,9 @@ void ForkServer::fork_next() {
 void ForkServer::end() {
   if (waiting_ != 0) return;
   const char byte = 0;
-  (void)send(socket_, &byte, 1, MSG_NOSIGNAL);
+  (void)send(of_run_, &byte, 1, MSG_NOSIGNAL);
   posix::RunGone gone;
-  (void)receive(socket_, gone);
+  (void)receive(of_run_, gone);
 }
 
 }  // namespace waitpoint::tools

@@ -19,7 +19,7 @@
 namespace waitpoint::tools {
 namespace {
 
-constexpr std::uint32_t jobs_max = 1024;
+constexpr std::uint32_t jobs_max = 1024, snapshots_max = 1000;
 
 /// The option's text, else the environment variable's; `where` becomes the name of the source used.
 std::string text_of(const std::string& option, const char* variable, std::string& where) {
@@ -154,6 +154,9 @@ ExploreArguments::ExploreArguments(CommandLine& line)
   command_.flag("--fork-each", forks_each_,
                 "of a program: a process of its own for each schedule (default: most schedules are run\n"
                 "by a process whose memory is put back to its state before main())");
+  command_.option("--snapshots", snapshots_, "N",
+                  "of a program: keep at most N stopped copies of its runs, in which schedules with the same\n"
+                  "choices up to there begin; for each of the jobs (default: 0)");
   conditions_.add_to(command_);
   command_.flag("--no-minimize", keep_all_, "report the failure as found, without minimisation");
   command_.footer(
@@ -185,12 +188,15 @@ void ExploreArguments::take_program_options(ExploreOptions& options) const {
   for (const auto& [name, is_given] : {std::pair<const char*, bool>{"--races", !races_.empty()},
                                        {"--switch-at", !switch_at_.empty()},
                                        {"--memory", !memory_.empty()},
-                                       {"--fork-each", forks_each_}})
+                                       {"--fork-each", forks_each_},
+                                       {"--snapshots", !snapshots_.empty()}})
     if (is_given && !is_program_) throw BadInput(name, "expected --exec and a program");
   options.races = races_of(races_);
   options.switch_at = switch_at_named(switch_at_);
   if (is_program_) options.memory = memory_of(memory_);
   options.forks_each = forks_each_;
+  if (!snapshots_.empty() && (!parse_number(snapshots_, options.snapshots) || options.snapshots > snapshots_max))
+    refuse("--snapshots", "a whole number from 0 to " + std::to_string(snapshots_max), snapshots_);
 }
 
 ExploreOptions ExploreArguments::options(const std::vector<std::string>& words) const {

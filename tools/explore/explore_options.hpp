@@ -46,6 +46,7 @@ struct ExploreOptions {
   std::string replay;  ///< a token or a file's name, to run only that schedule
   bool minimize = true;
   bool forks_each = false;                   ///< each schedule of a program has a process of its own
+  std::uint32_t snapshots = 0;               ///< of a program: the most that are kept
   ProgramConditions conditions;              ///< of a program
   Races races = Races::report;               ///< of a program compiled with -fsanitize=thread
   Memory memory = Memory::sc;                ///< the same
@@ -73,7 +74,7 @@ class ExploreArguments {
 
   Command command_;
   std::string scenario_, seed_, strategy_, iterations_, time_limit_, schedule_limit_, jobs_, until_, from_, shard_;
-  std::string results_, trace_, schedule_, replay_, races_, switch_at_, memory_;
+  std::string results_, trace_, schedule_, replay_, races_, switch_at_, memory_, snapshots_;
   std::vector<std::string> assignments_, properties_;
   ConfinementArguments confinement_;
   ConditionArguments conditions_;

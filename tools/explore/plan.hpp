@@ -25,6 +25,11 @@ struct Plan {
   std::optional<std::size_t> at_random_from = {};  ///< random alternatives after this decision
   std::uint64_t attempt = 0;                       ///< the number of the random continuation
   Time until = Time::max();                        ///< upper limit besides that of the options
+
+  /// The name of the strategy that draws it, where the options have `usual`; empty if none does.
+  std::string drawing_strategy(const std::string& usual) const {
+    return !drawn ? "" : strategy.empty() ? usual : strategy;
+  }
 };
 
 }  // namespace waitpoint::tools

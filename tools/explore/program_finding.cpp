@@ -126,7 +126,7 @@ void ask_for_run(RunMemory& memory, const ProgramFiles& files, const ExploreOpti
                  const Target::Request& request, const exploration::Profile& profile) {
   posix::Record& record = memory.record();
   Asked& asked = *new (record.arena.take(sizeof(Asked))) Asked();
-  const std::string strategy = !plan.drawn ? "" : plan.strategy.empty() ? options.strategy : plan.strategy;
+  const std::string strategy = plan.drawing_strategy(options.strategy);
   WAITPOINT_CHECK(strategy.size() < sizeof asked.strategy, "the name of a strategy is too long");
   std::memcpy(asked.strategy, strategy.c_str(), strategy.size() + 1);
   asked.seed = options.seed;

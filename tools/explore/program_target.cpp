@@ -86,12 +86,25 @@ void check_memory(const ExploreOptions& options, const ProgramFiles& files) {
                    "expected a program compiled with -fsanitize=thread, found '" + files.programs.title() + "'");
 }
 
+namespace {
+
+void check_snapshots(const ExploreOptions& options, const ProgramFiles& files) {
+  if (options.snapshots > 0 && (files.instrumented || options.switch_at == SwitchAt::accesses))
+    throw BadInput("--snapshots", files.instrumented ? "expected a program without -fsanitize=thread, found '" +
+                                                           files.programs.title() + "'"
+                                                     : "cannot be used together with --switch-at accesses");
+}
+
+}  // namespace
+
 ProgramTarget::ProgramTarget(const ExploreOptions& options)
     : options_(options),
       calls_(ProgramFiles(options.program)),
       fingerprint_(fingerprint_of(calls_.files, options)),
-      given_input_(open_input()) {
+      given_input_(open_input()),
+      snapshots_(options.snapshots, options.strategy) {
   options.conditions.check(calls_.files.named());
+  check_snapshots(options, calls_.files);
   check_memory(options, calls_.files);
   if (options.races == Races::ignore) ignore_races();
 }
@@ -216,7 +229,7 @@ void ProgramTarget::open_streams(Runs& runs) const {
 
 Finding ProgramTarget::run_once(Runs& runs, const Plan& plan, const Request& request,
                                 const exploration::Profile& profile) {
-  const posix::Settings settings = settings_of(options_);
+  posix::Settings settings = settings_of(options_);
   if (!runs.server) {
     // A process has one memory of runs.
     calls_.server.reset();
@@ -224,20 +237,33 @@ Finding ProgramTarget::run_once(Runs& runs, const Plan& plan, const Request& req
     std::signal(SIGTERM, note_stop);
     runs.server.emplace(runs.files, settings);
   }
-  Finding finding = run_in_process(runs, settings, plan, request, profile);
+  if (options_.snapshots > 0) settings.makes_reruns = false;
+  Finding finding = run_in_process(runs, settings, plan, request, profile, true);
   if (!runs.server->is_followed() || finding.kind <= Finding::Kind::misuse || is_to_stop != 0 ||
       finding.obstacle != posix::AccessObstacle::none)
     return finding;
   // A failure is reported as it happens in a process of its own, whose calls are not trapped.
   runs.server->fork_next();
-  posix::Settings plain = settings;
-  plain.makes_reruns = false;
-  return run_in_process(runs, plain, plan, request, profile);
+  settings.makes_reruns = false;
+  return run_in_process(runs, settings, plan, request, profile, false);
+}
+
+// In a snapshot, if one is on the way.
+RunMemory& ProgramTarget::begin_run(Runs& runs, const posix::Settings& settings, const Plan& plan,
+                                    const Request& request, bool makes_snapshots) {
+  for (;;) {
+    const Snapshot* const begin = snapshots_.best_for(plan, request);
+    const SnapshotsAsked asked = makes_snapshots ? snapshots_.to_make(plan, request) : SnapshotsAsked();
+    if (begin == nullptr) return runs.server->begin(settings, asked);
+    if (RunMemory* const memory = runs.server->begin_in(*begin, settings, asked)) return *memory;
+    snapshots_.drop(*begin);
+  }
 }
 
 Finding ProgramTarget::run_in_process(Runs& runs, const posix::Settings& settings, const Plan& plan,
-                                      const Request& request, const exploration::Profile& profile) {
-  RunMemory& memory = runs.server->begin(settings);
+                                      const Request& request, const exploration::Profile& profile,
+                                      bool makes_snapshots) {
+  RunMemory& memory = begin_run(runs, settings, plan, request, makes_snapshots);
   ask_for_run(memory, runs.files, options_, plan, request, profile);
   open_streams(runs);
   const pid_t process = runs.server->start(runs.input, runs.output);
@@ -281,6 +307,8 @@ Finding ProgramTarget::run_in_process(Runs& runs, const posix::Settings& setting
     if (has_gone_on) finding.digest = 0;  // how far it came is the wall clock's
     if (!runs.files.accesses.empty()) finding.obstacle = posix::AccessObstacle::endless;
   }
+  if (memory.record().explored != nullptr)
+    snapshots_.add(runs.server->take_snapshots(), plan, schedule_of(memory.record()));
   runs.server->end();
   return finding;
 }

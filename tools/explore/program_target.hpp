@@ -9,6 +9,7 @@
 #include <set>
 
 #include "tools/exec/fork_server.hpp"
+#include "tools/explore/snapshot_tree.hpp"
 #include "tools/explore/target.hpp"
 
 namespace waitpoint::tools {
@@ -51,7 +52,9 @@ class ProgramTarget final : public Target {
   Finding run_at_calls(const Plan& plan, const Request& request);
   Finding run_once(Runs& runs, const Plan& plan, const Request& request, const exploration::Profile& profile);
   Finding run_in_process(Runs& runs, const posix::Settings& settings, const Plan& plan, const Request& request,
-                         const exploration::Profile& profile);
+                         const exploration::Profile& profile, bool makes_snapshots);
+  RunMemory& begin_run(Runs& runs, const posix::Settings& settings, const Plan& plan, const Request& request,
+                       bool makes_snapshots);
 
   const ExploreOptions& options_;
   Runs calls_;                    // with accesses, too, if the program is instrumented
@@ -60,6 +63,7 @@ class ProgramTarget final : public Target {
   std::uint64_t fingerprint_;
   int given_input_;            // of the runs: each reads it from its beginning
   std::set<RacingCode> told_;  // the races of this process's findings so far
+  SnapshotTree snapshots_;     // of runs at calls; they end before their server
 };
 
 /// A digest of the program's file, its words and the settings that its runs share.

@@ -28,7 +28,7 @@ constexpr Operations looks(Operation::load, Operation::try_lock, Operation::try_
 
 bool is_look(Operation operation) { return looks.contain(operation); }
 
-void Explorer::begin(Strategy& strategy, const Played& played) {
+void Explorer::play(Strategy& strategy, const Played& played) {
   decide_by(strategy);
   played_ = played;
   plays_ = !played.prefix.empty() || !played.switches.empty() || !played.deviations.empty() ||
@@ -36,6 +36,11 @@ void Explorer::begin(Strategy& strategy, const Played& played) {
   switches_.clear();
   for (const Switch& change : played.switches) switches_.emplace_back(change, switches_.size());
   std::sort(switches_.begin(), switches_.end());
+  deviated_ = 0;
+}
+
+void Explorer::begin(Strategy& strategy, const Played& played) {
+  play(strategy, played);
   schedule_.decisions.clear();
   schedule_.switches.clear();
   schedule_.cuts_polls_short = false;
@@ -47,8 +52,7 @@ void Explorer::begin(Strategy& strategy, const Played& played) {
   times_ = 0;
   spinning_ = idle_turns_ = step_ = step_of_instant_ = instants_ = 0;
   instant_ = Time();
-  deviated_ = 0;
-  parted_ = was_cut_ = is_beyond_enumeration_ = false;
+  parted_ = was_cut_ = is_beyond_enumeration_ = has_spun_ = false;
 }
 
 // The alternative that `deviations` prescribes for this decision; `count` if there is none.
@@ -246,7 +250,7 @@ void Explorer::note_look(const Task& task, RecentAccesses& habit) {
     habit.looks = 0;
   }
   if (habit.spins) return;
-  habit.spins = true;
+  habit.spins = has_spun_ = true;
   ++spinning_;
   if (poller_ != nullptr || !strategy_->lets_poll_on()) return;
   poller_ = &task;

@@ -56,6 +56,9 @@ class Explorer final : public kernel::Decisions {
   /// Starts the next schedule: first `played`, then `strategy`, which must have begun this schedule.
   void begin(Strategy& strategy, const Played& played = {});
 
+  /// Continues the schedule with `played`, as far as it is about decisions to come, and then this strategy, which must
+  /// have begun.
+  void play(Strategy& strategy, const Played& played);
   /// Continues with this strategy, which must have begun.
   void decide_by(Strategy& strategy) { strategy_ = &strategy.deciding(); }
 
@@ -67,6 +70,8 @@ class Explorer final : public kernel::Decisions {
   std::uint32_t steps() const { return step_; }
   /// True if the run diverged from the prefix: a decision had other alternatives.
   bool parted() const { return parted_; }
+  /// True if a task of this schedule has polled so long that strategies were asked about it.
+  bool has_spun() const { return has_spun_; }
   /// True if the strategy abandoned it, since nothing new could follow.
   bool was_cut() const { return was_cut_; }
   /// True if this schedule has taken an alternative that exhaustive strategies omit.
@@ -148,6 +153,7 @@ class Explorer final : public kernel::Decisions {
   bool parted_ = false;
   bool was_cut_ = false;
   bool is_beyond_enumeration_ = false;
+  bool has_spun_ = false;
   LeftOut left_out_;
 };
 

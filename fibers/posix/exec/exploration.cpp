@@ -80,15 +80,24 @@ exploration::Course Explored::course_of(const Asked& asked) const {
   return course;
 }
 
-void Explored::continue_in_process(const Asked& asked) {
-  strategy = exploration::begin_course(course_of(asked), explorer, known);
-  explorer.decide_by(*strategy);
-}
-
-void Explored::begin(const Asked& asked) {
+void Explored::begin_course(const Asked& asked) {
   strategy = exploration::begin_course(course_of(asked), explorer, known);
   WAITPOINT_CHECK(strategy != nullptr, "a course of exploration has no strategy");
   pairs = strategy->deciding().pairs();
+}
+
+void Explored::continue_in_process(const Asked& asked) {
+  begin_course(asked);
+  explorer.decide_by(*strategy);
+}
+
+void Explored::begin_again(const Asked& asked) {
+  begin_course(asked);
+  explorer.play(*strategy, {.switches = asked.switches, .deviations = asked.deviations});
+}
+
+void Explored::begin(const Asked& asked) {
+  begin_course(asked);
   explorer.begin(*strategy, {.switches = asked.switches, .deviations = asked.deviations});
 }
 

@@ -84,11 +84,14 @@ struct Explored {
 
   /// After the run: notes if it has stopped where requested.
   void note_stop();
+  /// In a run that begins at a decision of an earlier one: makes the choices as requested from there on.
+  void begin_again(const Asked& asked);
   /// Makes the choices of another process from now on: its random ones differ.
   void continue_in_process(const Asked& asked);
 
  private:
   void begin(const Asked& asked);
+  void begin_course(const Asked& asked);
   exploration::Course course_of(const Asked& asked) const;
   void watch(kernel::Scheduler& scheduler, const Asked& asked);
 

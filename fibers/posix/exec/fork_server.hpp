@@ -30,5 +30,8 @@ struct RunGone {};
 /// Serves until the other end of the socket is closed, then ends the process. Returns in each run, in a process of its
 /// own.
 void serve_runs(int socket);
+/// The same in a snapshot (snapshot.hpp): each request is preceded by a packet without descriptors, which is answered
+/// once `prepare` has put the run's memory back.
+void serve_runs_of_snapshot(int socket, void (*prepare)());
 
 }  // namespace waitpoint::posix

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "fibers/posix/exec/snapshot.hpp"
 #include "fibers/posix/family/order.hpp"
 #include "fibers/posix/family/processes.hpp"
 #include "fibers/posix/program/program.hpp"
@@ -127,6 +128,7 @@ std::uint32_t ProcessChoices::next(kernel::Task* const* ready, std::uint32_t cou
     if (!family::is_first()) begin_in_process_();
   }
   const bool is_alone = !family::has_others();
+  if (count > 1) offer_snapshot(explorer_);
   if (!is_alone) note_spinning({ready, count});
   if (!is_alone && !std::exchange(family::own->is_chosen, false)) {
     if (Process* const process = choose(true); process != family::own) {

@@ -26,6 +26,7 @@
 #include "fibers/posix/exec/race_log.hpp"
 #include "fibers/posix/exec/rerun.hpp"
 #include "fibers/posix/exec/run_memory.hpp"
+#include "fibers/posix/exec/snapshot.hpp"
 #include "fibers/posix/family/turn.hpp"
 #include "fibers/posix/processes/children.hpp"
 #include "fibers/posix/processes/process_end.hpp"
@@ -124,6 +125,7 @@ kernel::Scheduler& begin_run() {
     instead_of_ending = rerun_instead_of_ending;
     begin_crash_log();
     begin_reruns();
+    begin_snapshots();
   } else {
     begin_crash_log();
   }

@@ -84,4 +84,6 @@ void close_descriptors_of_run() {
   for (const int* each = opened; each != end_of_opened(); ++each) call_directly(SYS_close, *each);
 }
 
+bool has_open_descriptors_of_run() { return opened_count > 0; }
+
 }  // namespace waitpoint::posix

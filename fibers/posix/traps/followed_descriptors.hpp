@@ -13,5 +13,6 @@ bool is_opened_since(int descriptor);
 /// After the call, which has not failed.
 void note_descriptors(long number, const CallWords& words, long result);
 void close_descriptors_of_run();
+bool has_open_descriptors_of_run();
 
 }  // namespace waitpoint::posix

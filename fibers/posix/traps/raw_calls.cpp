@@ -90,6 +90,12 @@ void follow_all_calls(bool (*can_map_again)(LibraryRange range)) {
   follows = dispatch_outside(return_from_handlers());
 }
 
+bool follow_calls_for_snapshots() {
+  if (!is_dispatched) return false;
+  begin_to_follow_calls_for_snapshots();
+  return follows = dispatch_outside(return_from_handlers());
+}
+
 bool are_calls_undoable() { return follows; }
 
 namespace {

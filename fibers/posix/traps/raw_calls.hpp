@@ -21,7 +21,9 @@ bool are_raw_calls_trapped();
 /// From now on all calls are trapped and followed (followed_calls.hpp), those of the C library too, up to the first one
 /// that cannot be undone. Without an effect if raw calls are not trapped.
 void follow_all_calls(bool (*can_map_again)(LibraryRange range));
-/// True if all calls since then can be undone.
+/// The same, up to the first call that a snapshot would not copy. False if raw calls are not trapped.
+bool follow_calls_for_snapshots();
+/// True if all calls since then can be undone, or are copied.
 bool are_calls_undoable();
 /// In a handler of SIGSYS: true if it was such a call, which is done then.
 bool answer_raw_call(const siginfo_t& information, void* context);
