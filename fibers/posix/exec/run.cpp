@@ -115,6 +115,13 @@ void refuse(const char* reason) {
 
 namespace {
 
+// The choices from there on are those of another request.
+void begin_at_snapshot() {
+  const Asked& asked = *record->settings.asked;
+  record->explored->begin_again(asked);
+  family::family->settings.asked = shared_copy(asked);
+}
+
 // Its scheduler has no robot yet.
 kernel::Scheduler& begin_run() {
   begin();
@@ -125,7 +132,7 @@ kernel::Scheduler& begin_run() {
     instead_of_ending = rerun_instead_of_ending;
     begin_crash_log();
     begin_reruns();
-    begin_snapshots();
+    begin_snapshots(begin_at_snapshot);
   } else {
     begin_crash_log();
   }

@@ -14,9 +14,9 @@
 #include <cstring>
 #include <ctime>
 
+#include "fibers/explore/schedules/explorer.hpp"
 #include "fibers/posix/base/direct_call.hpp"
 #include "fibers/posix/base/stack_switch.hpp"
-#include "fibers/posix/exec/exploration.hpp"
 #include "fibers/posix/exec/fork_server.hpp"
 #include "fibers/posix/exec/rerun_control.hpp"
 #include "fibers/posix/family/processes.hpp"
@@ -59,6 +59,7 @@ std::int64_t processor_ns() {
 }
 
 bool makes_snapshots = false;
+void (*begin_again)() = nullptr;
 std::int64_t last_ns = 0;  // processor time at the last one
 
 void stop_making() {
@@ -158,16 +159,16 @@ bool make_room(RerunControl& control, std::int64_t now_ns) {
 void begin_again_here() {
   family::own->real_id = static_cast<pid_t>(call_directly(SYS_getpid));
   release();
-  record->explored->begin_again(*record->settings.asked);
-  family::family->settings.asked = shared_copy(*record->settings.asked);
+  begin_again();
   last_ns = 0;
   trap_raw_calls_of_child();
-  begin_snapshots();
+  begin_snapshots(begin_again);
 }
 
 }  // namespace
 
-void begin_snapshots() {
+void begin_snapshots(void (*begin)()) {
+  begin_again = begin;
   makes_snapshots = rerun_control().room > 0;
   if (makes_snapshots) makes_snapshots = follow_calls_for_snapshots();
 }

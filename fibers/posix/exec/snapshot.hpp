@@ -26,10 +26,10 @@ struct SnapshotMade {
   pid_t process;
 };
 
-/// At the beginning of a run: makes snapshots of it, if they are asked for.
-void begin_snapshots();
-/// Before a decision of `explorer`, which has made some. Returns again in each run that begins here, whose choices are
-/// as requested then.
+/// At the beginning of a run: makes snapshots of it, if they are asked for. In a run that begins in one, `begin_again`
+/// is called, with the request in the record.
+void begin_snapshots(void (*begin_again)());
+/// Before a decision of `explorer`, which has made some. Returns again in each run that begins here.
 void offer_snapshot(exploration::Explorer& explorer);
 
 }  // namespace waitpoint::posix
