@@ -1,14 +1,19 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Schedules of `waitpoint explore --exec --snapshots N`, which begin in the middle of others: snapshots_test.py BUILD."""
+"""Schedules of `waitpoint explore --exec --snapshots N`, which begin in the middle of others: snapshots_test.py BUILD
+[--long]."""
 
 import ctypes
 import os
 import resource
+import re
 import subprocess
+import sys
 import unittest
 
 from exec_case import ExecCase, WAITPOINT, explore
 
+LONG = "--long" in sys.argv and not sys.argv.remove("--long")
+SCHEDULES = 30 if LONG else 10
 PR_SET_CHILD_SUBREAPER = 36
 
 
@@ -37,14 +42,15 @@ class Snapshots(ExecCase):
 
     def test_exhaustive_searches(self):
         for strategy, snapshots in (("dfs", 1), ("dfs", 4), ("bounded:1", 4)):
-            self.assertNotIn("failed", self.compare("--strategy", strategy, "--iterations", 30, "--", self.program, snapshots=snapshots))
+            self.assertNotIn("failed", self.compare("--strategy", strategy, "--iterations", SCHEDULES, "--", self.program,
+                                                   snapshots=snapshots))
 
     def test_random_schedules_share_their_beginning(self):
-        self.compare("--strategy", "random", "--iterations", 20, "--jobs", 2, "--", self.program)
+        self.compare("--strategy", "random", "--iterations", SCHEDULES, "--jobs", 2, "--", self.program)
 
     def test_what_is_open_and_the_input_have_their_state_of_then(self):
         for what in ("read", "write", "pipe", "input"):
-            found = self.compare("--strategy", "dfs", "--iterations", 8, "--", self.program, what, self.folder / "written")
+            found = self.compare("--strategy", "dfs", "--iterations", 8 if LONG else 4, "--", self.program, what, self.folder / "written")
             self.assertNotIn("failed", found, what)
 
     def test_failures_are_the_same(self):
@@ -61,7 +67,7 @@ class Snapshots(ExecCase):
     def test_most_schedules_do_not_begin_at_main(self):
         def faults(*options):
             before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_minflt
-            self.results_of("--strategy", "dfs", "--iterations", 30, "--fork-each", *options, "--", self.program)
+            self.results_of("--strategy", "dfs", "--iterations", SCHEDULES, "--fork-each", *options, "--", self.program)
             try:
                 while True:
                     os.wait()
@@ -72,6 +78,16 @@ class Snapshots(ExecCase):
         # The processes that run schedules are waited for here.
         ctypes.CDLL(None).prctl(PR_SET_CHILD_SUBREAPER, 1, 0, 0, 0)
         self.assertLess(3 * faults("--snapshots", 4), faults())
+
+    @unittest.skipUnless(LONG, "takes half a minute")
+    def test_the_enumeration_after_draws_is_the_same(self):
+        def line(*options):
+            done = explore("--strategy", "random", "--iterations", "1000", *options, "--", self.program, "once")
+            return re.sub(r"in \d+\.\d s \(.*? a second\)", "", done.stdout)
+
+        plain = line()
+        self.assertIn("; exhausted, ", plain)
+        self.assertEqual(line("--snapshots", "4"), plain)
 
     def test_bad_input(self):
         for number in ("-1", "1001", "many"):
