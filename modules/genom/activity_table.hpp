@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A module's table of activities. Guarded by the lock on the control data.
 //
-// Slots are allocated in turn, so that the number of an ended activity is not soon reused. A bit mask of the slots in
-// use is kept apart: a slot has two kilobytes, and every wake-up of every task iterates over those in use.
+// Numbers are given in turn, so that the number of an ended activity is not soon reused. A bit mask of those in use is
+// kept apart: every wake-up of every task iterates over them. An activity has two kilobytes, for its input and output:
+// one that has ended is reused by the next, whatever its number, so that a module has as many as ran at once.
 #pragma once
 
+#include <array>
 #include <bit>
+#include <memory>
+#include <utility>
 #include <vector>
 
 #include "modules/genom/activity.hpp"
@@ -13,13 +17,15 @@
 namespace waitpoint::genom {
 
 class ActivityTable {
+  using Slot = std::unique_ptr<Activity>;
+
   template <class A>
   class Used {
    public:
     class Iterator {
      public:
-      Iterator(A* slots, std::uint32_t left) : slots_(slots), left_(left) {}
-      A& operator*() const { return slots_[std::countr_zero(left_)]; }
+      Iterator(const Slot* slots, std::uint32_t left) : slots_(slots), left_(left) {}
+      A& operator*() const { return *slots_[std::countr_zero(left_)]; }
       Iterator& operator++() {
         left_ &= left_ - 1;
         return *this;
@@ -27,15 +33,15 @@ class ActivityTable {
       bool operator==(const Iterator& other) const { return left_ == other.left_; }
 
      private:
-      A* slots_;
+      const Slot* slots_;
       std::uint32_t left_;
     };
-    Used(A* slots, std::uint32_t used) : slots_(slots), used_(used) {}
+    Used(const Slot* slots, std::uint32_t used) : slots_(slots), used_(used) {}
     Iterator begin() const { return {slots_, used_}; }
     Iterator end() const { return {slots_, 0}; }
 
    private:
-    A* slots_;
+    const Slot* slots_;
     std::uint32_t used_;
   };
 
@@ -49,15 +55,20 @@ class ActivityTable {
   /// Allocates an activity and gives it a number. Not while the table is full.
   Activity& add() {
     while ((used_ >> next_ & 1) != 0) next_ = (next_ + 1) % activities_max;
-    Activity& added = slots_[next_];
+    if (spare_.empty()) spare_.push_back(std::make_unique<Activity>());
+    slots_[next_] = std::move(spare_.back());
+    spare_.pop_back();
+    Activity& added = *slots_[next_];
     added.number = static_cast<std::int32_t>(next_);
     used_ |= 1U << next_;
     next_ = (next_ + 1) % activities_max;
     return added;
   }
   void free(Activity& activity) {
-    used_ &= ~(1U << activity.number);
+    const std::int32_t number = activity.number;
+    used_ &= ~(1U << number);
     activity = Activity();
+    spare_.push_back(std::move(slots_[static_cast<std::size_t>(number)]));
   }
 
   static constexpr bool is_number(std::int32_t number) {
@@ -65,7 +76,7 @@ class ActivityTable {
   }
   /// Null if no activity has this number.
   Activity* find(std::int32_t number) {
-    return (used_ >> number & 1) != 0 ? &slots_[static_cast<std::size_t>(number)] : nullptr;
+    return (used_ >> number & 1) != 0 ? slots_[static_cast<std::size_t>(number)].get() : nullptr;
   }
 
  private:
@@ -73,8 +84,8 @@ class ActivityTable {
 
   std::uint32_t used_ = 0;  // one bit per slot
   std::size_t next_ = 0;
-  // On the heap: the module's other members, which many tasks touch at every wake-up, then share few pages.
-  std::vector<Activity> slots_ = std::vector<Activity>(activities_max);
+  std::array<Slot, activities_max> slots_;  // by number
+  std::vector<Slot> spare_;
 };
 
 }  // namespace waitpoint::genom

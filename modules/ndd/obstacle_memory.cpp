@@ -13,10 +13,7 @@ constexpr double occlusion_m = 0.15;  // a beam that ends this much before a poi
 
 }  // namespace
 
-ObstacleMemory::ObstacleMemory(const Parameters& parameters) : parameters_(parameters) {
-  scan_.reserve(posters::beam_count_max);
-  past_.reserve(remembered_max + posters::beam_count_max);
-}
+ObstacleMemory::ObstacleMemory(const Parameters& parameters) : parameters_(parameters) {}
 
 void ObstacleMemory::see(const Pose& robot, const posters::Echoes& echoes) {
   const posters::LaserReading& scan = echoes.scan;

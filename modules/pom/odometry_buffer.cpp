@@ -12,7 +12,7 @@ double ratio(Duration a, Duration b) { return static_cast<double>(a.ns()) / stat
 
 }  // namespace
 
-OdometryBuffer::OdometryBuffer(std::size_t capacity) : ring_(capacity) {
+OdometryBuffer::OdometryBuffer(std::size_t capacity) : capacity_(capacity) {
   WAITPOINT_CHECK(capacity >= 2, "a buffer too small to interpolate in");
 }
 
@@ -32,6 +32,7 @@ void OdometryBuffer::add(Time date, const UncertainPose& pose) {
     --place;
   }
   ++count_;
+  if (ring_.size() < count_) ring_.emplace_back();
   for (std::size_t i = count_ - 1; i > place; --i) at_index(i) = at_index(i - 1);
   at_index(place) = {date, pose};
 }

@@ -20,7 +20,7 @@ class OdometryBuffer {
 
   bool empty() const { return count_ == 0; }
   std::size_t size() const { return count_; }
-  bool full() const { return count_ == ring_.size(); }
+  bool full() const { return count_ == capacity_; }
   /// The dates at the ends, and the second-oldest date; an empty buffer (or one with a single pose) is a bug.
   Time oldest() const { return at_index(0).date; }
   Time second_oldest() const { return at_index(1).date; }
@@ -41,7 +41,8 @@ class OdometryBuffer {
   const Dated& at_index(std::size_t i) const;
   Dated& at_index(std::size_t i) { return const_cast<Dated&>(static_cast<const OdometryBuffer*>(this)->at_index(i)); }
 
-  std::vector<Dated> ring_;
+  std::size_t capacity_;
+  std::vector<Dated> ring_;  // grows to its capacity; first_ is 0 until it is full
   std::size_t first_ = 0, count_ = 0;
 };
 

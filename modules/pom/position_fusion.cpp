@@ -10,7 +10,6 @@ namespace waitpoint::pom {
 PositionFusion::PositionFusion(const FusionParameters& parameters, const UncertainPose& start)
     : parameters_(parameters), odometry_(odometry_count_max), base_{Time(), start} {
   on_.fill(true);
-  corrections_.reserve(correction_count_max + 1);
 }
 
 void PositionFusion::add_odometry(const posters::PositionEstimate& odometry) {
@@ -43,7 +42,8 @@ void PositionFusion::add(const Correction& added) {
   const auto key = [](const Correction& c) { return std::tuple(c.date, c.source); };
   const auto place = std::upper_bound(corrections_.begin(), corrections_.end(), added,
                                       [&](const Correction& a, const Correction& b) { return key(a) < key(b); });
-  const auto first = corrections_.insert(place, added) - corrections_.begin();
+  const auto first = place - corrections_.begin();
+  corrections_.insert(place, added);
   apply_from(static_cast<std::size_t>(first));
   if (corrections_.size() > correction_count_max) forget_before(corrections_.front().date);
 }

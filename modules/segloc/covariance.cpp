@@ -8,8 +8,6 @@
 namespace waitpoint::segloc {
 namespace {
 
-constexpr std::size_t block = 4;
-
 // Two doubles processed at once. The operations on each element and their order are those of scalar code, so the result
 // is bit-identical with and without vector instructions.
 using Pair = double __attribute__((vector_size(16)));
@@ -26,7 +24,8 @@ inline void subtract(double* from, Pair p) {
 }
 
 // A block of four by four, whose sums stay in registers.
-void subtract_block(double* values, std::size_t stride, const double* left, const double* right, std::size_t count) {
+void subtract_block(double* values, std::size_t row_length, const double* left, const double* right, std::size_t stride,
+                    std::size_t count) {
   Pair a0{}, a1{}, b0{}, b1{}, c0{}, c1{}, d0{}, d1{};
   for (std::size_t r = 0; r < count; ++r, left += stride, right += stride) {
     const Pair low = load(right), high = load(right + 2);
@@ -42,25 +41,29 @@ void subtract_block(double* values, std::size_t stride, const double* left, cons
   }
   subtract(values, a0);
   subtract(values + 2, a1);
-  subtract(values + stride, b0);
-  subtract(values + stride + 2, b1);
-  subtract(values + 2 * stride, c0);
-  subtract(values + 2 * stride + 2, c1);
-  subtract(values + 3 * stride, d0);
-  subtract(values + 3 * stride + 2, d1);
+  subtract(values + row_length, b0);
+  subtract(values + row_length + 2, b1);
+  subtract(values + 2 * row_length, c0);
+  subtract(values + 2 * row_length + 2, c1);
+  subtract(values + 3 * row_length, d0);
+  subtract(values + 3 * row_length + 2, d1);
 }
 
 }  // namespace
 
-Covariance::Covariance(std::size_t capacity)
-    : capacity_(capacity), stride_((capacity + block - 1) / block * block), values_(stride_ * stride_, 0.0) {}
+Covariance::Covariance(std::size_t capacity) : capacity_(capacity) {}
 
 void Covariance::append(std::size_t count) {
   WAITPOINT_CHECK(size_ + count <= capacity_, "more variables than the covariance has room for");
-  for (std::size_t i = size_; i < size_ + count; ++i) {
+  const std::size_t first = size_;
+  size_ += count;
+  if (const std::size_t needed = row(stride()); needed > values_.size()) {
+    if (needed > values_.capacity()) values_.reserve(needed + needed / 4);
+    values_.resize(needed, 0.0);
+  }
+  for (std::size_t i = first; i < size_; ++i) {
     for (std::size_t j = 0; j <= i; ++j) at(i, j) = 0;
   }
-  size_ += count;
 }
 
 void Covariance::remove(std::size_t first, std::size_t count) {
@@ -85,8 +88,10 @@ void Covariance::column(std::size_t j, double* out) const {
 
 void Covariance::subtract_products(const double* rows, std::size_t count) {
   for (std::size_t i = 0; i < size_; i += block) {
+    const std::size_t row_length = i + block;
+    double* const band = &at(i, 0);
     for (std::size_t j = 0; j <= i; j += block) {
-      subtract_block(&at(i, j), stride_, rows + i, rows + j, count);
+      subtract_block(band + j, row_length, rows + i, rows + j, stride(), count);
     }
   }
 }

@@ -8,11 +8,14 @@
 
 namespace waitpoint::segloc {
 
-JointUpdate::JointUpdate(std::size_t pairs, std::size_t stride)
-    : rows_max_(2 * pairs), stride_(stride), weights_(rows_max_ * stride, 0.0), whitened_(rows_max_, 0.0) {
+JointUpdate::JointUpdate(std::size_t pairs) : rows_max_(2 * pairs), whitened_(rows_max_, 0.0) {
   mixed_[0].assign(rows_max_, 0.0);
   mixed_[1].assign(rows_max_, 0.0);
-  scratch_.assign(stride, 0.0);
+}
+
+void JointUpdate::clear(const Covariance& covariance) {
+  rows_ = 0;
+  stride_ = covariance.stride();
 }
 
 JointUpdate::Trial JointUpdate::test(const Covariance& covariance, const RowPair& pair) {
@@ -57,6 +60,9 @@ JointUpdate::Trial JointUpdate::test(const Covariance& covariance, const RowPair
 void JointUpdate::accept(const Covariance& covariance, const RowPair& pair) {
   WAITPOINT_CHECK(!full(), "more observations than one update takes");
   const std::size_t size = covariance.size();
+  WAITPOINT_CHECK(covariance.stride() == stride_, "the covariance has changed its size during an update");
+  weights_.resize(std::max(weights_.size(), (rows_ + 2) * stride_));
+  scratch_.resize(std::max(scratch_.size(), stride_));
   double *w0 = weights(rows_), *w1 = weights(rows_ + 1);
   std::fill(w0, w0 + stride_, 0.0);
   std::fill(w1, w1 + stride_, 0.0);

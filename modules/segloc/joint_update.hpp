@@ -40,10 +40,11 @@ struct RowPair {
 
 class JointUpdate {
  public:
-  /// Holds up to `pairs` row pairs for a covariance with rows of `stride` elements.
-  JointUpdate(std::size_t pairs, std::size_t stride);
+  /// Holds up to `pairs` row pairs.
+  explicit JointUpdate(std::size_t pairs);
 
-  void clear() { rows_ = 0; }
+  /// Begins an update of `covariance`, whose size must not change until it is applied.
+  void clear(const Covariance& covariance);
   bool full() const { return rows_ == rows_max_; }
   bool empty() const { return rows_ == 0; }
 
@@ -66,8 +67,8 @@ class JointUpdate {
   double* weights(std::size_t row) { return weights_.data() + row * stride_; }
   const double* weights(std::size_t row) const { return weights_.data() + row * stride_; }
 
-  std::size_t rows_ = 0, rows_max_, stride_;
-  std::vector<double> weights_;   // W', row by row
+  std::size_t rows_ = 0, rows_max_, stride_ = 0;
+  std::vector<double> weights_;   // W', row by row, as many as an update has had
   std::vector<double> whitened_;  // y
   // Of the pair tested last: h W, and the innovation and its covariance given the accepted pairs.
   std::array<std::vector<double>, 2> mixed_;

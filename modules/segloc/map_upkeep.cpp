@@ -128,7 +128,7 @@ bool SegmentMapFilter::try_merge(std::size_t kept, std::size_t other) {
   rows.add_column(column_of(kept) + 1, 0, 1);
   rows.innovation = {turn, beyond};
   rows.noise = {exact::square(parameters_.angle_floor_rad), 0, exact::square(parameters_.offset_floor_m)};
-  joint_.clear();
+  joint_.clear(covariance_);
   if (joint_.test(covariance_, rows).squared_distance > parameters_.chi2_merge) return false;
   joint_.accept(covariance_, rows);
   correct();

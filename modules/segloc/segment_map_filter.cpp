@@ -11,9 +11,8 @@ SegmentMapFilter::SegmentMapFilter(const Parameters& parameters, const PoseEstim
     : parameters_(parameters),
       pose_(start.pose),
       covariance_(column_of(parameters.landmarks_max)),
-      joint_(parameters.matches_max, covariance_.stride()),
+      joint_(parameters.matches_max),
       candidates_(parameters.candidates) {
-  landmarks_.reserve(parameters.landmarks_max);
   observations_.reserve(posters::segment_count_max);
   matched_.reserve(posters::segment_count_max);
   unexplained_.reserve(posters::segment_count_max);
@@ -103,7 +102,7 @@ Observed SegmentMapFilter::observe(const posters::Segments& segments) {
   sort_observations(segments);
   Observed result;
   result.segments = static_cast<std::uint32_t>(observations_.size());
-  joint_.clear();
+  joint_.clear(covariance_);
   matched_.clear();
   unexplained_.clear();
   for (std::size_t i = 0; i < observations_.size(); ++i) {

@@ -66,6 +66,18 @@ TEST(Covariance, AppendedVariablesAreUncorrelated) {
   }
 }
 
+TEST(Covariance, GrowsWithoutAChangeOfItsElements) {
+  const Covariance whole = filled(40, 40);
+  Covariance p(40);
+  for (std::size_t size = 0; size < 40; size += 2) {
+    p.append(2);
+    for (std::size_t i = size; i < size + 2; ++i)
+      for (std::size_t j = 0; j <= i; ++j) p(i, j) = whole(i, j);
+  }
+  for (std::size_t i = 0; i < 40; ++i)
+    for (std::size_t j = 0; j < 40; ++j) EXPECT_EQ(p(i, j), whole(i, j)) << i << ' ' << j;
+}
+
 TEST(Covariance, AColumnIsWhatTheElementsAre) {
   const Covariance p = filled(7, 8);
   std::vector<double> column(7);

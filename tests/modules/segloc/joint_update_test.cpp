@@ -74,7 +74,8 @@ TEST(JointUpdate, IsTheTextbooksUpdateRowByRow) {
   const std::size_t lines = 6;
   Covariance p = positive(3 + 2 * lines), expected = p;
   std::vector<double> x(p.size(), 0.0);
-  JointUpdate joint(8, p.stride());
+  JointUpdate joint(8);
+  joint.clear(p);
   std::uint64_t tick = 0;
   for (const std::size_t line : {0u, 3u, 5u, 3u}) {  // including two segments of one wall
     const RowPair rows = some_rows(line, tick++);
@@ -91,7 +92,8 @@ TEST(JointUpdate, IsTheTextbooksUpdateRowByRow) {
 
 TEST(JointUpdate, WhatIsKnownAlreadyTeachesLittle) {
   Covariance p = positive(5);
-  JointUpdate joint(40, p.stride());
+  JointUpdate joint(40);
+  joint.clear(p);
   const RowPair rows = some_rows(0, 1);
   const double first = joint.test(p, rows).information;
   joint.accept(p, rows);
@@ -104,7 +106,8 @@ TEST(JointUpdate, WhatIsKnownAlreadyTeachesLittle) {
 
 TEST(JointUpdate, ATestThatIsNotAcceptedChangesNothing) {
   Covariance p = positive(7);
-  JointUpdate joint(4, p.stride());
+  JointUpdate joint(4);
+  joint.clear(p);
   const RowPair a = some_rows(0, 1), b = some_rows(1, 2);
   joint.test(p, a);
   joint.accept(p, a);
@@ -116,11 +119,11 @@ TEST(JointUpdate, ATestThatIsNotAcceptedChangesNothing) {
 TEST(JointUpdate, CostOfFifteenLines) {
   for (const std::size_t lines : {100u, 200u}) {
     Covariance p = positive(3 + 2 * lines);
-    JointUpdate joint(15, p.stride());
+    JointUpdate joint(15);
     double least = 1e9;
     for (int repeat = 0; repeat < 10; ++repeat) {
       const auto start = std::chrono::steady_clock::now();
-      joint.clear();
+      joint.clear(p);
       for (std::size_t k = 0; k < 15; ++k) {
         const RowPair rows = some_rows(k * lines / 15, k);
         joint.test(p, rows);
