@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "core/error.hpp"
@@ -41,6 +42,8 @@ class OccupancyGrid {
   bool contains(CellIndex c) const { return c.x >= 0 && c.y >= 0 && c.x < width_ && c.y < height_; }
   Cell operator[](CellIndex c) const { return cells_[offset(c)]; }
   Cell& operator[](CellIndex c) { return cells_[offset(c)]; }
+  /// All cells, row by row.
+  std::span<const Cell> cells() const { return cells_; }
 
   /// The centre of a cell, in the outer frame.
   Point centre(CellIndex c) const;

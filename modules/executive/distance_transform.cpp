@@ -9,11 +9,12 @@
 namespace waitpoint::executive {
 namespace {
 
-constexpr std::int32_t no_cell = 1 << 28;
+// From so many steps along a column on, a square is at least square_half_cells_max.
+constexpr std::uint16_t no_cell = 129;
 constexpr std::int64_t no_square = std::numeric_limits<std::int64_t>::max();
 
-std::int64_t square_to_edge(std::int32_t cells) {
-  const std::int64_t half_cells = std::max<std::int64_t>(0, 2 * static_cast<std::int64_t>(cells) - 1);
+std::int64_t square_to_edge(std::int64_t cells) {
+  const std::int64_t half_cells = std::max<std::int64_t>(0, 2 * cells - 1);
   return half_cells * half_cells;
 }
 
@@ -27,36 +28,37 @@ void DistanceTransform::run(std::span<const std::uint8_t> occupied, std::int32_t
                             std::span<std::uint16_t> squares) {
   const std::size_t columns = static_cast<std::size_t>(width), rows = static_cast<std::size_t>(height);
   WAITPOINT_CHECK(occupied.size() == columns * rows && squares.size() == columns * rows, "arrays of the wrong size");
-  along_columns(occupied, width, height);
+  along_columns(occupied, columns, squares);
   row_.resize(columns);
   sites_.resize(2 * columns + 1);
   heights_.resize(2 * columns + 1);
   starts_.resize(2 * columns + 1);
   for (std::size_t y = 0; y < rows; ++y) {
+    const std::span<std::uint16_t> row = squares.subspan(y * columns, columns);
+    bool any = false;
     for (std::size_t x = 0; x < columns; ++x) {
-      const std::int32_t steps = steps_[y * columns + x];
-      row_[x] = steps < no_cell ? square_to_edge(steps) : no_square;
+      any |= row[x] < no_cell;
+      row_[x] = row[x] < no_cell ? square_to_edge(row[x]) : no_square;
     }
-    along_row(width, row_, squares.subspan(y * columns, columns));
+    if (any)
+      along_row(width, row_, row);
+    else
+      std::fill(row.begin(), row.end(), square_half_cells_max);
   }
 }
 
-void DistanceTransform::along_columns(std::span<const std::uint8_t> occupied, std::int32_t width, std::int32_t height) {
-  const std::size_t columns = static_cast<std::size_t>(width), rows = static_cast<std::size_t>(height);
-  steps_.resize(columns * rows);
-  for (std::size_t y = 0; y < rows; ++y) {
-    for (std::size_t x = 0; x < columns; ++x) {
-      const std::size_t i = y * columns + x;
-      const std::int32_t below = y > 0 ? steps_[i - columns] : no_cell;
-      steps_[i] = occupied[i] ? 0 : std::min(no_cell, below + 1);
-    }
+// The steps to the nearest occupied cell of the same column, at most no_cell; in the memory of the result, for a map
+// may have a hundred million cells.
+void DistanceTransform::along_columns(std::span<const std::uint8_t> occupied, std::size_t width,
+                                      std::span<std::uint16_t> steps) {
+  const auto one_more = [](std::uint16_t cells) {
+    return cells < no_cell ? static_cast<std::uint16_t>(cells + 1) : no_cell;
+  };
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    const std::uint16_t below = i >= width ? steps[i - width] : no_cell;
+    steps[i] = occupied[i] ? 0 : one_more(below);
   }
-  for (std::size_t y = rows; y-- > 1;) {
-    for (std::size_t x = 0; x < columns; ++x) {
-      const std::size_t i = (y - 1) * columns + x;
-      steps_[i] = std::min(steps_[i], steps_[i + columns] + 1);
-    }
-  }
+  for (std::size_t i = steps.size(); i-- > width;) steps[i - width] = std::min(steps[i - width], one_more(steps[i]));
 }
 
 void DistanceTransform::along_row(std::int32_t width, std::span<const std::int64_t> column_squares,

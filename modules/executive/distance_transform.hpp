@@ -25,10 +25,9 @@ class DistanceTransform {
            std::span<std::uint16_t> squares);
 
  private:
-  void along_columns(std::span<const std::uint8_t> occupied, std::int32_t width, std::int32_t height);
+  static void along_columns(std::span<const std::uint8_t> occupied, std::size_t width, std::span<std::uint16_t> steps);
   void along_row(std::int32_t width, std::span<const std::int64_t> column_squares, std::span<std::uint16_t> squares);
 
-  std::vector<std::int32_t> steps_;  // to the nearest occupied cell of the same column
   std::vector<std::int64_t> row_;    // squared half-cell distances along the columns, for one row
   std::vector<std::int32_t> sites_;  // of the envelope, in half cells
   std::vector<std::int64_t> heights_, starts_;

@@ -15,8 +15,8 @@
 namespace waitpoint::run {
 namespace {
 
-// Number of robots from which huge pages pay: the TLB does not hold the small pages of more.
-constexpr std::size_t crowd = 200;
+// Number of robots from which huge pages pay: the TLB does not hold the small pages of more, half a megabyte each.
+constexpr std::size_t crowd = 50;
 
 bridge::Outcome outcome_of(RunEnd end) {
   switch (end) {

@@ -2,12 +2,12 @@
 #include "modules/run/heap_pages.hpp"
 
 #include <sys/mman.h>
-#include <unistd.h>
 
 #include <cstddef>
 #include <cstdlib>
 #include <fstream>
 #include <string>
+#include <vector>
 
 namespace waitpoint::run {
 namespace {
@@ -22,21 +22,32 @@ bool are_large_pages_wanted() {
   return words.find("[madvise]") != std::string::npos || words.find("[always]") != std::string::npos;
 }
 
-// The heap precedes the stacks, of which there may be a million: the search ends early. Null without a heap.
-char* begin_of_heap() {
+struct Mapping {
+  char *begin, *end;
+};
+
+// More than one where the process is a fork. The heap precedes the stacks, of which there may be a million: the search
+// ends early.
+std::vector<Mapping> heap() {
+  std::vector<Mapping> parts;
   std::ifstream maps("/proc/self/maps");
-  for (std::string line; std::getline(maps, line);)
-    if (line.ends_with("[heap]")) return reinterpret_cast<char*>(std::strtoull(line.c_str(), nullptr, 16));
-  return nullptr;
+  for (std::string line; std::getline(maps, line);) {
+    if (!line.ends_with("[heap]")) {
+      if (!parts.empty()) break;
+      continue;
+    }
+    char* after = nullptr;
+    char* const begin = reinterpret_cast<char*>(std::strtoull(line.c_str(), &after, 16));
+    parts.push_back({begin, reinterpret_cast<char*>(std::strtoull(after + 1, nullptr, 16))});
+  }
+  return parts;
 }
 
 }  // namespace
 
 void put_heap_on_large_pages() {
   if (!are_large_pages_wanted()) return;
-  char* const begin = begin_of_heap();
-  char* const end = static_cast<char*>(sbrk(0));
-  if (begin != nullptr && begin < end) madvise(begin, static_cast<std::size_t>(end - begin), collapse);
+  for (const Mapping part : heap()) madvise(part.begin, static_cast<std::size_t>(part.end - part.begin), collapse);
 }
 
 }  // namespace waitpoint::run

@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include "core/exact_math.hpp"
+#include "modules/sick/extraction.hpp"
 
 namespace waitpoint::sick {
 namespace {
@@ -51,7 +53,14 @@ void sort_longest_first(posters::Segments& segments) {
 
 }  // namespace
 
-void SegmentExtraction::extract(const posters::Echoes& echoes, posters::Segments& segments) {
+void SegmentExtraction::extract(const posters::Echoes& echoes, posters::Segments& segments) const {
+  thread_local const auto extraction = std::make_unique<Extraction>();
+  extraction->extract(parameters_, echoes, segments);
+}
+
+void Extraction::extract(const SegmentExtractionParameters& parameters, const posters::Echoes& echoes,
+                         posters::Segments& segments) {
+  parameters_ = parameters;
   segments.date = echoes.scan.date;
   segments.number = echoes.scan.number;
   segments.items.clear();
@@ -75,7 +84,7 @@ void SegmentExtraction::extract(const posters::Echoes& echoes, posters::Segments
   if (found > segments.items.size()) sort_longest_first(segments);
 }
 
-void SegmentExtraction::prepare_beams(const posters::LaserReading& scan) {
+void Extraction::prepare_beams(const posters::LaserReading& scan) {
   const auto beams = static_cast<std::uint32_t>(scan.range_m.size());
   if (beams == beams_ && scan.first_angle_rad == first_angle_rad_ && scan.angle_step_rad == angle_step_rad_) return;
   beams_ = beams;
@@ -87,7 +96,7 @@ void SegmentExtraction::prepare_beams(const posters::LaserReading& scan) {
   }
 }
 
-void SegmentExtraction::take_echoes(const posters::LaserReading& scan) {
+void Extraction::take_echoes(const posters::LaserReading& scan) {
   const double quantisation = exact::square(parameters_.range_resolution_m) / 12.0;
   // A range rounded to the device's resolution may be half a step below the maximum.
   const double range_m_max = scan.range_max_m - 0.5 * parameters_.range_resolution_m;
@@ -111,7 +120,7 @@ void SegmentExtraction::take_echoes(const posters::LaserReading& scan) {
 }
 
 // On a wall met at the grazing angle g, the next beam at angle a is longer by r sin(a) / sin(g - a).
-bool SegmentExtraction::breaks_after(std::uint32_t i) const {
+bool Extraction::breaks_after(std::uint32_t i) const {
   const double angle = (beam_[i + 1] - beam_[i]) * angle_step_rad_;
   if (beam_[i + 1] - beam_[i] > 1 && angle > parameters_.beam_gap_rad_max) return true;
   const double rest = parameters_.grazing_angle_rad - angle;
@@ -121,7 +130,7 @@ bool SegmentExtraction::breaks_after(std::uint32_t i) const {
 }
 
 // The variance of echo i across a line; `projection_m` is the length of the line's normal projected on the echo's ray.
-double SegmentExtraction::variance_across(std::uint32_t i, double projection_m) const {
+double Extraction::variance_across(std::uint32_t i, double projection_m) const {
   const double along = projection_m * projection_m;
   const double square_range = range_m_[i] * range_m_[i];
   const double bearing = parameters_.bearing_noise_rad * parameters_.bearing_noise_rad;
@@ -130,7 +139,7 @@ double SegmentExtraction::variance_across(std::uint32_t i, double projection_m) 
 }
 
 // Splits at the farthest echo until the runs are straight; the first run first, so that runs_ stays counter-clockwise.
-void SegmentExtraction::split(Run region) {
+void Extraction::split(Run region) {
   std::uint32_t waiting = 0;
   stack_[waiting++] = region;
   while (waiting > 0) {
@@ -161,7 +170,7 @@ void SegmentExtraction::split(Run region) {
   }
 }
 
-void SegmentExtraction::merge() {
+void Extraction::merge() {
   if (runs_ == 0) return;
   std::uint32_t last = 0;
   for (std::uint32_t i = 1; i < runs_; ++i) {
@@ -176,7 +185,7 @@ void SegmentExtraction::merge() {
   runs_ = last + 1;
 }
 
-bool SegmentExtraction::straight(Run run) const {
+bool Extraction::straight(Run run) const {
   const Line line = fit(run);
   for (std::uint32_t i = run.first; i <= run.last; ++i) {
     const double projection = dot(line.normal, point_[i]);
@@ -186,7 +195,7 @@ bool SegmentExtraction::straight(Run run) const {
   return true;
 }
 
-SegmentExtraction::Line SegmentExtraction::fit(Run run) const {
+Extraction::Line Extraction::fit(Run run) const {
   const Moments &a = sum_[run.first], &b = sum_[run.last + 1];
   const double n = run.points();
   const Point centre{(b.x - a.x) / n, (b.y - a.y) / n};
@@ -215,7 +224,7 @@ SegmentExtraction::Line SegmentExtraction::fit(Run run) const {
 
 // The line's angle and its offset at the centre are linear in the echoes' errors across the line: slope and mean of a
 // straight-line regression over t, the coordinate along the line. Their covariance is then moved to the line's foot.
-bool SegmentExtraction::finish(Run run, posters::Segment& segment) const {
+bool Extraction::finish(Run run, posters::Segment& segment) const {
   if (run.points() < parameters_.points_min) return false;
   const Line line = fit(run);
   const Point along{-line.normal.y, line.normal.x};
