@@ -2,7 +2,10 @@
 #include "modules/ndd/obstacle_memory.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+
+#include "core/exact_batch.hpp"
 
 namespace waitpoint::ndd {
 namespace {
@@ -22,13 +25,21 @@ void ObstacleMemory::see(const Pose& robot, const posters::Echoes& echoes) {
   seen_ = scan.date;
   drop_contradicted(device, scan);
   scan_.clear();
+  std::array<double, exact::batch> range, angle, sine, cosine;
+  std::size_t count = 0;
+  const auto enter = [&] {
+    exact::sincos(std::span(angle).first(count), sine, cosine);
+    for (std::size_t i = 0; i < count; ++i)
+      scan_.push_back({device.x + range[i] * cosine[i], device.y + range[i] * sine[i]});
+    count = 0;
+  };
   for (std::size_t i = 0; i < scan.range_m.size(); ++i) {
-    const double range = scan.range_m[i];
-    if (range >= scan.range_max_m || range >= parameters_.diagram_range_m) continue;
-    const auto [s, c] =
-        exact::sincos(device.heading + scan.first_angle_rad + static_cast<double>(i) * scan.angle_step_rad);
-    scan_.push_back({device.x + range * c, device.y + range * s});
+    range[count] = scan.range_m[i];
+    if (range[count] >= scan.range_max_m || range[count] >= parameters_.diagram_range_m) continue;
+    angle[count] = device.heading + scan.first_angle_rad + static_cast<double>(i) * scan.angle_step_rad;
+    if (++count == exact::batch) enter();
   }
+  enter();
 }
 
 void ObstacleMemory::keep_newest(const Pose& robot) {
@@ -49,20 +60,37 @@ void ObstacleMemory::drop_contradicted(const Pose& device, const posters::LaserR
   const double reach = parameters_.memory_range_m, beams = static_cast<double>(scan.range_m.size());
   const exact::SinCos facing = exact::sincos(device.heading);
   const Duration age_max = Duration::from_seconds(parameters_.memory_age_s);
-  const auto gone = [&](const Remembered& r) {
-    const Point d = r.point - device.position();
-    const double square = dot(d, d);
-    if (square > reach * reach || seen_ - r.seen > age_max) return true;
-    const double angle = exact::atan2(facing.cos * d.y - facing.sin * d.x, facing.cos * d.x + facing.sin * d.y);
+  // True if a beam passes through a point at this bearing from the device.
+  const auto is_contradicted = [&](double bearing, double square) {
     const double beam =
-        (exact::wrap_angle(angle - scan.first_angle_rad - 0.5 * beams * scan.angle_step_rad)) / scan.angle_step_rad +
+        (exact::wrap_angle(bearing - scan.first_angle_rad - 0.5 * beams * scan.angle_step_rad)) / scan.angle_step_rad +
         0.5 * beams;
     if (beam < 0 || beam > beams - 1) return false;  // out of view
-    const double range = std::min(scan.range_m[static_cast<std::size_t>(std::floor(beam))],
-                                  scan.range_m[static_cast<std::size_t>(std::ceil(beam))]);
+    const auto below = static_cast<std::size_t>(beam);
+    const std::size_t above = below + (beam > static_cast<double>(below) ? 1 : 0);
+    const double range = std::min(scan.range_m[below], scan.range_m[above]);
     return range + occlusion_m >= std::sqrt(square);
   };
-  std::erase_if(past_, gone);
+  std::array<Remembered, exact::batch> near;
+  std::array<double, exact::batch> ahead, aside, square, bearing;
+  std::size_t count = 0, kept = 0;
+  const auto enter = [&] {
+    exact::atan2(std::span(aside).first(count), std::span(ahead).first(count), bearing);
+    for (std::size_t i = 0; i < count; ++i)
+      if (!is_contradicted(bearing[i], square[i])) past_[kept++] = near[i];
+    count = 0;
+  };
+  for (const Remembered& r : past_) {
+    const Point d = r.point - device.position();
+    square[count] = dot(d, d);
+    if (square[count] > reach * reach || seen_ - r.seen > age_max) continue;
+    near[count] = r;
+    ahead[count] = facing.cos * d.x + facing.sin * d.y;
+    aside[count] = facing.cos * d.y - facing.sin * d.x;
+    if (++count == exact::batch) enter();
+  }
+  enter();
+  past_.resize(kept);
   if (past_.size() > remembered_max) {
     past_.erase(past_.begin(), past_.begin() + static_cast<std::ptrdiff_t>(past_.size() - remembered_max));
   }

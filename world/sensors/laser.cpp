@@ -7,6 +7,8 @@
 #include <string>
 
 #include "core/error.hpp"
+#include "core/exact_batch.hpp"
+#include "core/random_batch.hpp"
 #include "world/sensors/laser_timing.hpp"
 
 namespace waitpoint::world {
@@ -137,11 +139,11 @@ void Laser::measure(std::uint64_t scan_number, double on_s, std::span<double> ra
   const bool warms_up = d.warm_up_bias_m != 0;
   const double bias_m = d.range_bias_m + (warms_up ? d.warm_up_bias_m * exact::exp(-on_s / d.warm_up_s) : 0);
   const bool noisy = d.range_noise_m > 0;
-  for (std::size_t i = 0; i < ranges_m.size(); i += 2) {
-    std::array<double, 2> normals{};
-    if (noisy) normals = range_noise_.normal_pair(scan_number, i / 2);
-    ranges_m[i] = measured(d, ranges_m[i], bias_m, normals[0]);
-    if (i + 1 < ranges_m.size()) ranges_m[i + 1] = measured(d, ranges_m[i + 1], bias_m, normals[1]);
+  std::array<std::array<double, 2>, exact::batch> normals{};
+  for (std::size_t first = 0; first < ranges_m.size(); first += 2 * normals.size()) {
+    const std::span<double> part = ranges_m.subspan(first, std::min(2 * normals.size(), ranges_m.size() - first));
+    if (noisy) normal_pairs(range_noise_, scan_number, first / 2, std::span(normals).first((part.size() + 1) / 2));
+    for (std::size_t i = 0; i < part.size(); ++i) part[i] = measured(d, part[i], bias_m, normals[i / 2][i % 2]);
   }
   if (d.dropout <= 0) return;
   for (std::size_t i = 0; i < ranges_m.size(); ++i) {
