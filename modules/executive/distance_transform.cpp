@@ -85,8 +85,8 @@ void DistanceTransform::along_row(std::int32_t width, std::span<const std::int64
   for (std::int32_t x = 0; x <= width; ++x) {
     const std::int64_t left = x > 0 ? column_squares[static_cast<std::size_t>(x - 1)] : no_square;
     const std::int64_t right = x < width ? column_squares[static_cast<std::size_t>(x)] : no_square;
-    const std::int64_t edge = std::min(left, right);
-    if (edge != no_square) add_site(2 * x, edge);
+    // Between equal heights the edge is nowhere lower, at a cell's centre, than the centre lines beside it.
+    if (left != right) add_site(2 * x, std::min(left, right));
     if (right != no_square) add_site(2 * x + 1, right);
   }
   std::size_t k = 0;
