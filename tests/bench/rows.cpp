@@ -11,8 +11,9 @@
 namespace waitpoint::bench {
 
 std::string table_row(const Row& row) {
-  std::string line =
-      fmt::format("{:<12} {:<30} {:<12} {:>10.1f} {}", row.bench, row.case_name, row.who, row.value, row.unit);
+  const int decimals = row.value < 10 ? 2 : 1;
+  std::string line = fmt::format("{:<12} {:<30} {:<12} {:>10.{}f} {}", row.bench, row.case_name, row.who, row.value,
+                                 decimals, row.unit);
   if (row.must) line += fmt::format("   {:.2f} of the {} that it must be", row.value / *row.must, *row.must);
   return line + "\n";
 }
