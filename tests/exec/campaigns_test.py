@@ -89,10 +89,10 @@ class Exhausted(ExecCase):
         self.assertEqual(len(results.read_text().splitlines()), 401)
 
 
-class Feedback(ExecCase):
-    """Schedules that learn from others."""
+class Processes(ExecCase):
+    """Schedules that learn from others, and batches of those that do not."""
 
-    def test_feedback_does_not_depend_on_processes(self):
+    def test_results_do_not_depend_on_processes(self):
         program = self.compile("orders.c")
 
         def results(*options):
@@ -100,12 +100,22 @@ class Feedback(ExecCase):
             explore("--strategy", strategy, "--iterations", str(schedules), *options, "--results", file, "--", program)
             return set(file.read_text().splitlines())
 
-        for strategy, schedules in (("rff", 60), ("portfolio", 200)):
+        for strategy, schedules in (("rff", 60), ("portfolio", 200), ("random", 500)):
             one = results()
             self.assertEqual(len(one), schedules + 1)
             for options in (("--jobs", "3"), ("--fork-each",)):
                 self.assertEqual(one, results(*options), (strategy, options))
             self.assertEqual(one, set().union(*(results("--shard", f"{shard}/3") for shard in (1, 2, 3))), strategy)
+
+    def test_the_first_failure_does_not_depend_on_processes(self):
+        for stages, strategy in ((4, "random"), (7, "dpor")):
+            source = self.folder / f"alternating_{stages}.c"
+            source.write_text(STAGES % (stages, 1))
+            words = ("--strategy", "random", "--iterations", "20000", "--races", "ignore", "--", self.compile(str(source)))
+            found = {re.search(r"\nschedule (\d+ of strategy \w+), seed 1, failed", explore(*options, *words).stdout)[1]
+                     for options in ((), ("--jobs", "3"), ("--fork-each",))}
+            self.assertEqual(len(found), 1, found)
+            self.assertIn(strategy, found.pop())
 
     def test_a_number_is_replayed_with_the_schedules_that_it_learns_from(self):
         source = self.folder / "alternating_9.c"

@@ -31,7 +31,7 @@ namespace {
 constexpr std::int64_t worth_ns = 5'000'000;
 
 // An address that no program uses.
-constexpr std::uintptr_t kept_address = 0x2800'0000'0000;
+constexpr std::uintptr_t snapshot_address = 0x2800'0000'0000;
 constexpr std::size_t shared_max = std::size_t{1} << 28, output_max = std::size_t{1} << 20;
 
 struct Part {
@@ -40,7 +40,7 @@ struct Part {
 };
 
 // In the snapshot, what the run's process shares with others.
-struct Kept {
+struct OfSnapshot {
   Part parts[3];
   std::size_t output_bytes;
   long input_offset;
@@ -50,7 +50,7 @@ struct Kept {
   char output[output_max];
   alignas(4096) char shared[shared_max];
 };
-Kept& kept() { return *reinterpret_cast<Kept*>(kept_address); }
+OfSnapshot& of_snapshot() { return *reinterpret_cast<OfSnapshot*>(snapshot_address); }
 
 std::int64_t processor_ns() {
   timespec used{};
@@ -78,11 +78,11 @@ bool keep_shared_memory() {
   family::Family& family = *family::family;
   const Part parts[] = {part(record, record->arena.top()), part(&family, family.processes + family.entries),
                         part(&family + 1, family.arena.top())};
-  char* to = kept().shared;
+  char* to = of_snapshot().shared;
   for (std::size_t i = 0; i < std::size(parts); ++i) {
-    if (parts[i].bytes > static_cast<std::size_t>(kept().shared + shared_max - to)) return false;
+    if (parts[i].bytes > static_cast<std::size_t>(of_snapshot().shared + shared_max - to)) return false;
     copy_bytes(to, parts[i].begin, parts[i].bytes);
-    kept().parts[i] = parts[i];
+    of_snapshot().parts[i] = parts[i];
     to += parts[i].bytes;
   }
   return true;
@@ -90,32 +90,32 @@ bool keep_shared_memory() {
 
 // False if there is more output than is kept.
 bool keep_streams() {
-  kept().input_offset = call_directly(SYS_lseek, STDIN_FILENO, 0, SEEK_CUR);
+  of_snapshot().input_offset = call_directly(SYS_lseek, STDIN_FILENO, 0, SEEK_CUR);
   const long bytes = call_directly(SYS_lseek, STDOUT_FILENO, 0, SEEK_CUR);
   if (bytes < 0 || static_cast<std::size_t>(bytes) > output_max) return false;
-  kept().output_bytes = static_cast<std::size_t>(bytes);
-  return call_directly(SYS_pread64, STDOUT_FILENO, reinterpret_cast<long>(kept().output), bytes, 0) == bytes;
+  of_snapshot().output_bytes = static_cast<std::size_t>(bytes);
+  return call_directly(SYS_pread64, STDOUT_FILENO, reinterpret_cast<long>(of_snapshot().output), bytes, 0) == bytes;
 }
 
 bool keep() {
-  const long memory = call_directly(SYS_mmap, kept_address, sizeof(Kept), PROT_READ | PROT_WRITE,
+  const long memory = call_directly(SYS_mmap, snapshot_address, sizeof(OfSnapshot), PROT_READ | PROT_WRITE,
                                     MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE | MAP_FIXED_NOREPLACE, -1, 0);
-  return memory == static_cast<long>(kept_address) && keep_shared_memory() && keep_streams();
+  return memory == static_cast<long>(snapshot_address) && keep_shared_memory() && keep_streams();
 }
-void release() { call_directly(SYS_munmap, kept_address, sizeof(Kept)); }
+void release() { call_directly(SYS_munmap, snapshot_address, sizeof(OfSnapshot)); }
 
 void restore_shared_memory() {
-  const char* from = kept().shared;
-  for (const Part& part : kept().parts) {
+  const char* from = of_snapshot().shared;
+  for (const Part& part : of_snapshot().parts) {
     copy_bytes(part.begin, from, part.bytes);
     from += part.bytes;
   }
 }
 
 void restore_streams() {
-  call_directly(SYS_lseek, STDIN_FILENO, kept().input_offset, SEEK_SET);
-  const auto output = reinterpret_cast<long>(kept().output);
-  call_directly(SYS_write, STDOUT_FILENO, output, static_cast<long>(kept().output_bytes));
+  call_directly(SYS_lseek, STDIN_FILENO, of_snapshot().input_offset, SEEK_SET);
+  const auto output = reinterpret_cast<long>(of_snapshot().output);
+  call_directly(SYS_write, STDOUT_FILENO, output, static_cast<long>(of_snapshot().output_bytes));
 }
 
 // The connection; the process ends if there is nobody to connect to.
@@ -190,10 +190,10 @@ void offer_snapshot(exploration::Explorer& explorer) {
   }
   const long child = call_directly(SYS_clone, CLONE_PARENT | SIGCHLD);
   if (child == 0) {
-    kept().running = kernel::running;
+    of_snapshot().running = kernel::running;
     kernel::running = nullptr;
-    call_on(kept().stack, sizeof kept().stack, serve, nullptr);
-    kernel::running = kept().running;
+    call_on(of_snapshot().stack, sizeof of_snapshot().stack, serve, nullptr);
+    kernel::running = of_snapshot().running;
     return begin_again_here();
   }
   release();
