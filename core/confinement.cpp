@@ -11,7 +11,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const Confinement* innermost = nullptr;
+constinit thread_local const Confinement* innermost = nullptr;
 
 bool is_below(const fs::path& folder, const fs::path& file) {
   return std::mismatch(folder.begin(), folder.end(), file.begin(), file.end()).first == folder.end();

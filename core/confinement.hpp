@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Limits the files that input may name to some folders: for scenarios of strangers.
 //
-// While a Confinement exists, every reader of files that a scenario, a world or a model names calls require_allowed()
-// before it touches the file. Symbolic links are followed first, so that none leads out. Code is never loaded:
-// robots' programs are refused.
+// While a thread has a Confinement, every reader in it of files that a scenario, a world or a model names calls
+// require_allowed() before it touches the file. Symbolic links are followed first, so that none leads out. Code is
+// never loaded: robots' programs are refused.
 #pragma once
 
 #include <filesystem>
@@ -14,8 +14,8 @@ namespace waitpoint {
 
 class Confinement {
  public:
-  /// Allows all files at or below `folders`. BadInput if one of them is no folder. Replaces an outer confinement until
-  /// its own end.
+  /// Allows all files at or below `folders`. BadInput if one of them is no folder. Replaces an outer confinement of
+  /// this thread until its own end; other threads are not confined by it.
   explicit Confinement(std::span<const std::filesystem::path> folders);
   ~Confinement();
   Confinement(const Confinement&) = delete;

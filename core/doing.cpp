@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/doing.hpp"
 
+#include <atomic>
 #include <utility>
 
 namespace waitpoint {
 namespace {
 
-const char* in_force = nullptr;
-std::uint64_t texts = 0;
+constinit thread_local const char* in_force = nullptr;
+std::atomic<std::uint64_t> texts = 0;
 
 }  // namespace
 

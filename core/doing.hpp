@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the process does outside of tasks, for the report of its death: "constructing module ndd of robot rackham".
+// What a thread does outside of tasks, for the report of its death: "constructing module ndd of robot rackham".
 #pragma once
 
 #include <cstdint>
@@ -14,9 +14,9 @@ class Doing {
   Doing(const Doing&) = delete;
   Doing& operator=(const Doing&) = delete;
 
-  /// The innermost text; null if there is none. Async-signal-safe.
+  /// The innermost text of this thread; null if there is none. Async-signal-safe.
   static const char* present();
-  /// The number of texts so far.
+  /// The number of texts so far, of all threads.
   static std::uint64_t count();
 
  private:

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The functions that instrumented code calls from its basic blocks. In a file of its own, so that a program which
 // defines functions of these names links nothing from here.
-#include "fibers/clocks/block_counter.hpp"
+//
+// Code compiled with -fsanitize-coverage=trace-pc (g++, clang++) or trace-pc-guard (clang++) calls one from each of its
+// basic blocks: the source of the `counted` clock.
+#include "fibers/kernel/turn.hpp"
 
-using waitpoint::kernel::passed_blocks;
+using waitpoint::kernel::turn;
 
 // Never instrumented itself: it would recurse.
 #ifdef __clang__
@@ -14,7 +17,7 @@ using waitpoint::kernel::passed_blocks;
 
 // Weak: a linked fuzzer's runtime takes precedence.
 extern "C" {
-__attribute__((weak)) WAITPOINT_NOT_COUNTED void __sanitizer_cov_trace_pc() { ++passed_blocks; }
-__attribute__((weak)) WAITPOINT_NOT_COUNTED void __sanitizer_cov_trace_pc_guard(std::uint32_t*) { ++passed_blocks; }
+__attribute__((weak)) WAITPOINT_NOT_COUNTED void __sanitizer_cov_trace_pc() { ++turn.blocks; }
+__attribute__((weak)) WAITPOINT_NOT_COUNTED void __sanitizer_cov_trace_pc_guard(std::uint32_t*) { ++turn.blocks; }
 __attribute__((weak)) WAITPOINT_NOT_COUNTED void __sanitizer_cov_trace_pc_guard_init(std::uint32_t*, std::uint32_t*) {}
 }

@@ -3,7 +3,6 @@
 
 #include <ctime>
 
-#include "fibers/clocks/block_counter.hpp"
 #include "fibers/kernel/scheduler.hpp"
 
 namespace waitpoint::kernel {
@@ -19,7 +18,7 @@ std::int64_t read_source(ClockKind kind) {
   switch (kind) {
     case ClockKind::proportional: return read_ns(CLOCK_MONOTONIC);
     case ClockKind::cpu: return read_ns(CLOCK_THREAD_CPUTIME_ID);
-    case ClockKind::counted: return static_cast<std::int64_t>(blocks_passed());
+    case ClockKind::counted: return static_cast<std::int64_t>(turn.blocks);
     default: return 0;
   }
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fibers/explore/explore.hpp"
 
+#include <mutex>
+
 #include "core/error.hpp"
 #include "fibers/explore/campaign.hpp"
 #include "fibers/explore/environment.hpp"
@@ -53,6 +55,9 @@ ExploreReport explore_call(exploration::ExternalChecks* checks, std::function<vo
 ExploreReport explore_with(exploration::ExternalChecks* checks, std::function<void()> body,
                            const ExploreOptions& asked) {
   WAITPOINT_REQUIRE(kernel::running == nullptr, "explore() is called from within a simulated run");
+  // The supervisor, the race detector and the numbers of the calls are the process's.
+  static std::recursive_mutex one_thread_explores;
+  const std::lock_guard turn(one_thread_explores);
   try {
     return explore_call(checks, std::move(body), exploration::with_environment(asked));
   } catch (const BadInput& input) {

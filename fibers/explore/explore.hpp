@@ -32,7 +32,8 @@ namespace waitpoint {
 
 /// Runs `body` under different schedules until one fails, or a limit of `options` is reached. Throws BadInput for
 /// invalid options; invalid environment variables end the program with a line and status 2. A token in the options that
-/// no longer matches its run is a failure of the report, as it is the test's own. Must be called outside any task.
+/// no longer matches its run is a failure of the report, as it is the test's own. Must be called outside any task. One
+/// thread explores at a time: another one's call waits.
 ExploreReport explore_with(exploration::ExternalChecks* checks, std::function<void()> body,
                            const ExploreOptions& options);
 

@@ -38,7 +38,7 @@ const char* cause_of(const siginfo_t& info) {
 }  // namespace
 
 const char* death_text(const siginfo_t& info) {
-  static char text[96];
+  constinit static thread_local char text[96] = {};
   const char* const name = sigabbrev_np(info.si_signo);
   const char* const cause = cause_of(info);
   std::snprintf(text, sizeof text, cause != nullptr ? "the process dies of SIG%s (%s)" : "the process dies of SIG%s",

@@ -5,6 +5,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <atomic>
+
 #include "fibers/kernel/task.hpp"
 
 namespace waitpoint::kernel {
@@ -17,12 +19,13 @@ DebuggerView debugger_view;
 [[gnu::noinline]] void debugger_checkpoint() { asm volatile(""); }
 
 void tell_debugger(Scheduler& scheduler) {
-  debugger_view.scheduler = &scheduler;
+  std::atomic_ref(debugger_view.scheduler).store(&scheduler, std::memory_order_relaxed);
   debugger_run();
 }
 
 void tell_debugger_of_end(const Scheduler& scheduler) {
-  if (debugger_view.scheduler == &scheduler) debugger_view.scheduler = nullptr;
+  auto* ended = const_cast<Scheduler*>(&scheduler);
+  std::atomic_ref(debugger_view.scheduler).compare_exchange_strong(ended, nullptr);
 }
 
 void show_debugger(Time now, const Task& task, Operation operation, const Object* object) {

@@ -6,7 +6,8 @@
 // here. With one, each event is shown, as to a Watch, and compared with the debugger's conditions in this process: some
 // nanoseconds an event, in place of some ten microseconds for a breakpoint.
 //
-// No digest, choice or time depends on it.
+// No digest, choice or time depends on it. The view is of the process: of several runs in several threads, the one
+// entered last.
 #pragma once
 
 #include <cstdint>

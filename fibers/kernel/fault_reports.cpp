@@ -7,6 +7,7 @@
 #include <ucontext.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <cerrno>
 #include <cstdio>
 #include <cstdlib>
@@ -16,22 +17,54 @@
 #include "fibers/kernel/call_stack.hpp"
 #include "fibers/kernel/death_text.hpp"
 #include "fibers/kernel/signal_safe_text.hpp"
+#include "fibers/switch/reserved_pages.hpp"
 #include "fibers/switch/sanitizer.hpp"
 
 namespace waitpoint::kernel {
 namespace {
 
-// One stack suffices, since tasks run in one thread at a time. Large enough for the register state of any processor,
-// and for a post mortem; pages that are not used are not there.
+// The stack of the first thread; others have one of the same size. Large enough for the register state of any
+// processor, and for a post mortem; pages that are not used are not there.
 alignas(64) char handler_stack[1024 * 1024];
+std::atomic<bool> is_handler_stack_taken = false;
 
-FaultReports* innermost = nullptr;
-PostMortem post_mortem = nullptr, call_stack_writer = nullptr;
-ucontext_t* fault_context = nullptr;  // of the signal that is handled
-const char* unfinished = nullptr;     // the replay line of an unfinished run
-bool is_dying = false;
+// The process's. `lock` is held for the few system calls of installing and restoring the handlers.
+std::atomic_flag lock;
+std::uint32_t installers = 0;  // the number of threads with reports
+std::atomic<bool> are_installed = false;
+struct sigaction previous[std::size(FaultReports::signals)];
+std::atomic<pid_t> latest_process = 0;  // that made reports
+std::atomic<PostMortem> post_mortem = nullptr, call_stack_writer = nullptr;
+std::atomic<const char*> unfinished = nullptr;    // the replay line of an unfinished run
+std::atomic<const void*> dying_thread = nullptr;  // the thread whose death is the process's, by its thread pointer
+
+// The thread's own.
+constinit thread_local FaultReports* innermost = nullptr;
+constinit thread_local ucontext_t* fault_context = nullptr;  // of the signal that is handled
 // A bug and an overrun stack were reported before their SIGABRT.
-bool is_described = false;
+constinit thread_local bool is_described = false;
+
+class Locked {
+ public:
+  Locked() {
+    while (lock.test_and_set(std::memory_order_acquire)) {
+    }
+  }
+  ~Locked() { lock.clear(std::memory_order_release); }
+  Locked(const Locked&) = delete;
+  Locked& operator=(const Locked&) = delete;
+};
+
+bool is_dying() { return dying_thread != nullptr; }
+
+// The first thread to die is reported, and ends the process: another one that dies meanwhile waits for that.
+void be_the_dying_thread() {
+  const void* first = nullptr;
+  const void* const self = __builtin_thread_pointer();
+  if (dying_thread.compare_exchange_strong(first, self) || first == self) return;
+  for (;;) pause();
+}
+
 // The task that overran its stack, or null. Usually the running one; but a task that overruns its stack while it hands
 // over is no longer the running one.
 const Task* overflowed(const Scheduler& scheduler, const char* address) {
@@ -85,7 +118,8 @@ void act(PostMortem function, const char* reason, const char* if_it_dies) {
   text.add("  ").add(if_it_dies).add("\n").write();
 }
 
-bool is_simulating(const FaultReports& reports) { return reports.thread() == __builtin_thread_pointer(); }
+// True in a thread that runs no tasks, while another does.
+bool is_elsewhere() { return are_installed && innermost == nullptr && running == nullptr; }
 
 // At exit(): a caller such as a CI would take its status for the run's.
 void refuse_exit_by_exit() { refuse_exit("exit()"); }
@@ -113,10 +147,10 @@ void report_overflow(const Task& task) {
 
 void set_call_stack_writer(PostMortem function) { call_stack_writer = function; }
 void set_unfinished_run(const char* replay_line) { unfinished = replay_line; }
-PostMortem set_post_mortem(PostMortem function) { return std::exchange(post_mortem, function); }
+PostMortem set_post_mortem(PostMortem function) { return post_mortem.exchange(function); }
 
 void report(const char* reason) {
-  const bool elsewhere = innermost != nullptr && !is_simulating(*innermost);
+  const bool elsewhere = is_elsewhere();
   if (!is_described) {
     SignalSafeText text;
     text.add("waitpoint: ").add(reason).add(elsewhere ? ", in a thread of the operating system\n" : "\n").write();
@@ -125,28 +159,31 @@ void report(const char* reason) {
   if (running == nullptr || elsewhere) {
     SignalSafeText where;
     if (!elsewhere && Doing::present() != nullptr) where.add("  while ").add(Doing::present()).add("\n");
-    if (unfinished != nullptr) where.add("  replay: ").add(unfinished).add("\n");
+    if (const char* const replay = unfinished; replay != nullptr) where.add("  replay: ").add(replay).add("\n");
     where.write();
   }
   act(call_stack_writer, reason, "its call stack cannot be read");
 }
 
 void report_death(const char* reason) {
-  is_dying = true;
+  be_the_dying_thread();
   report(reason);
   act(post_mortem, reason, "the outputs are lost");
 }
 
-bool in_reporting_process() { return !is_dying && innermost != nullptr && innermost->process() == getpid(); }
+bool in_reporting_process() {
+  const pid_t process = innermost != nullptr ? innermost->process() : latest_process.load();
+  return !is_dying() && are_installed && process == getpid();
+}
 
 bool in_model_code() {
-  return in_reporting_process() && is_simulating(*innermost) && (running != nullptr || Doing::present() != nullptr);
+  return in_reporting_process() && !is_elsewhere() && (running != nullptr || Doing::present() != nullptr);
 }
 
 void refuse_exit(const char* function) {
   if (!in_model_code() && !(in_reporting_process() && unfinished != nullptr)) return;
   std::fflush(nullptr);
-  static char reason[80];
+  char reason[80];
   const char* const place = !in_model_code()     ? "before the end of the run"
                             : running != nullptr ? "in a task"
                                                  : "in a module";
@@ -155,48 +192,74 @@ void refuse_exit(const char* function) {
   syscall(SYS_exit_group, 1);
 }
 
-FaultReports::FaultReports(const Scheduler* scheduler)
-    : outer_(innermost), scheduler_(scheduler), thread_(__builtin_thread_pointer()), process_(getpid()) {
+FaultReports::FaultReports(const Scheduler* scheduler) : outer_(innermost), scheduler_(scheduler), process_(getpid()) {
   if (sanitizer::present) return;
   innermost = this;
+  latest_process = process_;
   if (outer_ != nullptr) return;
+  install_stack();
+  const Locked locked;
+  if (installers++ > 0) return;
   static bool is_registered = false;
   if (!std::exchange(is_registered, true)) {
     std::atexit(refuse_exit_by_exit);
     at_quick_exit(refuse_exit_by_quick_exit);
   }
-  stack_t stack{};
-  stack.ss_sp = handler_stack;
-  stack.ss_size = sizeof handler_stack;
-  has_stack_ = sigaltstack(&stack, &previous_stack_) == 0;
   struct sigaction action {};
   action.sa_sigaction = handle;
   action.sa_flags = static_cast<int>(SA_SIGINFO | SA_ONSTACK);
-  for (std::size_t i = 0; i < std::size(signals); ++i) sigaction(signals[i], &action, &previous_[i]);
+  for (std::size_t i = 0; i < std::size(signals); ++i) sigaction(signals[i], &action, &previous[i]);
+  are_installed = true;
 }
 
 FaultReports::~FaultReports() {
   if (innermost != this) return;
   innermost = outer_;
   if (outer_ != nullptr) return;
-  for (std::size_t i = 0; i < std::size(signals); ++i) {
-    struct sigaction present {};
-    sigaction(signals[i], &previous_[i], &present);
-    if ((present.sa_flags & static_cast<int>(SA_SIGINFO)) == 0 || present.sa_sigaction != handle)
-      sigaction(signals[i], &present, nullptr);
+  {
+    const Locked locked;
+    if (--installers == 0) {
+      are_installed = false;
+      for (std::size_t i = 0; i < std::size(signals); ++i) {
+        struct sigaction present {};
+        sigaction(signals[i], &previous[i], &present);
+        if ((present.sa_flags & static_cast<int>(SA_SIGINFO)) == 0 || present.sa_sigaction != handle)
+          sigaction(signals[i], &present, nullptr);
+      }
+    }
   }
-  if (has_stack_) sigaltstack(&previous_stack_, nullptr);
+  remove_stack();
+}
+
+void FaultReports::install_stack() {
+  void* const memory = is_handler_stack_taken.exchange(true) ? reserve_pages(sizeof handler_stack) : handler_stack;
+  if (memory == nullptr) return;
+  stack_t stack{};
+  stack.ss_sp = stack_ = memory;
+  stack.ss_size = sizeof handler_stack;
+  sigaltstack(&stack, &previous_stack_);
+}
+
+void FaultReports::remove_stack() {
+  if (stack_ == nullptr) return;
+  sigaltstack(&previous_stack_, nullptr);
+  if (stack_ == handler_stack)
+    is_handler_stack_taken = false;
+  else
+    release_pages(stack_, sizeof handler_stack);
 }
 
 void FaultReports::handle(int signal, siginfo_t* info, void* context) {
   // A signal that a process sends (si_code <= 0) has no address; abort() and raise() send their own.
   const bool is_fault = info->si_code > 0, is_own = is_fault || info->si_pid == getpid();
-  if (innermost != nullptr && (is_own || unfinished != nullptr)) {
-    if (signal == SIGSEGV && is_fault && innermost->scheduler_ != nullptr)
-      if (const Task* task = overflowed(*innermost->scheduler_, static_cast<const char*>(info->si_addr)))
-        report_overflow(*task);
+  if (are_installed && (is_own || unfinished != nullptr)) {
+    const Scheduler* const scheduler = running != nullptr     ? running->scheduler
+                                       : innermost != nullptr ? innermost->scheduler_
+                                                              : nullptr;
+    if (signal == SIGSEGV && is_fault && scheduler != nullptr)
+      if (const Task* task = overflowed(*scheduler, static_cast<const char*>(info->si_addr))) report_overflow(*task);
     fault_context = static_cast<ucontext_t*>(context);
-    if (running != nullptr || Doing::present() != nullptr || !is_simulating(*innermost) || unfinished != nullptr)
+    if (running != nullptr || Doing::present() != nullptr || is_elsewhere() || unfinished != nullptr)
       report_death(death_text(*info));
     fault_context = nullptr;
   }
@@ -204,16 +267,14 @@ void FaultReports::handle(int signal, siginfo_t* info, void* context) {
 }
 
 void FaultReports::pass_on(int signal, siginfo_t* info, void* context) {
-  struct sigaction previous {};
-  const FaultReports* installer = innermost;
-  while (installer != nullptr && installer->outer_ != nullptr) installer = installer->outer_;
+  struct sigaction before {};
   for (std::size_t i = 0; i < std::size(signals); ++i)
-    if (signals[i] == signal && installer != nullptr) previous = installer->previous_[i];
-  if ((previous.sa_flags & static_cast<int>(SA_SIGINFO)) != 0) return previous.sa_sigaction(signal, info, context);
-  if (previous.sa_handler != SIG_DFL && previous.sa_handler != SIG_IGN) return previous.sa_handler(signal);
-  is_dying = true;
+    if (signals[i] == signal && are_installed) before = previous[i];
+  if ((before.sa_flags & static_cast<int>(SA_SIGINFO)) != 0) return before.sa_sigaction(signal, info, context);
+  if (before.sa_handler != SIG_DFL && before.sa_handler != SIG_IGN) return before.sa_handler(signal);
+  be_the_dying_thread();
   // The faulting instruction is executed again, with the default action; a signal sent by a process is raised again.
-  sigaction(signal, &previous, nullptr);
+  sigaction(signal, &before, nullptr);
   if (info->si_code <= 0) raise(signal);
 }
 

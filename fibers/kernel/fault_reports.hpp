@@ -11,6 +11,9 @@
 // touches the guard page below it: its report has the stack's size and the way to request a larger one. A stack without
 // a guard page has a canary: if it is overwritten, its task is reported in the same way.
 //
+// The handlers are the process's: the first thread that needs them installs them, the last restores the previous ones.
+// Each thread reports its own tasks.
+//
 // The handler runs on a stack of its own, since the task's may be used up, and is async-signal-safe. What is not, such
 // as unwinding a call stack and completing files, is done by a forked copy of the process: whatever state the heap is
 // in, and however that ends, the process itself only waits for it.
@@ -40,20 +43,19 @@ class FaultReports {
 
   /// The process that made it: not the one that a task forked.
   pid_t process() const { return process_; }
-  /// The thread that runs the tasks, by its thread pointer.
-  const void* thread() const { return thread_; }
 
  private:
   static void handle(int signal, siginfo_t* info, void* context);
   static void pass_on(int signal, siginfo_t* info, void* context);
 
-  FaultReports* outer_;
+  void install_stack();
+  void remove_stack();
+
+  FaultReports* outer_;  // of this thread
   const Scheduler* scheduler_;
-  const void* thread_;
   pid_t process_;
-  struct sigaction previous_[std::size(signals)]{};
+  void* stack_ = nullptr;  // of this thread's handlers; null: the outer one's, or none
   stack_t previous_stack_{};
-  bool has_stack_ = false;
 };
 
 /// Called in a forked copy of the process, with the reason: "the process dies of SIGFPE (integer division by zero)".

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // The run as a whole: windows, pauses, stops, and queries.
+#include <atomic>
+
 #include "core/error.hpp"
 #include "fibers/kernel/debugger.hpp"
 #include "fibers/kernel/scheduler.hpp"
@@ -10,22 +12,20 @@
 
 namespace waitpoint::kernel {
 
-// Side by side, `running` in the section of initialised data as `turn` is: at the end of the uninitialised data its
-// offset in its page was that of the first task's record, and each load waited for the store before it, to an address
-// with the same low 12 bits. A hand-over took a tenth longer.
-[[gnu::section(".data")]] alignas(64) Task* running = nullptr;
-Turn turn;
+// In one cache line.
+alignas(64) constinit thread_local Task* running = nullptr;
+constinit thread_local Turn turn;
 
 namespace {
 
-// The epoch of the latest run, which distinguishes objects of different runs in this process; never part of an event.
-std::uint64_t runs = 0;
+// The epoch of the latest run, which distinguishes objects of different runs in this process, in whatever threads;
+// never part of an event.
+std::atomic<std::uint64_t> runs = 0;
 
 }  // namespace
 
 Scheduler::Scheduler(Order order, std::uint64_t seed) : agenda_(order, seed), epoch_(++runs) {
   fast_path_.allow(agenda_.chooser.order());
-  if (running == nullptr) turn.digest = nullptr;  // of a previous run, whose robots may have had the same addresses
   set_watch(nullptr);
   if (sanitizer::present) sanitizer::begin_run();
 }
@@ -47,7 +47,7 @@ void Scheduler::restart(std::uint64_t seed) {
   switches_ = yields_ = 0;
   state_ = RunState::idle;
   cause_ = StopCause::none;
-  turn.digest = digest_in_use_ = nullptr;
+  thread_ = nullptr;
   fast_path_.allow(agenda_.chooser.order());
   unwinding_ = interrupted_ = false;
   if (sanitizer::present) {
@@ -58,9 +58,19 @@ void Scheduler::restart(std::uint64_t seed) {
 
 // --- running ---
 
+// The frames of its tasks may hold addresses of the thread's variables.
+void Scheduler::stay_on_thread() {
+  if (thread_ == __builtin_thread_pointer()) return;
+  WAITPOINT_REQUIRE(thread_ == nullptr,
+                    "a simulation is continued in another thread than the one that began to run it");
+  thread_ = __builtin_thread_pointer();
+  turn.digest = digest_in_use_ = nullptr;  // of a previous run, whose robots may have had the same addresses
+}
+
 RunState Scheduler::run_before(Time until) {
   WAITPOINT_CHECK(running == nullptr, "run_before() is called from within a task");
   WAITPOINT_CHECK(!unwinding_, "run_before() is called after the run is over");
+  stay_on_thread();
   tell_debugger(*this);
   agenda_.until = until;
   allow_fast_paths();

@@ -66,7 +66,7 @@ class Scheduler {
   /// the roster is full or no stack is free.
   Task* spawn(Robot& robot, const SpawnOptions& options, void (*entry)(void*), void* argument);
 
-  /// Executes all events before `until`.
+  /// Executes all events before `until`. A run stays on the thread of its first call; other runs may be on others.
   RunState run_before(Time until);
   StopCause stop_cause() const { return cause_; }
   /// After a stop because no task but services remained: the next run_before() executes their events.
@@ -237,6 +237,7 @@ class Scheduler {
   bool is_deadlock(Task& task, const Object& object);
 
   // The run: run.cpp, explored.cpp, visit.cpp; enter_run() in scheduler_steps.hpp.
+  void stay_on_thread();
   void enter_run(Fiber& to);
   void exit_run(RunState state);
   Fiber& end_window(RunState state);
@@ -273,6 +274,7 @@ class Scheduler {
   FastPath fast_path_;
   StackArena arena_;
   Fiber main_;
+  const void* thread_ = nullptr;  // that runs the tasks, by its thread pointer; null before the first
   Duration lookahead_ = Duration::max();
   Task* paused_ = nullptr;  // its event is the least, but beyond this window
   Task* ended_ = nullptr;   // its stack is in use until the next switch is done

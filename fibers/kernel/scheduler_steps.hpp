@@ -40,7 +40,13 @@ inline void Scheduler::put(EventNode& node, const EventKey& key) {
 inline void Scheduler::switch_fibers(Fiber& from, Fiber& to) {
   if (&from == &to) return;
   ++switches_;
-  switch_fiber(from, to);
+  if (__builtin_expect(can_switch_in_parts(from, to), 1)) {
+    switch_fiber(from, to);
+  } else {
+    instance_for(to, running) = running;
+    instance_for(to, turn) = turn;
+    switch_fiber_and_storage(from, to);
+  }
   if (ended_ != nullptr) reclaim_ended();
 }
 

@@ -152,7 +152,9 @@ struct Task {
   char name[name_size] = {};
 };
 
-/// The task whose code is executing; null outside of tasks. Besides `turn` (turn.hpp) the only global.
-extern Task* running;
+/// The task whose code this thread executes; null outside of tasks. The thread's own, as is `turn` (turn.hpp): a
+/// simulation stays on the thread that runs its tasks, and others run on other threads. In the static block of
+/// thread-local storage, which every thread has at the same distance from its thread pointer: an access is no call.
+[[gnu::tls_model("initial-exec")]] extern constinit thread_local Task* running;
 
 }  // namespace waitpoint::kernel

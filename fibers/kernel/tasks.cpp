@@ -80,6 +80,7 @@ void Scheduler::unwind() {
   // destroyed with the frames that own them, and are reinitialised in the next run.
   agenda_.clear();
   // Each resumed task ends and unlinks itself.
+  if (roster_.last_task() != nullptr) stay_on_thread();
   while (Task* const task = roster_.last_task()) {
     enter_run(resume(*task));
     WAITPOINT_CHECK(roster_.last_task() != task, "a task continued although the run is over");

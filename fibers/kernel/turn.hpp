@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The turn of the running task: the digest that its events are hashed into, and the state of its fast path
-// (fast_path.hpp). Besides `running` the only global: the most frequent calls, inline in the task's frame, need only
+// (fast_path.hpp). The thread's own, as is `running`: the most frequent calls, inline in the task's frame, need only
 // these two, the task's record and the object.
 #pragma once
 
@@ -19,6 +19,7 @@ struct Turn {
   std::uint64_t fast_epoch = no_epoch;  ///< the epoch of the objects for which the fast path is open; no_epoch: none
   Time at = never;                      ///< the instant whose waitpoints pass without a search, watched or not
   PairDigest* digest = nullptr;         ///< the digest of the task that runs or ran last
+  std::uint64_t blocks = 0;             ///< number of basic blocks of instrumented code executed (block_calls.cpp)
 
   [[gnu::always_inline]] bool is_fast() const { return __builtin_expect(fast_epoch != no_epoch, 1); }
   void close() {
@@ -26,7 +27,7 @@ struct Turn {
     fast_epoch = no_epoch;
   }
 };
-extern Turn turn;
+[[gnu::tls_model("initial-exec")]] extern constinit thread_local Turn turn;
 
 /// Hashes and counts an event of the running task.
 [[gnu::always_inline]] inline void count_event(Task& task, Operation operation, const Object* object, Time now) {

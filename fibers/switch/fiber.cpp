@@ -35,6 +35,11 @@ struct Start {
   sanitizer::arrive(left, from);
 }
 
+inline void jump(Fiber& from, Fiber& to) {
+  if (__builtin_expect(sanitizer::present, 0)) return jump_seen(from, to);
+  note_where_left(depart(departure(from, to)));
+}
+
 // Switches back to prepare(). The fiber is entered by depart(), which does not restore all registers: hence the
 // clobbers.
 #ifdef __x86_64__
@@ -63,16 +68,18 @@ void run_entry(context::transfer_t transfer) {
   bug(__FILE__, __LINE__, "entry returned", "a fiber's entry function returned");
 }
 
-void* own_thread_pointer = nullptr;
-
 }  // namespace
 
-RuntimeState runtime_state;
+constinit thread_local RuntimeState runtime_state;
 
 void bind_to_thread() {
   runtime_state.exceptions = reinterpret_cast<RuntimeState::Exceptions*>(__cxxabiv1::__cxa_get_globals());
   runtime_state.error_number = &errno;
-  own_thread_pointer = thread_pointer();
+  runtime_state.thread_pointer = thread_pointer();
+}
+
+void* storage_of(const Fiber& fiber) {
+  return fiber.thread_pointer != nullptr ? fiber.thread_pointer : runtime_state.thread_pointer;
 }
 
 void prepare(Fiber& fiber, const Stack& stack, char* top, void (*entry)(void*), void* argument) {
@@ -85,15 +92,17 @@ void prepare(Fiber& fiber, const Stack& stack, char* top, void (*entry)(void*), 
 }
 
 void switch_fiber(Fiber& from, Fiber& to) {
-  if (__builtin_expect(from.thread_pointer == to.thread_pointer, 1)) {
-    runtime_state.exchange(from, to);
-  } else {
-    if (from.thread_pointer == nullptr) runtime_state.save(from);
-    if (to.thread_pointer == nullptr) runtime_state.restore(to);
-    set_thread_pointer(to.thread_pointer != nullptr ? to.thread_pointer : own_thread_pointer);
-  }
-  if (__builtin_expect(sanitizer::present, 0)) return jump_seen(from, to);
-  note_where_left(depart(departure(from, to)));
+  runtime_state.exchange(from, to);
+  jump(from, to);
+}
+
+void switch_fiber_and_storage(Fiber& from, Fiber& to) {
+  if (from.thread_pointer == nullptr) runtime_state.save(from);
+  if (to.thread_pointer == nullptr) runtime_state.restore(to);
+  instance_for(to, runtime_state) = runtime_state;
+  // No thread-local variable is used from here to the switch: its address may be that in the storage that is left.
+  set_thread_pointer(storage_of(to));
+  jump(from, to);
 }
 
 #ifndef __x86_64__

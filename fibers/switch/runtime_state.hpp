@@ -8,7 +8,8 @@
 
 namespace waitpoint::kernel {
 
-/// Addresses of the state of the thread that runs the fibers, cached since the look-up costs as much as the switch.
+/// Addresses of the state of the thread that runs the fibers, cached since the look-up costs as much as the switch. The
+/// thread's own.
 struct RuntimeState {
   // The Itanium C++ ABI fixes the first two members of the record that __cxa_get_globals returns.
   struct Exceptions {
@@ -18,6 +19,7 @@ struct RuntimeState {
 
   Exceptions* exceptions = nullptr;
   int* error_number = nullptr;
+  void* thread_pointer = nullptr;
 
   ThreadState now() const { return {exceptions->caught, exceptions->uncaught, *error_number}; }
   void save(Fiber& fiber) const { fiber.thread_state = now(); }
@@ -44,7 +46,7 @@ struct RuntimeState {
     return (caught | uncaught | error) != 0;
   }
 };
-extern RuntimeState runtime_state;
+[[gnu::tls_model("initial-exec")]] extern constinit thread_local RuntimeState runtime_state;
 
 inline Departure departure(Fiber& from, Fiber& to) {
   void* const context = to.context;

@@ -46,11 +46,12 @@ bool valgrind = false;
 
 // The bounds of the outside context's stack, which is not from the arena. AddressSanitizer needs the bounds of every
 // stack entered, and returns those of the stack left.
-const void* outside_low = nullptr;
-std::size_t outside_size = 0;
+// The thread's own, as the context.
+constinit thread_local const void* outside_low = nullptr;
+constinit thread_local std::size_t outside_size = 0;
 
-// Addresses that represent the outside context to ThreadSanitizer.
-char from_outside, to_outside;
+// Addresses that represent the thread's outside context to ThreadSanitizer.
+constinit thread_local char from_outside = 0, to_outside = 0;
 
 constexpr unsigned without_synchronization = 1;  // a switch does not synchronise
 

@@ -10,7 +10,7 @@
 namespace waitpoint::sync {
 
 const char* about(const kernel::Object& object, const char* message) {
-  static std::string text;
+  static thread_local std::string text;
   text = std::string(message) + ": " + describe(object);
   if (const std::string holders = describe_holders(object); !holders.empty()) text += ", " + holders;
   return text.c_str();

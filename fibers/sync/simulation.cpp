@@ -2,7 +2,9 @@
 #include "fibers/sync/simulation.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cstdlib>
+#include <mutex>
 #include <ostream>
 #include <system_error>
 
@@ -116,11 +118,34 @@ bool Simulation::go_on_with_services() {
   return true;
 }
 
+namespace {
+
+// The std::terminate handler is the process's: the first of the threads that unwind a run sets it, the last one
+// restores the previous handler.
+std::mutex terminate_mutex;
+int terminate_users = 0;
+std::atomic<std::terminate_handler> terminate_before = nullptr;
+
+class TerminateHandler {
+ public:
+  explicit TerminateHandler(std::terminate_handler handler) {
+    const std::lock_guard lock(terminate_mutex);
+    if (terminate_users++ == 0) terminate_before = std::set_terminate(handler);
+  }
+  ~TerminateHandler() {
+    const std::lock_guard lock(terminate_mutex);
+    if (--terminate_users == 0) std::set_terminate(terminate_before);
+  }
+  TerminateHandler(const TerminateHandler&) = delete;
+  TerminateHandler& operator=(const TerminateHandler&) = delete;
+};
+
+}  // namespace
+
 void Simulation::unwind() {
   const kernel::FaultReports reports(&scheduler_);
-  terminate_ = std::set_terminate(terminate_task);
+  const TerminateHandler handler(terminate_task);
   scheduler_.unwind();
-  std::set_terminate(terminate_);
 }
 
 // Unwind reached a noexcept frame: a destructor in which the task waited at the end of the run.
@@ -132,8 +157,8 @@ void Simulation::terminate_task() {
       kernel::running->scheduler->abandon();
     } catch (...) {
     }
-    of(*kernel::running->scheduler).terminate_();
   }
+  if (const std::terminate_handler before = terminate_before; before != nullptr) before();
   std::abort();
 }
 

@@ -120,7 +120,6 @@ class Simulation final : public sync::RunContext {
   std::exception_ptr failure_;
   std::string trouble_;
   sync::Places places_ = sync::Places::told;
-  std::terminate_handler terminate_ = nullptr;  // the std::terminate handler before unwind()
 };
 
 /// The result of one simulated run of a test body.

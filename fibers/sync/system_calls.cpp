@@ -5,12 +5,13 @@
 #include <sys/types.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <atomic>
 #include <cstddef>
 #include <cstdio>
 #include <optional>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include "core/doing.hpp"
@@ -33,34 +34,51 @@ struct Call {
   std::optional<Time> time;  // absent outside of tasks
   void* frames[frames_searched] = {};
   std::size_t frame_count = 0;
-  bool told = false;
 };
-// Noted without the heap: the caller may be an allocator, or on a task's small stack.
+// Of all threads. Kept without the heap: the caller may be an allocator, or on a task's small stack. A call that is
+// counted does not change any more.
 Call calls[calls_max];
-std::size_t call_count = 0, told_count = 0;
-bool has_started = false, are_collected = false, are_threads_noted = true;
+std::atomic<bool> told[calls_max];
+std::atomic<std::size_t> call_count = 0, told_count = 0;
+std::atomic_flag is_adding;
+std::atomic<bool> are_collected = false, are_threads_noted = true;
 
-/// The thread that runs tasks; null: none. Others may use the C library while a task is running.
-const void* simulating = nullptr;
-pid_t process = 0;
+/// The thread's own: its scopes in which calls are noted, their process, and if one has started a thread or process.
+constinit thread_local std::uint32_t scopes = 0;
+constinit thread_local pid_t process = 0;
+constinit thread_local bool has_started = false;
+
+bool is_known(const void* place) {
+  return std::any_of(calls, calls + call_count, [&](const Call& call) { return call.place == place; });
+}
+
+void add(const Call& call) {
+  while (is_adding.test_and_set(std::memory_order_acquire)) {
+  }
+  if (call_count < calls_max && !is_known(call.place)) {
+    calls[call_count] = call;
+    ++call_count;
+  }
+  is_adding.clear(std::memory_order_release);
+}
 
 void note(const char* function, const char* effect, const void* place) {
   // Calls of a forked process are its own affair, as are those of a report's forked copy.
-  if (simulating != nullptr && process != getpid()) return;
-  for (std::size_t i = 0; i < call_count; ++i)
-    if (calls[i].place == place) return;
-  if (call_count == calls_max) return;
-  Call& call = calls[call_count++];
+  if (scopes > 0 && process != getpid()) return;
+  if (call_count == calls_max || is_known(place)) return;
+  Call call;
   call.function = function;
   call.effect = effect;
   call.place = place;
   call.frame_count = kernel::capture_call_stack(call.frames, frames_searched);
-  if (effect == nullptr) return;
-  const kernel::Task* const task = kernel::running;
-  std::string caller = task != nullptr ? "task " : Doing::present();
-  if (task != nullptr) caller.append(task->name).append(" of ").append(task->robot->name);
-  caller.copy(call.caller, sizeof call.caller - 1);
-  if (task != nullptr) call.time = task->local_time;
+  if (effect != nullptr) {
+    const kernel::Task* const task = kernel::running;
+    std::string caller = task != nullptr ? "task " : Doing::present();
+    if (task != nullptr) caller.append(task->name).append(" of ").append(task->robot->name);
+    caller.copy(call.caller, sizeof call.caller - 1);
+    if (task != nullptr) call.time = task->local_time;
+  }
+  add(call);
 }
 
 /// The text of those calls that were in no text yet.
@@ -68,9 +86,8 @@ std::string text_of_new(bool outside) {
   std::vector<ReturnAddresses> stacks;
   std::vector<std::string> lines;
   for (std::size_t i = 0; i < call_count; ++i) {
-    Call& call = calls[i];
-    if (call.told || (call.effect == nullptr) != outside) continue;
-    call.told = true;
+    const Call& call = calls[i];
+    if ((call.effect == nullptr) != outside || told[i].exchange(true)) continue;
     stacks.emplace_back(call.frames, call.frames + call.frame_count);
     lines.push_back(outside ? "a thread of the operating system was started outside of tasks; it is not repeatable"
                             : std::string(call.caller) + " calls " + call.function + "()" +
@@ -90,8 +107,7 @@ std::string text_of_new(bool outside) {
 }  // namespace
 
 bool is_in_task() {
-  return kernel::running != nullptr && simulating == __builtin_thread_pointer() &&
-         !kernel::running->scheduler->unwinding() && !has_program_layer();
+  return kernel::running != nullptr && scopes > 0 && !kernel::running->scheduler->unwinding() && !has_program_layer();
 }
 
 void note_start(const char* function, const void* place) {
@@ -113,13 +129,16 @@ void note_wait(const char* function, const void* place) {
   if (is_in_task()) note(function, "it holds up all tasks of the run in real time", place);
 }
 
-SystemCalls::SystemCalls() : outer_(std::exchange(simulating, __builtin_thread_pointer())) { process = getpid(); }
+SystemCalls::SystemCalls() {
+  ++scopes;
+  process = getpid();
+}
 
 SystemCalls::~SystemCalls() {
-  simulating = outer_;
+  --scopes;
   if (call_count == told_count || are_collected) return;
   tell_system_calls();
-  told_count = call_count;
+  told_count = call_count.load();
 }
 
 UnnotedThreads::UnnotedThreads() { are_threads_noted = false; }

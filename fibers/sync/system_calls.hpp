@@ -27,9 +27,6 @@ class SystemCalls {
   ~SystemCalls();
   SystemCalls(const SystemCalls&) = delete;
   SystemCalls& operator=(const SystemCalls&) = delete;
-
- private:
-  const void* outer_;
 };
 
 /// True if robots' programs are simulated in this process: such calls are theirs, for the layer behind this one.

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <set>
+#include <thread>
 
 #include "core/random.hpp"
 #include "fibers/kernel/scheduler.hpp"
@@ -37,6 +38,19 @@ TEST(Repetition, the_seeded_order_repeats_too_and_is_another) {
   EXPECT_NE(first, to_string(run(scenario).digest));
   for (int repeat = 0; repeat < 5; ++repeat) EXPECT_EQ(seeded(usual_seed), first);
   EXPECT_NE(seeded(usual_seed + 1), first);
+}
+
+TEST(Repetition, runs_in_several_threads_are_the_runs_that_they_are_alone) {
+  const scenario::Scenario scenario = shipped("office.yaml");
+  const auto digest = [&](std::size_t seed) { return to_string(run(scenario, 5s, seed).digest); };
+  for (const std::size_t threads : {2, 8}) {
+    std::vector<std::string> together(threads);
+    {
+      std::vector<std::jthread> running;
+      for (std::size_t i = 0; i < threads; ++i) running.emplace_back([&, i] { together[i] = digest(i); });
+    }
+    for (std::size_t i = 0; i < threads; ++i) EXPECT_EQ(together[i], digest(i)) << threads << " threads, seed " << i;
+  }
 }
 
 TEST(Repetition, every_seed_gives_another_digest) {

@@ -61,6 +61,12 @@ symbols() {
   (cd "$build" && python3 "$root/tools/dev/check/symbols.py" "${objects[@]}")
 }
 
+# What threads share, in the libraries of this build.
+state() {
+  compile libwaitpoint.a tools/libwaitpoint-robots.a
+  python3 tools/dev/check/state.py "$build/libwaitpoint.a" "$build/tools/libwaitpoint-robots.a"
+}
+
 cycles() { python3 tools/dev/check/cycles.py "$root"; }
 
 functions() { python3 tools/dev/check/functions.py "$root"; }
@@ -69,7 +75,7 @@ assertions() { python3 tools/dev/check/assertions.py "$root"; }
 
 files() { python3 tools/dev/check/files.py "$root"; }
 
-parts=(formatting dependencies cycles functions assertions files symbols analysis)
+parts=(formatting dependencies cycles functions assertions files symbols state analysis)
 all=0
 if [[ ${1-} == --all ]]; then
   all=1

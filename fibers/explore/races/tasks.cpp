@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The kernel's notifications of tasks and happens-before edges, by ThreadSanitizer's interface (switch/sanitizer.hpp),
 // and its calls to this runtime alone.
+#include <atomic>
+
+#include "core/error.hpp"
 #include "fibers/explore/races/detector.hpp"
 
 namespace {
@@ -9,6 +12,7 @@ using waitpoint::races::Context;
 using waitpoint::races::Detector;
 
 std::uint32_t open_runs = 0;
+std::atomic<const void*> thread_of_runs = nullptr;
 
 Context& context(void* fiber) { return *static_cast<Context*>(fiber); }
 
@@ -78,11 +82,17 @@ void __tsan_release(void* address) {
   if (Detector::the().has_current()) Detector::the().release(address);
 }
 
-// Runs may overlap (several simulations in turn); the state is only reset between them.
+// Runs may overlap (several simulations in turn); the state is only reset between them. It is the process's.
 void waitpoint_races_open_run() {
+  const void* thread = nullptr;
+  const void* const self = __builtin_thread_pointer();
+  WAITPOINT_REQUIRE(thread_of_runs.compare_exchange_strong(thread, self) || thread == self,
+                    "with the runtime for -fsanitize=thread, simulations of two threads overlap");
   if (open_runs++ == 0) Detector::the().begin_run();
 }
-void waitpoint_races_close_run() { --open_runs; }
+void waitpoint_races_close_run() {
+  if (--open_runs == 0) thread_of_runs = nullptr;
+}
 void waitpoint_races_use(const void* object) {
   if (Detector::the().has_current()) Detector::the().use(object);
 }

@@ -5,7 +5,6 @@
 // another thread or a signal's handler sets.
 #include <cstdint>
 
-#include "fibers/clocks/block_counter.hpp"
 #include "fibers/posix/base/interposed.hpp"
 #include "fibers/posix/program/program.hpp"
 #include "fibers/posix/program/waiting.hpp"
@@ -20,7 +19,7 @@ std::uint64_t looked_at_task = 0, looked_at_event = 0;
 bool is_counted() { return record->settings.has_clock && record->settings.clock.kind == kernel::ClockKind::counted; }
 
 [[gnu::noinline]] void look_whether_it_spins() {
-  next_look = kernel::passed_blocks + blocks_between_looks;
+  next_look = kernel::turn.blocks + blocks_between_looks;
   if (!is_simulated()) return;
   const kernel::Task& task = *kernel::running;
   const bool spins = looked_at_task == task.id && looked_at_event == task.sequence;
@@ -34,7 +33,7 @@ bool is_counted() { return record->settings.has_clock && record->settings.clock.
 }
 
 void count_block() {
-  if (++kernel::passed_blocks >= next_look) look_whether_it_spins();
+  if (++kernel::turn.blocks >= next_look) look_whether_it_spins();
 }
 
 }  // namespace

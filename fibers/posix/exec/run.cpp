@@ -171,7 +171,6 @@ kernel::Scheduler& begin_run() {
   if (record->explored != nullptr && record->explored->recorder) record->recorder = &*record->explored->recorder;
   begin_idle_watch(scheduler);
   before_partner = prepare_to_keep_pace;
-  record->running = &kernel::running;
   record->began = true;
   return scheduler;
 }

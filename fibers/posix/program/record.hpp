@@ -89,8 +89,7 @@ struct alignas(Arena::alignment) Record {
   HistoryRecorder* recorder = nullptr;  ///< if events are asked for
   Arena arena;                          ///< the rest of the file, behind this record
   std::uint32_t threads_made = 0;
-  std::uint32_t threads_most = 0;          ///< at once
-  kernel::Task* const* running = nullptr;  ///< the program's kernel::running
+  std::uint32_t threads_most = 0;  ///< at once
   kernel::Robot robot;
   union {
     kernel::Scheduler scheduler;

@@ -4,7 +4,6 @@
 #include <set>
 #include <vector>
 
-#include "fibers/clocks/block_counter.hpp"
 #include "fibers/sync/threads.hpp"
 #include "tests/fibers/sync/counted_code.hpp"
 #include "tests/fibers/sync/orders.hpp"
@@ -190,12 +189,12 @@ TEST(CountedClock, CostsADeclaredTimeForEachBasicBlockTheSameInEveryRun) {
 }
 
 TEST(CountedClock, CodeThatIsNotInstrumentedPassesNoBlocks) {
-  const std::uint64_t before = kernel::blocks_passed();
+  const std::uint64_t before = kernel::turn.blocks;
   std::vector<int> values(1000);
   for (int& value : values) value = value * 2 + 1;
-  EXPECT_EQ(kernel::blocks_passed(), before);
+  EXPECT_EQ(kernel::turn.blocks, before);
   collatz_steps(27);
-  EXPECT_GT(kernel::blocks_passed(), before + 111);
+  EXPECT_GT(kernel::turn.blocks, before + 111);
 }
 
 TEST(LocalClocks, AreNotInheritedAndEndWithTheirThread) {

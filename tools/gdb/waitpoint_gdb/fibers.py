@@ -40,8 +40,6 @@ class Task(records.Record):
 
     @property
     def state(self):
-        if self.address == records.running():
-            return "running"
         return records.enumerators("TaskState")[self.number("state")]
 
     @property
@@ -94,6 +92,11 @@ def all_tasks(scheduler=None):
         tasks.append(Task(address))
         address = tasks[-1].number("next")
     return tasks
+
+
+def running(scheduler=None):
+    """The task whose code is executing, or None."""
+    return next((task for task in all_tasks(scheduler) if task.state == "running"), None)
 
 
 def due(task, scheduler):

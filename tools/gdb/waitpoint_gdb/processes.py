@@ -22,12 +22,12 @@ class Process:
 
     def tasks(self):
         """Its tasks, each with the scheduler; empty if its memory cannot be read."""
-        scheduler, running = addresses()
+        scheduler = scheduler_address()
         if self.is_present:
             yield from described(scheduler)
             return
         try:
-            with records.of_process(self.system_id, running):
+            with records.of_process(self.system_id):
                 yield from described(scheduler)
         except OSError:
             return
@@ -48,10 +48,9 @@ def value_of(expression):
         return 0
 
 
-def addresses():
-    """Of the scheduler, and of the record's pointer to the variable `running`: the same in every process."""
-    record = "(unsigned long)&'waitpoint::posix::record'->"
-    return value_of(record + "scheduler"), value_of(record + "running")
+def scheduler_address():
+    """The same in every process."""
+    return value_of("(unsigned long)&'waitpoint::posix::record'->scheduler")
 
 
 def own_entry():

@@ -73,8 +73,8 @@ def forget():
 class Memory:
     """Of another process, which has the same libraries, but not at the same addresses."""
 
-    def __init__(self, file, running):
-        self.file, self.running = file, running
+    def __init__(self, file):
+        self.file = file
 
     def read(self, address, size):
         self.file.seek(address)
@@ -82,12 +82,11 @@ class Memory:
 
 
 @contextlib.contextmanager
-def of_process(system_id, running):
-    """Reads records from the memory of another process; its record has the address of its variable `running` at `running`.
-    OSError if it has ended."""
+def of_process(system_id):
+    """Reads records from the memory of another process. OSError if it has ended."""
     global other
     with open(f"/proc/{system_id}/mem", "rb", buffering=0) as file:
-        other = Memory(file, running)
+        other = Memory(file)
         try:
             yield
         finally:
@@ -146,14 +145,6 @@ def address_of(variable):
     if symbol is None:
         raise gdb.GdbError("this program has no tasks of waitpoint, or no debugging information (-g) of them")
     return int(symbol.value().address)
-
-
-def running():
-    """The address of the task whose code is executing, or 0."""
-    if other is not None:
-        variable = int.from_bytes(memory(other.running, 8), "little")
-        return int.from_bytes(memory(variable, 8), "little") if variable else 0
-    return int.from_bytes(memory(address_of("running"), 8), "little")
 
 
 def view():

@@ -109,9 +109,8 @@ def describe_event():
     """The current event, in words."""
     scheduler = records.scheduler()
     where = f"event {records.events_of(scheduler)} at {records.seconds(scheduler.number('agenda_.now.ns_'))} s"
-    if not (address := records.running()):
+    if not (task := fibers.running(scheduler)):
         return where
-    task = fibers.Task(address)
     at = task.number("at")
     thing = f" {fibers.Object(at).describe()}" if at and last("object") else ""
     return f"{where}: {task.describe()}: {operation()}{thing}"
