@@ -44,6 +44,7 @@ void Channel::wake_one(kernel::Object& side) {
   if (scheduler_ == nullptr) return;  // not used yet
   // The data was made available after the preceding waitpoint.
   kernel::sanitizer::release(&side);
+  kernel::note_transfer();
   scheduler_->wake_one(side);
   wake_pollers();
 }
@@ -66,6 +67,7 @@ void Channel::wake_one_for_arrival(kernel::Object& side) {
 void Channel::wake_all(kernel::Object& side) {
   if (scheduler_ == nullptr) return;
   kernel::sanitizer::release(&side);
+  kernel::note_transfer();
   scheduler_->wake_all(side);
   wake_pollers();
 }

@@ -11,9 +11,13 @@ inline constexpr std::uint32_t tasks_max = 1u << 20;
 inline constexpr std::uint32_t events_max = 2 * tasks_max;
 /// Waitpoints that a task may pass at one instant before it yields to its ties.
 inline constexpr std::uint32_t waitpoints_max = 1000;
-/// After this number of yields at one instant, plus waitpoints_max per task, a run ends without progress. That is some
-/// tens of millions of waitpoints: tests whose computing has no cost may pass many at one instant.
+/// After this number of yields at one instant, plus waitpoints_max per task, a run ends without progress, unless a task
+/// has taken what another one gave (turn.hpp, note_transfer()). That is some tens of millions of waitpoints: tests
+/// whose computing has no cost may pass many at one instant.
 inline constexpr std::uint64_t idle_yields_max = 20'000;
+/// After this number of waitpoints at one instant a run ends even so: half a minute of processor time. The default of
+/// Scheduler::set_instant_limit().
+inline constexpr std::uint64_t instant_limit = 2'000'000'000;
 /// Calls that a task may make while it is unwound; after more it is abandoned.
 inline constexpr std::uint32_t refusals_max = 10'000;
 

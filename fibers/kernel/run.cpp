@@ -44,7 +44,7 @@ void Scheduler::restart(std::uint64_t seed) {
   lookahead_ = Duration::max();
   roster_.restart();
   culprit_ = nullptr;
-  switches_ = yields_ = 0;
+  switches_ = idle_yields_ = waitpoints_at_instant_ = 0;
   state_ = RunState::idle;
   cause_ = StopCause::none;
   thread_ = nullptr;

@@ -182,6 +182,10 @@ class Scheduler {
   bool unwinding() const { return unwinding_; }
   /// In a deadlock, a task of the cycle (`search.to` links its members); without progress, a spinning task; else null.
   Task* culprit() const { return culprit_; }
+  /// The number of waitpoints at one instant after which a run ends without progress although tasks exchange something.
+  void set_instant_limit(std::uint64_t waitpoints) { instant_limit_ = waitpoints; }
+  /// True if the present instant has passed that limit.
+  bool is_beyond_instant_limit() const { return waitpoints_at_instant_ > instant_limit_; }
   void set_watch(Watch* watch);
   /// The digest that takes in the events of the task that ran last: its robot's.
   const PairDigest* digest_in_use() const { return digest_in_use_; }
@@ -218,8 +222,9 @@ class Scheduler {
   Fiber& resume(Task& task);
   void switch_fibers(Fiber& from, Fiber& to);
   Departure sleep_slow(Time time);
+  bool yield_after(std::uint32_t waitpoints);
   bool yield_to_ties(Task& task);
-  void check_progress(Task& task);
+  void check_progress(Task& task, std::uint32_t waitpoints);
   bool read_clock_slow(Task& task, Time& local);
   bool timer_waitpoint(Task& task, Operation operation, Object* object);
   void execute_start(Task& task);
@@ -285,7 +290,9 @@ class Scheduler {
   WaitGraph wait_graph_;
   std::uint64_t epoch_;
   std::uint64_t switches_ = 0;
-  std::uint64_t yields_ = 0;  // since virtual time last moved
+  std::uint64_t idle_yields_ = 0;            // since virtual time last moved, or a task took what another one gave
+  std::uint64_t waitpoints_at_instant_ = 0;  // since virtual time last moved; counted at yields
+  std::uint64_t instant_limit_ = instant_limit;
   Time yields_at_;
   RunState state_ = RunState::idle;
   StopCause cause_ = StopCause::none;

@@ -19,6 +19,7 @@ struct Turn {
   std::uint64_t fast_epoch = no_epoch;  ///< the epoch of the objects for which the fast path is open; no_epoch: none
   Time at = never;                      ///< the instant whose waitpoints pass without a search, watched or not
   PairDigest* digest = nullptr;         ///< the digest of the task that runs or ran last
+  bool transferred = false;             ///< see note_transfer(); reset at each check of progress
   std::uint64_t blocks = 0;             ///< number of basic blocks of instrumented code executed (block_calls.cpp)
 
   [[gnu::always_inline]] bool is_fast() const { return __builtin_expect(fast_epoch != no_epoch, 1); }
@@ -28,6 +29,11 @@ struct Turn {
   }
 };
 [[gnu::tls_model("initial-exec")]] extern constinit thread_local Turn turn;
+
+/// To be called by a primitive when a unit, a letter, data or a notification that one task gave has reached another
+/// one: the run makes progress, though virtual time may stand still. Not for a lock that is handed over, a failed
+/// attempt, a timeout.
+inline void note_transfer() { turn.transferred = true; }
 
 /// Hashes and counts an event of the running task.
 [[gnu::always_inline]] inline void count_event(Task& task, Operation operation, const Object* object, Time now) {

@@ -150,7 +150,10 @@ Fiber& Scheduler::dispatch() {
   return stay(goes_on ? Wake::woken : Wake::unwinding);
 }
 
-bool Scheduler::yield() {
+bool Scheduler::yield() { return yield_after(1); }
+
+// A yield of the running task, which has passed so many waitpoints since its last one.
+bool Scheduler::yield_after(std::uint32_t waitpoints) {
   if (unwinding_) return refuse();
   Task& task = *running;
   fast_path_.close();
@@ -162,7 +165,7 @@ bool Scheduler::yield() {
   task.operation = Operation::yield;
   task.at = nullptr;
   if (task.local_time != agenda_.now) task.waitpoints = 0;
-  check_progress(task);
+  check_progress(task, waitpoints);
   if (unwinding_) return false;
   agenda_.place(task, task.local_time);
   task.state = TaskState::ready;
@@ -175,19 +178,23 @@ bool Scheduler::yield_to_ties(Task& task) {
   task.waitpoints = 1;
   const Operation operation = task.operation;
   Object* const at = task.at;
-  if (!yield()) return false;
+  if (!yield_after(waitpoints_max)) return false;
   task.operation = operation;
   task.at = at;
   return true;
 }
 
-// Stops the run if all tasks of an instant only yield to each other.
-void Scheduler::check_progress(Task& task) {
+// Stops the run if all tasks of an instant only yield to each other, or exchange something without end.
+void Scheduler::check_progress(Task& task, std::uint32_t waitpoints) {
   if (yields_at_ != agenda_.now) {
     yields_at_ = agenda_.now;
-    yields_ = 0;
+    idle_yields_ = waitpoints_at_instant_ = 0;
   }
-  if (++yields_ <= idle_yields_max + std::uint64_t{waitpoints_max} * roster_.tasks()) return;
+  if (turn.transferred) idle_yields_ = 0;
+  turn.transferred = false;
+  waitpoints_at_instant_ += waitpoints;
+  const bool is_idle = ++idle_yields_ > idle_yields_max + std::uint64_t{waitpoints_max} * roster_.tasks();
+  if (!is_idle && !is_beyond_instant_limit()) return;
   culprit_ = &task;
   stop(StopCause::no_progress);
 }

@@ -62,6 +62,8 @@ void Semaphore::hand_over() {
     object_.owner = scheduler.wake_first(object_);
   else if (scheduler.wake_one(object_) == nullptr)
     ++count;
+  else
+    kernel::note_transfer();
 }
 
 void Semaphore::flush() {

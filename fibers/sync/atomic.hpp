@@ -191,11 +191,12 @@ class atomic {
     if (kernel::running == nullptr) return;
     before_changing(kernel::Operation::notify_one);
     const sync::IgnoredAccesses ignored_accesses;
-    kernel::running->scheduler->wake_one(object_);
+    if (kernel::running->scheduler->wake_one(object_) != nullptr) kernel::note_transfer();
   }
   void notify_all() {
     if (kernel::running == nullptr) return;
     before_changing(kernel::Operation::notify_all);
+    if (object_.first_waiter != nullptr) kernel::note_transfer();
     kernel::running->scheduler->wake_all(object_);
   }
 

@@ -27,6 +27,7 @@ void BarrierCore::end_phase() {
   ++phase_;
   // The completion function ran after the last arrival's waitpoint.
   kernel::sanitizer::release(&object_);
+  kernel::note_transfer();
   kernel::running->scheduler->wake_all(object_);
 }
 

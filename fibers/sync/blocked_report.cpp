@@ -109,11 +109,15 @@ std::string describe_spinning(kernel::Scheduler& scheduler, Places places) {
       "no progress: virtual time stands still at " + to_string(scheduler.global_time()) + " s while ";
   if (const Task* culprit = scheduler.culprit(); (culprit->attention & kernel::attention::timer) != 0)
     return text + "timers fire without end, the last one " + describe(*culprit->at) + " of " + culprit->robot->name;
+  // Of tasks that exchange something, some are blocked at any moment.
+  const bool exchange = scheduler.is_beyond_instant_limit();
   std::vector<Task*> spinning;
   for (Task* task = scheduler.first_task(); task != nullptr; task = task->next)
-    if (task->state != kernel::TaskState::blocked && task->local_time == scheduler.global_time())
+    if ((exchange || task->state != kernel::TaskState::blocked) && task->local_time == scheduler.global_time())
       spinning.push_back(task);
-  return text + "tasks spin" + describe_each(spinning, places, describe_use);
+  const std::string what =
+      exchange ? "tasks pass more waitpoints than the limit of an instant (WAITPOINT_INSTANT_LIMIT)" : "tasks spin";
+  return text + what + describe_each(spinning, places, describe_use);
 }
 
 std::string describe_endless(kernel::Scheduler& scheduler, Places places) {

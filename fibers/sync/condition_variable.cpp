@@ -6,7 +6,9 @@
 namespace waitpoint {
 
 void condition_variable::notify_all() {
-  if (sync::before_releasing(kernel::Operation::notify_all, object_)) kernel::running->scheduler->wake_all(object_);
+  if (!sync::before_releasing(kernel::Operation::notify_all, object_)) return;
+  if (object_.first_waiter != nullptr) kernel::note_transfer();
+  kernel::running->scheduler->wake_all(object_);
 }
 
 condition_variable::Start condition_variable::start_waiting(std::unique_lock<mutex>& lock) {

@@ -24,7 +24,8 @@ class condition_variable {
   condition_variable& operator=(const condition_variable&) = delete;
 
   void notify_one() {
-    if (sync::before_releasing(kernel::Operation::notify_one, object_)) sync::wake_one(object_);
+    if (sync::before_releasing(kernel::Operation::notify_one, object_) && sync::wake_one(object_) != nullptr)
+      kernel::note_transfer();
   }
   void notify_all();
 

@@ -23,6 +23,7 @@ void condition_variable_any::notify_all() {
 void condition_variable_any::notify(Waiter& waiter) {
   remove_waiter(waiter);
   waiter.notified = true;
+  kernel::note_transfer();
   if (waiter.blocked) kernel::running->scheduler->wake(*waiter.task);
 }
 

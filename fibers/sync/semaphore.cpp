@@ -14,7 +14,10 @@ void SemaphoreCore::release_slow(std::ptrdiff_t units) {
   if (!pass(kernel::Operation::release)) return;
   WAITPOINT_REQUIRE(units >= 0, about(object_, "a semaphore is released by a negative number"));
   WAITPOINT_REQUIRE(units <= most_ - count_, about(object_, "a semaphore is released beyond its greatest count"));
-  for (; units > 0 && object_.first_waiter != nullptr; --units) kernel::running->scheduler->wake_one(object_);
+  for (; units > 0 && object_.first_waiter != nullptr; --units) {
+    kernel::running->scheduler->wake_one(object_);
+    kernel::note_transfer();
+  }
   count_ += units;
 }
 

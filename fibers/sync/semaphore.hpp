@@ -30,7 +30,10 @@ class SemaphoreCore {
   [[gnu::always_inline]] void release(std::ptrdiff_t units) {
 #ifndef WAITPOINT_SEEN_BY_THREAD_SANITIZER
     if (units == 1 && count_ < most_ && kernel::try_fast_waitpoint(kernel::Operation::release, object_)) {
-      if (wake_one(object_) == nullptr) ++count_;
+      if (wake_one(object_) == nullptr)
+        ++count_;
+      else
+        kernel::note_transfer();
       return;
     }
 #endif
@@ -58,6 +61,7 @@ class SemaphoreCore {
   bool take() {
     if (count_ == 0) return false;
     --count_;
+    kernel::note_transfer();
     return true;
   }
   Outcome acquire_slow(Time deadline);

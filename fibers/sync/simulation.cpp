@@ -50,11 +50,22 @@ bool are_fast_paths_enabled() {
   throw BadInput("WAITPOINT_FAST_PATHS", "expected 0 or 1, found '" + std::string(value) + "'");
 }
 
+std::uint64_t instant_limit_of_environment(std::uint64_t usual) {
+  const char* const variable = std::getenv("WAITPOINT_INSTANT_LIMIT");
+  if (variable == nullptr || *variable == '\0') return usual;
+  std::uint64_t waitpoints = 0;
+  if (!parse_number(variable, waitpoints) || waitpoints == 0)
+    throw BadInput("WAITPOINT_INSTANT_LIMIT",
+                   "expected a whole number from 1 to 2^64 - 1, found '" + std::string(variable) + "'");
+  return waitpoints;
+}
+
 Simulation::Simulation(SimulationOptions options)
     : options_(checked(std::move(options))), scheduler_(options_.order, options_.seed) {
   scheduler_.hooks().client = static_cast<sync::RunContext*>(this);
   scheduler_.roster().set_most_tasks(options_.most_tasks);
   if (!options_.fast_paths || !are_fast_paths_enabled()) scheduler_.use_fast_paths(false);
+  scheduler_.set_instant_limit(instant_limit_of_environment(options_.instant_limit));
   scheduler_.hooks().replay = options_.replay.c_str();
   scheduler_.hooks().deliver_signals = sync::deliver_signals;
   add(environment_, "environment");

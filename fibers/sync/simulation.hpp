@@ -36,6 +36,9 @@ struct SimulationOptions {
   unsigned hardware_concurrency = 4;  ///< the number reported to threads; each has a processor of its own nevertheless
   /// The greatest number of simultaneous threads, from 1 to kernel::tasks_max: one more is a std::system_error.
   std::uint32_t most_tasks = kernel::tasks_max;
+  /// The number of waitpoints at one instant of virtual time after which the run ends with no progress although its
+  /// tasks exchange something. WAITPOINT_INSTANT_LIMIT in the environment replaces it in every simulation.
+  std::uint64_t instant_limit = kernel::instant_limit;
   /// If false, each event takes the kernel's plain path: for comparison, since the run is the same.
   /// WAITPOINT_FAST_PATHS=0 in the environment sets it to false in every simulation.
   bool fast_paths = true;
@@ -43,6 +46,9 @@ struct SimulationOptions {
 
 /// False if WAITPOINT_FAST_PATHS=0 is in the environment, true if it is 1 or not there; else BadInput.
 bool are_fast_paths_enabled();
+
+/// WAITPOINT_INSTANT_LIMIT of the environment, or `usual` without it; BadInput if it is no positive number.
+std::uint64_t instant_limit_of_environment(std::uint64_t usual);
 
 /// The reason why run_before() returned.
 enum class RunEnd : std::uint8_t {

@@ -2,10 +2,14 @@
 // A run in which virtual time does not advance ends with a report that names the task responsible.
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <string>
 #include <vector>
 
+#include "core/error.hpp"
+#include "fibers/sync/condition_variable.hpp"
 #include "fibers/sync/mutex.hpp"
+#include "fibers/sync/semaphore.hpp"
 #include "fibers/sync/thread.hpp"
 #include "fibers/sync/timer.hpp"
 #include "tests/fibers/sync/orders.hpp"
@@ -67,6 +71,108 @@ TEST(NoProgress, WhoPollsTheClockLetsOthersGoOn) {
     for (const Time end = now() + 20ms; now() < end;) compute(1us);
     EXPECT_EQ(now(), Time() + 20ms);
   });
+}
+
+// More waitpoints than idle tasks may pass at one instant.
+constexpr int many_items = 8'000'000;
+
+TEST(NoProgress, IsNotSaidOfTasksThatExchangeUnitsAtOneInstant) {
+  const Report report = simulate([] {
+    counting_semaphore<> full(0), empty(1);
+    thread consumer([&] {
+      for (int item = 0; item < many_items; ++item) {
+        full.acquire();
+        empty.release();
+      }
+    });
+    for (int item = 0; item < many_items; ++item) {
+      empty.acquire();
+      full.release();
+    }
+    consumer.join();
+  });
+  EXPECT_TRUE(report.passed) << report;
+  EXPECT_EQ(report.end_time, Time());
+}
+
+TEST(NoProgress, IsNotSaidOfABoundedBufferAtOneInstant) {
+  const Report report = simulate([] {
+    mutex m;
+    condition_variable not_full, not_empty;
+    int stored = 0;
+    thread consumer([&] {
+      for (int item = 0; item < many_items; ++item) {
+        std::unique_lock lock(m);
+        not_empty.wait(lock, [&] { return stored > 0; });
+        --stored;
+        not_full.notify_one();
+      }
+    });
+    for (int item = 0; item < many_items; ++item) {
+      std::unique_lock lock(m);
+      not_full.wait(lock, [&] { return stored < 16; });
+      ++stored;
+      not_empty.notify_one();
+    }
+    consumer.join();
+  });
+  EXPECT_TRUE(report.passed) << report;
+  EXPECT_EQ(report.end_time, Time());
+}
+
+TEST(NoProgress, AnExchangeWithoutEndIsNamedAtTheLimitOfAnInstant) {
+  for (std::uint64_t number = 0; number <= 1; ++number) {
+    SimulationOptions options = order_number(number);
+    options.instant_limit = 1'000'000;
+    const Report report = simulate(
+        [] {
+          sleep_for(2ms);
+          counting_semaphore<> there(0, "there"), back(0, "back");
+          thread other({.name = "other"}, [&] {
+            for (;;) {
+              there.acquire();
+              back.release();
+            }
+          });
+          for (;;) {
+            there.release();
+            back.acquire();
+          }
+        },
+        options);
+    EXPECT_EQ(report.end, RunEnd::no_progress);
+    EXPECT_TRUE(contains(report.text,
+                         "no progress: virtual time stands still at 0.002000000 s while tasks pass more waitpoints"))
+        << report;
+    EXPECT_TRUE(contains(report.text, "task main of environment")) << report;
+    EXPECT_TRUE(contains(report.text, "task other of environment")) << report;
+  }
+}
+
+TEST(NoProgress, LocksHandedOverAndZeroTimeoutsAreNone) {
+  const Report report = simulate([] {
+    mutex m;
+    counting_semaphore<> never(0);
+    const auto poll = [&] {
+      for (;;) {
+        const std::lock_guard lock(m);
+        if (never.try_acquire_for(0s)) break;
+      }
+    };
+    thread other({.name = "other"}, poll);
+    poll();
+  });
+  EXPECT_EQ(report.end, RunEnd::no_progress);
+  EXPECT_TRUE(contains(report.text, "while tasks spin")) << report;
+}
+
+TEST(NoProgress, TheLimitOfAnInstantIsInTheEnvironment) {
+  setenv("WAITPOINT_INSTANT_LIMIT", "none", 1);
+  EXPECT_THROW(Simulation(), BadInput);
+  setenv("WAITPOINT_INSTANT_LIMIT", "12", 1);
+  EXPECT_EQ(instant_limit_of_environment(7), 12u);
+  unsetenv("WAITPOINT_INSTANT_LIMIT");
+  EXPECT_EQ(instant_limit_of_environment(7), 7u);
 }
 
 TEST(NoProgress, ATimerThatStartsItselfAgainAtOnceIsNamed) {
