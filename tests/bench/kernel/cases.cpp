@@ -4,7 +4,8 @@
 namespace waitpoint::bench {
 namespace {
 
-const char systemc[] = "libsystemc-dev", simgrid[] = "libsimgrid-dev", threads[] = "threads", limit[] = "limit";
+const char systemc[] = "libsystemc-dev", simgrid[] = "libsimgrid-dev", threads[] = "threads", limit[] = "limit",
+           cimba[] = "cimba";
 
 Bound faster_than(const char* whom, double times) { return {"ns", whom, times}; }
 Bound within(double times) { return {"ns", limit, times}; }
@@ -18,11 +19,9 @@ Case sleepers(const char* workload, int tasks, const char* what, std::vector<Bou
 
 const std::vector<Subject>& subjects() {
   static const std::vector<Subject> all = {
-      {"waitpoint", "waitpoint", false, 0},
-      {"limit", limit, false, 0},
-      {"systemc", systemc, true, 100'000},
-      {"simgrid", simgrid, true, 100'000},
-      {"boost-fiber", "libboost-fiber-dev", true, 100'000},
+      {"waitpoint", "waitpoint", false, 0}, {"limit", limit, false, 0},
+      {"systemc", systemc, true, 100'000},  {"simgrid", simgrid, true, 100'000},
+      {"cimba", cimba, true, 100'000},      {"boost-fiber", "libboost-fiber-dev", true, 100'000},
       {"threads", threads, true, 100},
   };
   return all;
@@ -42,8 +41,11 @@ const std::vector<Case>& cases() {
       sleepers("far", 10'000, "1 % far in the future", {faster_than(systemc, 6)}, {ns(30)}),
       sleepers("harmonic", 1'000, "all due together", {faster_than(systemc, 1), faster_than(simgrid, 8)},
                {faster_than(systemc, 2)}),
+      sleepers("common", 1'000, "all due at one instant", {faster_than(systemc, 2)}, {}),
       {"timeouts", 2, "timeouts cancelled", "ns a wait", {faster_than(systemc, 5)}, {ns(15)}},
       {"timeouts", 1'000, "timeouts cancelled", "ns a wait", {faster_than(systemc, 5)}, {ns(15)}},
+      {"short timeouts", 1'000, "short timeouts cancelled", "ns a wait", {faster_than(systemc, 5)}, {}},
+      {"short timeouts", 10'000, "short timeouts cancelled", "ns a wait", {faster_than(systemc, 5)}, {}},
       sleepers("periods", 100'000, "timed wake-ups", {faster_than(systemc, 10)}, {faster_than(systemc, 25)}),
       sleepers("periods", 1'000'000, "timed wake-ups", {{"resident_gb", "", 6}}, {ns(110)}),
       {"handover",

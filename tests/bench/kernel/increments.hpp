@@ -3,6 +3,7 @@
 //
 //   periods       each task its own period, all unequal, between 1 and 9 ms
 //   harmonic      periods of 1, 2, 4 and 8 ms: many tasks are due at the same instant
+//   common        each task has the period of 1 ms: all are due at one instant
 //   exponential   mean 5 ms
 //   bimodal       nine of ten sleeps about 0.5 ms, the tenth about 45 ms
 //   far           99 of 100 sleeps about 5 ms, the last one 5 s: nine of ten tasks wait in the far future
@@ -39,13 +40,35 @@ inline std::int64_t period_ns(int i, int tasks) {
          static_cast<std::int64_t>(uniform(static_cast<std::uint64_t>(i)) * static_cast<double>(width));
 }
 
-inline std::int64_t harmonic_period_ns(int i) { return std::int64_t{1'000'000} << (i % 4); }
+inline bool is_of_periods(const std::string& workload) {
+  return workload == "periods" || workload == "harmonic" || workload == "common";
+}
+
+/// The period of task `i` of `tasks` in one of those workloads.
+inline std::int64_t period_ns(const std::string& workload, int i, int tasks) {
+  constexpr std::int64_t shortest = 1'000'000;
+  if (workload == "periods") return period_ns(i, tasks);
+  return workload == "harmonic" ? shortest << (i % 4) : shortest;
+}
 
 inline bool is_of_sleepers(const std::string& workload) {
-  for (const char* kind : {"periods", "harmonic", "exponential", "bimodal", "far"})
+  for (const char* kind : {"exponential", "bimodal", "far"})
     if (workload == kind) return true;
-  return false;
+  return is_of_periods(workload);
 }
+
+/// Spans between 1 us and 1 ms, which all tasks cycle through.
+class ShortSpans {
+ public:
+  ShortSpans() : list_(size) {
+    for (std::size_t k = 0; k < size; ++k) list_[k] = 1'000 + static_cast<std::int64_t>(mixed(k) % 999'000);
+  }
+  std::int64_t operator[](std::uint64_t at) const { return list_[at % size]; }
+
+ private:
+  static constexpr std::size_t size = std::size_t{1} << 12;
+  std::vector<std::int64_t> list_;
+};
 
 /// A long list of increments that all tasks cycle through: drawing them is almost free. A task starts at a random point
 /// of all increments laid end to end, so that the mixture of short and long sleeps is stationary from the start.

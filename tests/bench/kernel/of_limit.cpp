@@ -46,8 +46,7 @@ double switch_ns(int budget_ms) {
 /// The sleeps of tasks; a copy continues from the original's position.
 struct Periods {
   explicit Periods(const Request& request) {
-    for (int i = 0; i < request.tasks; ++i)
-      of.push_back(request.workload == "harmonic" ? harmonic_period_ns(i) : period_ns(i, request.tasks));
+    for (int i = 0; i < request.tasks; ++i) of.push_back(period_ns(request.workload, i, request.tasks));
   }
   std::int64_t first(std::uint32_t task) const { return of[task]; }
   std::int64_t next(std::uint32_t task) const { return of[task]; }
@@ -109,7 +108,7 @@ void run(const Request& request) {
   const std::string& workload = request.workload;
   if (workload != "handover" && !is_of_sleepers(workload)) decline();
   double ns = switch_ns(request.budget_ms);
-  if (workload == "periods" || workload == "harmonic")
+  if (is_of_periods(workload))
     ns += best_set_ns<Periods>(request);
   else if (workload != "handover")
     ns += best_set_ns<Draws>(request);

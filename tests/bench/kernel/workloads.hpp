@@ -33,8 +33,8 @@ void sleepers(const Request& request) {
   const int n = request.tasks;
   static const Increments increments(request.workload);
   for (int i = 0; i < n; ++i)
-    if (request.workload == "periods" || request.workload == "harmonic")
-      Kit::spawn(i, n, [period = request.workload == "periods" ? period_ns(i, n) : harmonic_period_ns(i)] {
+    if (is_of_periods(request.workload))
+      Kit::spawn(i, n, [period = period_ns(request.workload, i, n)] {
         for (;;) {
           Kit::sleep(period);
           count();
@@ -83,6 +83,40 @@ void timeouts(const Request& request) {
   constexpr std::uint64_t round_of_all = 1100;
   measure(
       request, Kit::clock, [stretch = 1 + 300 * many_steps_ns / request.tasks] { Kit::sleep(stretch); }, round_of_all);
+}
+
+/// Pairs that hand over to and fro twice at one instant and then sleep for some 30 us, each wait with a timeout between
+/// 1 us and 1 ms: most are cancelled.
+template <class Kit>
+void short_timeouts(const Request& request) {
+  struct Pair {
+    typename Kit::Signal there{0}, back{0};
+  };
+  static std::deque<Pair> pairs(static_cast<std::size_t>(request.tasks / 2));
+  static const ShortSpans spans;
+  for (int i = 0; i + 1 < request.tasks; i += 2) {
+    Pair& pair = pairs[static_cast<std::size_t>(i / 2)];
+    Kit::spawn(i, request.tasks, [&pair, i] {
+      for (auto at = static_cast<std::uint64_t>(i);;) {
+        for (int k = 0; k < 2; ++k) {
+          pair.there.release();
+          pair.back.acquire_for(spans[at++]);
+          count();
+        }
+        Kit::sleep(spans[at++] / 16);
+      }
+    });
+    Kit::spawn(i + 1, request.tasks, [&pair, i] {
+      for (auto at = static_cast<std::uint64_t>(i + 1);;) {
+        if (!pair.there.acquire_for(spans[at++])) continue;
+        pair.back.release();
+        count();
+      }
+    });
+  }
+  constexpr std::uint64_t round_of_all = 100;  // as above
+  measure(
+      request, Kit::clock, [stretch = 1 + 30 * many_steps_ns / request.tasks] { Kit::sleep(stretch); }, round_of_all);
 }
 
 /// Two tasks that hand over back and forth by semaphores.
@@ -209,6 +243,7 @@ template <class Kit>
 void carry_out(const Request& request) {
   const std::string& workload = request.workload;
   if (workload == "timeouts") return timeouts<Kit>(request);
+  if (workload == "short timeouts") return short_timeouts<Kit>(request);
   if (workload == "handover") return handover<Kit>(request);
   if (workload == "mutex") return mutex_with_sleep<Kit>(request);
   if (workload == "buffer") return buffer<Kit>(request);
