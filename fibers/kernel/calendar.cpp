@@ -176,9 +176,26 @@ std::uint32_t Calendar::take_next(EventEntry* to) {
   return count;
 }
 
+// The number of the chunks' events, copied, if they are sorted already: tasks that are due together were mostly
+// inserted in their order. Otherwise 0, at the first inversion.
+std::uint32_t Calendar::copy_if_sorted(std::uint32_t first, EventEntry* to) const {
+  EventEntry* end = to;
+  EventKey last{};
+  for (std::uint32_t chunk = first; chunk != none; chunk = chunks_[chunk].next) {
+    const EventEntry* const entries = chunks_[chunk].entries;
+    for (std::uint32_t i = 0; i < chunks_[chunk].filled; ++i) {
+      if (entries[i].key < last) return 0;
+      last = entries[i].key;
+      *end++ = entries[i];
+    }
+  }
+  return static_cast<std::uint32_t>(end - to);
+}
+
 // Distributes the events to about as many equal parts of the bucket's span; the final insertion sort then moves little.
 std::uint32_t Calendar::copy_sorted(std::uint32_t first, EventEntry* to) {
-  std::uint32_t count = 0;
+  std::uint32_t count = copy_if_sorted(first, to);
+  if (count != 0) return count;
   for (std::uint32_t chunk = first; chunk != none; chunk = chunks_[chunk].next) count += chunks_[chunk].filled;
   if (count <= few) {
     std::copy_n(chunks_[first].entries, count, to);

@@ -119,6 +119,7 @@ class Calendar {
   // The events of detached chunks: to(entry).
   template <class Sink>
   void give(std::uint32_t chunk, Sink to);
+  std::uint32_t copy_if_sorted(std::uint32_t chunk, EventEntry* to) const;
   std::uint32_t copy_sorted(std::uint32_t chunk, EventEntry* to);
   // The first bucket from `number` on that has events; the limit if there is none.
   std::uint64_t next_occupied(std::uint64_t number) const;

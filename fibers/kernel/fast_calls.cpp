@@ -81,30 +81,19 @@ inline bool Scheduler::can_dispatch_present() const {
          __builtin_expect(can_switch_in_parts(running->fiber, next.fiber), 1) && StackArena::intact(next.fiber.stack);
 }
 
-// Blocks `task` on `object`; false, with nothing changed, if that may close a cycle or the timeout's place is not near
-// the end of the run.
-template <bool is_finite>
-[[gnu::always_inline]] inline bool Scheduler::try_fast_wait(Task& task, Object& object, Time deadline) {
-  if constexpr (is_finite) {
-    const EventKey key{deadline, make_order(task.phase, agenda_.chooser.tie_of_next())};
-    if (__builtin_expect(deadline <= agenda_.now || !agenda_.events.try_insert_fast(task.event, key), 0)) return false;
-  } else if (__builtin_expect(object.holder_count != 0, 0) ||
-             // A wait for a ready owner closes no cycle.
-             (object.owner != nullptr && __builtin_expect(object.owner->state != TaskState::ready, 0))) {
-    return false;
-  }
-  append_waiter(object, task);
-  task.state = TaskState::blocked;
-  task.finite_wait = is_finite;
-  return true;
+// True if a wait for `object` without a timeout cannot close a cycle.
+inline bool cannot_close_cycle(const Object& object) {
+  return __builtin_expect(object.holder_count == 0, 1) &&
+         // A wait for a ready owner closes no cycle.
+         (object.owner == nullptr || __builtin_expect(object.owner->state == TaskState::ready, 1));
 }
 
-// The fast path, open for the present instant, passes from the blocked task to the next one.
-template <bool is_finite>
-Departure Scheduler::start_block(Object& object, Time deadline) {
-  Task& task = *running;
-  if (__builtin_expect(!can_dispatch_present() || !try_fast_wait<is_finite>(task, object, deadline), 0))
-    return block_slow(object, deadline);
+// The fast path, open for the present instant, passes from `task`, which blocks on `object`, to the next one. A timeout
+// is in the list already.
+[[gnu::always_inline]] inline Departure Scheduler::leave_for_present(Task& task, Object& object, bool has_timeout) {
+  append_waiter(object, task);
+  task.state = TaskState::blocked;
+  task.finite_wait = has_timeout;
   Task& next = agenda_.present.take();
   next.state = TaskState::running;
   running = &next;
@@ -113,8 +102,38 @@ Departure Scheduler::start_block(Object& object, Time deadline) {
   ++switches_;
   return start_switch(task.fiber, next.fiber);
 }
+
+template <bool is_finite>
+Departure Scheduler::start_block(Object& object, Time deadline) {
+  Task& task = *running;
+  if (__builtin_expect(!can_dispatch_present(), 0)) return block_slow(object, deadline);
+  if constexpr (is_finite) {
+    if (__builtin_expect(deadline <= agenda_.now, 0)) return block_slow(object, deadline);
+    const EventKey key{deadline, make_order(task.phase, agenda_.chooser.tie_of_next())};
+    if (__builtin_expect(!agenda_.events.try_insert_fast(task.event, key), 0))
+      return block_with_far_timeout(object, key);
+  } else if (!cannot_close_cycle(object)) {
+    return block_slow(object, deadline);
+  }
+  return leave_for_present(task, object, is_finite);
+}
+
+// The timeout's place is not near the end of the run: with many tasks the usual case.
+[[gnu::noinline]] Departure Scheduler::block_with_far_timeout(Object& object, EventKey timeout) {
+  agenda_.events.insert(running->event, timeout);
+  return leave_for_present(*running, object, true);
+}
 template Departure Scheduler::start_block<true>(Object&, Time);
 template Departure Scheduler::start_block<false>(Object&, Time);
+
+[[gnu::always_inline]] inline Task* Scheduler::wake_here(Object& object) {
+  Task& first = remove_first_waiter(object);
+  first.wake = Wake::woken;
+  first.state = TaskState::ready;
+  set_local_time(first, agenda_.now);
+  agenda_.present.add(first, agenda_.chooser.tie_of_next());
+  return &first;
+}
 
 // wake() of the first waiter, in the common case.
 Task* Scheduler::wake_waiter(Object& object) {
@@ -122,13 +141,13 @@ Task* Scheduler::wake_waiter(Object& object) {
   const bool is_usual = __builtin_expect(fast_allowed_, 1) && object.epoch == epoch_ && first.phase == Phase::tasks;
   if (__builtin_expect(!is_usual, 0)) return wake_one_slow(object);
   if (first.finite_wait && __builtin_expect(!agenda_.events.try_remove_fast(first.event), 0))
-    return wake_one_slow(object);
-  remove_first_waiter(object);
-  first.wake = Wake::woken;
-  first.state = TaskState::ready;
-  set_local_time(first, agenda_.now);
-  agenda_.present.add(first, agenda_.chooser.tie_of_next());
-  return &first;
+    return wake_from_far_timeout(object);
+  return wake_here(object);
+}
+
+[[gnu::noinline]] Task* Scheduler::wake_from_far_timeout(Object& object) {
+  agenda_.events.remove(object.first_waiter->event);
+  return wake_here(object);
 }
 
 }  // namespace waitpoint::kernel

@@ -264,13 +264,15 @@ class Scheduler {
   Departure depart_sleeping(Task& task);
   bool end_sleep(const Arrival& arrival);
   bool can_dispatch_present() const;
-  template <bool is_finite>
-  bool try_fast_wait(Task& task, Object& object, Time deadline);
+  Departure leave_for_present(Task& task, Object& object, bool has_timeout);
+  Departure block_with_far_timeout(Object& object, EventKey timeout);
   template <bool is_finite>
   Departure start_block(Object& object, Time deadline);
   Wake end_block(const Arrival& arrival, Object& object, bool is_finite);
   bool departs(Fiber& from, Fiber& to);
+  Task* wake_here(Object& object);
   Task* wake_waiter(Object& object);
+  Task* wake_from_far_timeout(Object& object);
 
   // From this number of ready tasks on, their memory may be out of the cache.
   static constexpr std::uint32_t crowd_min = 32;
