@@ -133,7 +133,7 @@ template <class Number>
   series = series * z2 - 1.0 / 7.0;
   series = series * z2 + 1.0 / 5.0;
   series = series * z2 - 1.0 / 3.0;
-  Number table_high, table_low;
+  Number table_high{}, table_low{};  // filled lane by lane
   look_up(Integer(__builtin_bit_cast(Integer, shifted) & 31), table_high, table_low);
   const Number rest = z + (z * z2 * series + table_low);
   const Number high = table_high + rest;

@@ -23,7 +23,7 @@ using namespace std::chrono_literals;
 // In windows of a millisecond: so the threads of the system alternate often. `between` is called after each.
 std::string digest_of(
     std::uint64_t seed, const std::function<void()>& between = [] {}) {
-  Simulation simulation({.order = seed % 2 == 0 ? kernel::Order::fifo : kernel::Order::seeded, .seed = seed});
+  Simulation simulation({.order = seed % 2 == 0 ? kernel::Order::fifo : kernel::Order::seeded, .seed = seed, .replay = ""});
   spawn_mixed_program(simulation, {.seed = seed, .robots = 3});
   RunEnd end = RunEnd::time_reached;
   for (Time until; end == RunEnd::time_reached; between()) {
@@ -73,13 +73,13 @@ TEST(SimulationsInThreads, KeepTheExceptionsOfTheirTasksApart) {
 }
 
 TEST(SimulationsInThreads, AreMadeInOneAndRunInAnother) {
-  Simulation simulation({.seed = 3});
+  Simulation simulation({.seed = 3, .replay = ""});
   spawn_mixed_program(simulation, {.seed = 3});
   std::jthread([&] {
     simulation.run_before();
     simulation.unwind();
   }).join();
-  Simulation here({.seed = 3});
+  Simulation here({.seed = 3, .replay = ""});
   spawn_mixed_program(here, {.seed = 3});
   here.run_before();
   EXPECT_EQ(to_string(simulation.digest()), to_string(here.digest()));
