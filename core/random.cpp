@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/random.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include "core/digest.hpp"
 #include "core/error.hpp"
-#include "core/exact_batch.hpp"
 #include "core/exact_math.hpp"
-#include "core/random_batch.hpp"
 
 namespace waitpoint {
 namespace {
@@ -52,6 +49,11 @@ double RandomStream::uniform(std::uint64_t tick, std::uint64_t index) const {
   return unit_interval(word(b[0], b[1]));
 }
 
+std::array<double, 2> RandomStream::uniform_pair(std::uint64_t tick, std::uint64_t index) const {
+  const auto b = block(tick, index);
+  return {unit_interval(word(b[0], b[1])), unit_interval(word(b[2], b[3]))};
+}
+
 std::uint64_t RandomStream::below(std::uint64_t bound, std::uint64_t tick, std::uint64_t index) const {
   WAITPOINT_CHECK(bound > 0, "the bound of a random integer must be positive");
   const auto b = block(tick, index);
@@ -59,33 +61,10 @@ std::uint64_t RandomStream::below(std::uint64_t bound, std::uint64_t tick, std::
 }
 
 std::array<double, 2> RandomStream::normal_pair(std::uint64_t tick, std::uint64_t index) const {
-  const auto b = block(tick, index);
-  const double u = unit_interval(word(b[0], b[1]));
-  const double v = unit_interval(word(b[2], b[3]));
+  const auto [u, v] = uniform_pair(tick, index);
   const double radius = std::sqrt(-2.0 * exact::log(1.0 - u));  // 1 - u is in (0, 1]
   const auto [sine, cosine] = exact::sincos(2.0 * exact::pi * v);
   return {radius * cosine, radius * sine};
-}
-
-void normal_pairs(const RandomStream& stream, std::uint64_t tick, std::uint64_t first,
-                  std::span<std::array<double, 2>> pairs) {
-  std::array<double, exact::batch> logarithm, angle, sine, cosine;
-  while (!pairs.empty()) {
-    const std::size_t count = std::min(pairs.size(), exact::batch);
-    for (std::size_t i = 0; i < count; ++i) {
-      const auto b = stream.block(tick, first + i);
-      logarithm[i] = 1.0 - unit_interval(word(b[0], b[1]));
-      angle[i] = 2.0 * exact::pi * unit_interval(word(b[2], b[3]));
-    }
-    exact::log(std::span(logarithm).first(count), logarithm);
-    exact::sincos(std::span(angle).first(count), sine, cosine);
-    for (std::size_t i = 0; i < count; ++i) {
-      const double radius = std::sqrt(-2.0 * logarithm[i]);
-      pairs[i] = {radius * cosine[i], radius * sine[i]};
-    }
-    pairs = pairs.subspan(count);
-    first += count;
-  }
 }
 
 }  // namespace waitpoint

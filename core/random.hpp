@@ -21,6 +21,8 @@ class RandomStream {
 
   /// 128 random bits.
   std::array<std::uint32_t, 4> block(std::uint64_t tick, std::uint64_t index = 0) const;
+  /// Two uniform reals in [0, 1), of one block.
+  std::array<double, 2> uniform_pair(std::uint64_t tick, std::uint64_t index = 0) const;
 
   /// Uniform in [0, 1), 53 bits.
   double uniform(std::uint64_t tick, std::uint64_t index = 0) const;
