@@ -76,6 +76,7 @@ Options read_options(int argc, const char* const* argv, const std::string& versi
     RunOptions options = run.options();
     options.program = name_in_replay_lines(argv[0]);
     options.arguments.assign(argv + 1, argv + argc);
+    options.build = version;
     return options;
   }
   if (explore.parsed()) return explore.options(program);

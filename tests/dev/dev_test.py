@@ -196,7 +196,7 @@ class Symbols(InATemporaryFolder):
             ("int* f() { return new int[3]; }", "allocates"),
             ("#include <cstdlib>\nvoid* f() { return std::malloc(3); }", "allocates"),
             ("#include <string>\nvoid f(std::string& s) { s += s; }", "uses a standard container"),
-            ("thread_local int x; int f() { return ++x; }", "uses thread-local storage"),
+            ("thread_local int x; int f() { return ++x; }", "calls for thread-local storage"),
             ("int g(); int f() { static int x = g(); return x; }", "guards a local static"),
         ]:
             with self.subTest(what=what):

@@ -183,6 +183,26 @@ static void* count_in_copy(void* none) {
   return none;
 }
 
+// An unlocked update behind an instruction that has an operand in memory, but accesses nothing.
+static void* count_after_padding(void* none) {
+  for (int i = 0; i < rounds; ++i) {
+    __asm__ volatile("nopl (%%rax)" : : "a"(0L) : "memory");
+    ++counted;
+  }
+  return none;
+}
+
+// One waits for the other without a call.
+static volatile int arrived;
+static void* count_in_turn(void* number) {
+  while (arrived != (int)(long)number) {
+  }
+  counted += rounds;
+  ++arrived;
+  return NULL;
+}
+static void* count_in_reverse_turn(void* number) { return count_in_turn((void*)(1 - (long)number)); }
+
 static int both(void* (*body)(void*)) {
   pthread_t threads[2];
   for (long i = 0; i < 2; ++i) pthread_create(&threads[i], NULL, body, (void*)i);
@@ -201,6 +221,8 @@ static int is_right(const char* what) {
   if (strcmp(what, "traps") == 0) return signal(SIGTRAP, note) != SIG_ERR && both(count_and_note);
   if (strcmp(what, "sum of code") == 0) return (right_sum = sum_of_code()) != 0 && both(sum_code);
   if (strcmp(what, "changed code") == 0) return both(rewrite_code);
+  if (strcmp(what, "turns") == 0) return both(count_in_reverse_turn);
+  if (strcmp(what, "padding") == 0) return both(count_after_padding);
   if (strcmp(what, "update") == 0) return both(count_unlocked);
   if (strcmp(what, "copies") == 0) return both(count_in_copy) || counts[15] == 2 * rounds;
   return 0;

@@ -34,7 +34,7 @@ class Accesses(ExecCase):
                 self.assertTrue(self.passes(case, *options).endswith("; switches at calls only: " + why), (case, options))
 
     def test_find_by_default_what_no_switch_at_a_call_shows(self):
-        for case in ("update", "copies"):
+        for case in ("update", "copies", "padding"):
             self.assertNotIn("failed at", self.passes(case, "--switch-at", "calls", schedules="200"))
             done = explore("--iterations", "500", "--", self.program, case)
             self.assertEqual(done.returncode, 1, f"{case}: {done.stdout}{done.stderr}")
@@ -44,6 +44,9 @@ class Accesses(ExecCase):
             self.assertIn("the same run as in the record", explore(*words).stderr, case)
             raw = explore("--iterations", "500", "--no-minimize", "--", self.program, case)
             self.assertIn("the same run as in the record", explore(*replay_words(raw.stdout)).stderr, case)
+
+    def test_are_switch_points_of_all_schedules_if_a_thread_waits_in_a_loop_without_a_call(self):
+        self.assertRegex(self.passes("turns", "--schedule-limit", "2"), r"60 schedules, \d+ distinct, 0 failed")
 
     def test_take_turns_with_calls_whatever_runs_the_schedules(self):
         results, lines = self.folder / "results", {}

@@ -53,13 +53,13 @@ class Exhausted(ExecCase):
         program = self.alternating(3, 0)
         lines = set()
         for options in ((), ("--jobs", "3"), ("--fork-each",)):
-            done = explore("--iterations", "5000", *options, "--", program)
+            done = explore("--iterations", "5000", "--switch-at", "calls", *options, "--", program)
             self.assertEqual(done.returncode, 0, done.stderr)
             lines.add(re.sub(r"in \d+\.\d s \(.*? a second\)", "", done.stdout))
         self.assertEqual(len(lines), 1, lines)
         line = lines.pop()
         self.assertRegex(line, r": \d+ schedules, 22 distinct, 0 failed, ; exhausted, no other ordering exists up to the order of "
-                               r"independent events, if there are no data races\n$")
+                               r"independent events, if there are no data races, switching at calls\n$")
         self.assertLess(int(re.search(r": (\d+) schedules", line)[1]), 5000)
 
     def test_is_not_said_before(self):
@@ -81,7 +81,7 @@ class Exhausted(ExecCase):
         source.write_text("#include <sys/wait.h>\n#include <unistd.h>\nint main(void) {\n  if (fork() == 0) _exit(0);\n"
                           "  return wait(NULL) < 0;\n}\n")
         done = explore("--iterations", "2000", "--", self.compile(str(source)))
-        self.assertRegex(done.stdout, r" 0 failed, .*; exhausted, no other ordering exists(, except .*)?\n$")
+        self.assertRegex(done.stdout, r" 0 failed, .*; exhausted, no other ordering exists(, except .*)?, switching at calls; ")
 
     def test_results_are_of_as_many_schedules_as_were_asked_for(self):
         results = self.folder / "results"
@@ -121,12 +121,12 @@ class Processes(ExecCase):
         source = self.folder / "alternating_9.c"
         source.write_text(STAGES % (9, 1))
         program = self.compile(str(source))
-        done = explore("--strategy", "rff", "--iterations", "5000", "--no-minimize", "--races", "ignore", "--", program)
+        done = explore("--strategy", "rff", "--iterations", "5000", "--switch-at", "calls", "--no-minimize", "--races", "ignore", "--", program)
         self.assertEqual(done.returncode, 1, done.stdout)
         number = int(re.search(r"\nschedule (\d+) of strategy rff, seed 1, failed", done.stdout)[1])
         digest = re.search(r"^replay: .* wx1\.0\.([0-9a-f]{8})", done.stdout, re.M)[1]
         self.assertGreater(number, 8)
-        again = explore("--races", "ignore", "--replay", f"wx1.0.{digest}.rff.1.{number}", "--", program)
+        again = explore("--switch-at", "calls", "--races", "ignore", "--replay", f"wx1.0.{digest}.rff.1.{number}", "--", program)
         self.assertIn("the same run as in the record", again.stderr)
 
 

@@ -29,6 +29,14 @@ class Processes(ExecCase):
         rows = {event["pid"] for event in json.loads(trace.read_text())["traceEvents"]}
         self.assertEqual(rows, {1000, 1001})
 
+    def test_what_other_threads_hold_at_a_fork_stays_locked_in_the_child(self):
+        program = self.compile("held_at_fork.c")
+        done = explore("--iterations", "50", "--", program, "try")
+        self.assertEqual(done.returncode, 0, done.stdout)
+        done = explore("--", program, "lock")
+        self.assertEqual(done.returncode, 1, done.stdout)
+        self.assertIn("a thread that has ended", done.stdout)
+
     def test_siblings_begin_in_any_order(self):
         file = self.folder / "written by a sibling"
         for strategy in ("bounded:1", "random"):

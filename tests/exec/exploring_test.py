@@ -295,6 +295,12 @@ class Names(ExecCase):
             program.unlink()
 
 
+    def test_of_the_compilers_runtime_are_there_without_it(self):
+        program = self.compile("at_exit.c", "-fsanitize=thread")
+        self.assertEqual(subprocess.run([program]).returncode, 7)
+        self.assertRegex(explore("--", program).stdout, "^the default order failed at .*: exit status 7\n")
+
+
 class Debugging(ExecCase):
     def test_gdb_sees_the_threads(self):
         if not shutil.which("gdb"):

@@ -108,6 +108,20 @@ std::optional<std::uint8_t> saved_place(ZydisRegister found) {
   }
 }
 
+// Padding and hints have operands in memory, which they do not access.
+bool accesses_nothing(const ZydisDecodedInstruction& instruction) {
+  switch (instruction.meta.category) {
+    case ZYDIS_CATEGORY_NOP:
+    case ZYDIS_CATEGORY_WIDENOP:
+    case ZYDIS_CATEGORY_PREFETCH:
+    case ZYDIS_CATEGORY_PREFETCHWT1:
+    case ZYDIS_CATEGORY_CLDEMOTE:
+    case ZYDIS_CATEGORY_CLFLUSHOPT:
+    case ZYDIS_CATEGORY_CLWB: return true;
+    default: return false;
+  }
+}
+
 bool is_repeated(const ZydisDecodedInstruction& instruction) {
   return (instruction.attributes & (ZYDIS_ATTRIB_HAS_REP | ZYDIS_ATTRIB_HAS_REPE | ZYDIS_ATTRIB_HAS_REPNE)) != 0;
 }
@@ -149,6 +163,7 @@ std::optional<AccessInstruction> access_of(const ZydisDecodedInstruction& instru
   AccessInstruction access = coded(instruction, address, code);
   if (instruction.meta.category == ZYDIS_CATEGORY_STRINGOP)
     return string_access_of(instruction, operands.front(), access);
+  if (accesses_nothing(instruction)) return std::nullopt;
   // Calls and jumps: their copies would push and compute other addresses.
   if (is_repeated(instruction) || instruction.meta.category == ZYDIS_CATEGORY_CALL ||
       instruction.meta.category == ZYDIS_CATEGORY_UNCOND_BR)

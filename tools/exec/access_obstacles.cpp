@@ -23,6 +23,7 @@ std::string words_of(AccessObstacle obstacle) {
     case AccessObstacle::allocator: return "the program defines malloc()";
     case AccessObstacle::no_memory: return "there is no memory for breakpoints";
     case AccessObstacle::endless: return "a schedule with breakpoints at accesses did not end";
+    case AccessObstacle::unlearned: return "runs that learn its accesses failed";
     case AccessObstacle::several_programs: return "no file of a single program to disassemble";
     case AccessObstacle::no_disassembler: return "built without Zydis";
   }

@@ -83,6 +83,20 @@ FailureReport report_of(Target& target, SearchProgress& progress, const Discover
   return result;
 }
 
+// The default order. A program that is in a loop without a call may wait there for another thread: then accesses are
+// switch points of all schedules.
+std::optional<Finding> run_usual(Target& target) {
+  std::optional<Finding> usual = run_apart(target, {.drawn = false}, {.profile = true});
+  const bool may_wait = usual && usual->kind == Finding::Kind::no_progress && usual->switch_at == SwitchAt::calls &&
+                        target.options().switch_at == SwitchAt::automatic && target.options().snapshots == 0;
+  if (!may_wait) return usual;
+  target.switch_at(SwitchAt::accesses);
+  if (std::optional<Finding> again = run_apart(target, {.drawn = false}, {.profile = true}); !again || again->passed())
+    return again;
+  target.switch_at(std::nullopt);
+  return usual;
+}
+
 // A schedule counts as endless beyond the fixed limit plus this multiple of the default order's time.
 constexpr double usual_times_max = 10;
 
@@ -92,7 +106,7 @@ int search(Target& target, Files& files) {
   SearchProgress progress(stderr, isatty(STDERR_FILENO) != 0);
   target.set_limit(target.options().schedule_limit_s.value_or(0));
   const double usual_start_s = progress.seconds();
-  std::optional<Finding> usual = run_apart(target, {.drawn = false}, {.profile = true});
+  std::optional<Finding> usual = run_usual(target);
   const double usual_s = progress.seconds() - usual_start_s;
   target.set_limit(target.options().schedule_limit_s.value_or(least_limit_s + usual_times_max * usual_s));
   if (usual) std::fputs(usual->system_calls.c_str(), stderr);

@@ -191,14 +191,16 @@ posix::AccessObstacle ProgramTarget::learn_accesses() {
     return AccessObstacle::none;
   }
   AccessObstacle obstacle = AccessObstacle::none;
+  bool has_failed = false;
   profile.code = learn_code(accesses_->files, [&](const Plan& learning, const std::vector<std::uint64_t>& code) {
     profile.code = code;
     Finding finding = run_once(*accesses_, learning, {.learn = true}, profile);
     obstacle = finding.obstacle;
+    has_failed = has_failed || !finding.passed();
     return finding;
   });
   if (obstacle != AccessObstacle::none) return obstacle;
-  if (profile.code.empty()) return AccessObstacle::nothing_shared;
+  if (profile.code.empty()) return has_failed ? AccessObstacle::unlearned : AccessObstacle::nothing_shared;
   if (!needs_profile(options_.strategy)) return obstacle;
   const Finding usual = run_once(*accesses_, {.drawn = false}, {.profile = true}, profile);
   const std::vector<std::uint64_t> code = std::move(profile.code);

@@ -176,11 +176,7 @@ void Search::take_ended(const Children::Ended& ended) {
 }
 
 void Search::take(std::uint64_t place, Finding finding) {
-  ++schedules_;
-  if (finding.kind != Finding::Kind::killed && !finding.was_cut) orders_.insert(finding.order);
   const bool goes_on = finding.passed() || goes_on_after(finding.kind, target_.options());
-  if (!finding.passed()) ++failures_;
-  if (goes_on && finding.kind == Finding::Kind::race) ++raced_;
   if (!goes_on && results_ == nullptr && (!last_ || place < *last_)) {
     last_ = place;
     target_.runs().kill_from(place);
@@ -207,6 +203,15 @@ void Search::end_enumeration() {
   }
 }
 
+// Of schedules up to the failure that ends the search: how many more had been begun depends on the machine.
+void Search::count(const Finding& finding) {
+  ++schedules_;
+  if (finding.kind != Finding::Kind::killed && !finding.was_cut) orders_.insert(finding.order);
+  if (finding.passed()) return;
+  ++failures_;
+  if (finding.kind == Finding::Kind::race && goes_on_after(finding.kind, target_.options())) ++raced_;
+}
+
 // In the order of their places; after an interruption earlier ones may be missing.
 void Search::report(bool at_end) {
   while (!waiting_.empty()) {
@@ -220,6 +225,7 @@ void Search::report(bool at_end) {
                       .is_lost = finding.kind == Finding::Kind::killed,
                       .was_cut = finding.was_cut,
                       .is_beyond = finding.is_beyond_enumeration});
+    if (!last_ || place <= *last_) count(finding);
     has_races_ = has_races_ || !finding.racing.empty();
     if (obstacle_ == posix::AccessObstacle::none) obstacle_ = finding.obstacle;
     if (results_ != nullptr) results_->take(*run.number, finding);

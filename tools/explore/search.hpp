@@ -75,6 +75,7 @@ class Search {
   void take_ended(const Children::Ended& ended);
   void take(std::uint64_t place, Finding finding);
   void end_enumeration();
+  void count(const Finding& finding);
   void report(bool at_end);
 
   Target& target_;

@@ -7,7 +7,8 @@ namespace waitpoint::tools {
 
 SwitchAt switch_points_of(const Plan& plan, const ExploreOptions& options) {
   if (options.switch_at != SwitchAt::automatic) return options.switch_at;
-  if (options.snapshots > 0 || !plan.drawn || options.strategy == "fifo" || exploration::make_strategy(options.strategy)->is_exhaustive())
+  if (options.snapshots > 0 || !plan.drawn || options.strategy == "fifo" ||
+      exploration::make_strategy(options.strategy)->is_exhaustive())
     return SwitchAt::calls;
   constexpr std::uint64_t in_turn = 10;
   const std::uint64_t turn = plan.number / in_turn;

@@ -8,7 +8,7 @@
 namespace waitpoint::tools {
 
 /// Never automatic. By default the first twenty schedules switch at calls, which is faster, then ten at accesses and
-/// ten at calls in turn, as many as the portfolio has strategies; exhaustive strategies, the default order and
+/// ten at calls in turn; exhaustive strategies, the default order and
 /// schedules that begin in snapshots, at calls.
 SwitchAt switch_points_of(const Plan& plan, const ExploreOptions& options);
 

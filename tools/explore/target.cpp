@@ -36,7 +36,7 @@ void Target::set_limit(double seconds) {
   limit_s_ = seconds;
 }
 
-void Target::switch_at(SwitchAt at) {
+void Target::switch_at(std::optional<SwitchAt> at) {
   runs_.reset();
   fixed_switch_at_ = at;
 }

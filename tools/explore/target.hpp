@@ -60,7 +60,7 @@ class Target {
   void set_limit(double seconds);
 
   /// All following runs have these switch points. There must be no run.
-  void switch_at(SwitchAt at);
+  void switch_at(std::optional<SwitchAt> at);
 
   /// Data races are no failures of the following runs. There must be no run.
   void ignore_races();

@@ -29,7 +29,6 @@
 #include "tools/run/prompt.hpp"
 #include "tools/run/run_watchdog.hpp"
 #include "tools/run/session.hpp"
-#include "tools/version.hpp"
 
 namespace waitpoint::tools {
 namespace {
@@ -281,7 +280,7 @@ int run_rank(const RunOptions& options, std::span<const genom::ModuleType> types
       if (bad != nullptr) std::rethrow_exception(bad);
       ranks.place(run::Placement(*scenario, ranks.rank(), ranks.count(), options.places));
     });
-    ranks.check_same("build", version_text());
+    ranks.check_same("build", options.build);
     ranks.check_same("scenario", to_string(Digest(scenario->fingerprint)));
     ranks.check_same("seed", std::to_string(options.seed));
   } catch (const BadInput&) {

@@ -27,6 +27,7 @@ struct RunOptions {
   std::optional<SeedRange> seeds;      ///< instead of `seed`
   int ranks = 1;                       ///< processes of one run
   std::vector<std::string> places;     ///< of --place, "ROBOT=RANK" each
+  std::string build;                   ///< of this program, for comparison among ranks
   std::vector<std::string> arguments;  ///< of the program, as given, to start it as ranks
   std::optional<Duration> until;       ///< instead of the scenario's
   kernel::Order order = kernel::Order::fifo;

@@ -4,9 +4,15 @@
 #include <algorithm>
 
 namespace waitpoint::races {
+namespace {
+
+// Not zero for the first page of all memory.
+constexpr std::uint64_t key_of(std::uint64_t page) { return page + 1; }
+
+}  // namespace
 
 Shadow::Page* Shadow::seek_page(std::uint64_t number) {
-  Page* const* const page = pages_.find(number);
+  Page* const* const page = pages_.find(key_of(number));
   if (page == nullptr) return nullptr;
   recent_[place_of(number)] = {number + 1, *page};
   return *page;
@@ -16,7 +22,7 @@ Cell& Shadow::new_cell(std::uint64_t word) {
   const std::uint64_t number = word / words_per_page;
   RecentPage& recent = recent_[place_of(number)];
   if (recent.key != number + 1) {
-    Page*& page = pages_[number];
+    Page*& page = pages_[key_of(number)];
     if (page == nullptr) page = static_cast<Page*>(page_memory_.take(sizeof(Page)));
     recent = {number + 1, page};
   }
@@ -34,7 +40,7 @@ void Shadow::forget(const void* low, std::size_t size) {
   const std::uint64_t first = reinterpret_cast<std::uint64_t>(low) / 8;
   const std::uint64_t last = (reinterpret_cast<std::uint64_t>(low) + size - 1) / 8;
   for (std::uint64_t number = first / words_per_page; number <= last / words_per_page; ++number) {
-    Page* const* found = pages_.find(number);
+    Page* const* found = pages_.find(key_of(number));
     if (found == nullptr || (*found)->run != run_) continue;
     const std::uint64_t from = number == first / words_per_page ? first % words_per_page : 0;
     const std::uint64_t to = number == last / words_per_page ? last % words_per_page : words_per_page - 1;

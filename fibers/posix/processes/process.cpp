@@ -99,7 +99,9 @@ void end_other_tasks() {
   kernel::Scheduler& scheduler = *kernel::running->scheduler;
   for (kernel::Task *task = scheduler.first_task(), *next = nullptr; task != nullptr; task = next) {
     next = task->next;
-    if (task != kernel::running) scheduler.end_in_place(*task);
+    if (task == kernel::running) continue;
+    leave_mutexes_of(*task);
+    scheduler.end_in_place(*task);
   }
   WAITPOINT_CHECK(first_task() == kernel::running && kernel::running->next == nullptr,
                   "a child has tasks of its parent's");

@@ -212,6 +212,18 @@ void leave_held_objects() {
   }
 }
 
+void leave_mutexes_of(kernel::Task& task) {
+  for (kernel::Object *held = task.held, *next = nullptr; held != nullptr; held = next) {
+    next = held->next_held;
+    const Waitable* const waitable = waitable_of(*held);
+    if (waitable == nullptr || waitable->kind != Waitable::Kind::mutex ||
+        static_cast<const Mutex*>(waitable)->is_shared)
+      continue;
+    kernel::disown(*held, task);
+    held->owner = &ended_owner;
+  }
+}
+
 void take_from_owner(kernel::Object& object) {
   if (object.owner == &ended_owner)
     object.owner = nullptr;

@@ -10,6 +10,8 @@ namespace waitpoint::posix {
 void let_robust_mutexes_go();
 /// What the running thread still holds stays locked, by no task: its own record will be another's.
 void leave_held_objects();
+/// In a child process: the mutexes that `task`, which is not there, held at the fork stay locked.
+void leave_mutexes_of(kernel::Task& task);
 /// Takes `object` from its owner, which may have left it so.
 void take_from_owner(kernel::Object& object);
 /// In a child process: process-shared mutexes are still held by the parent's thread, not by its copy.

@@ -16,6 +16,7 @@ enum class AccessObstacle : std::uint8_t {
   // Noticed by the explorer.
   endless,           ///< a schedule with breakpoints did not end
   nothing_shared,    ///< no access to memory that threads share and write was seen
+  unlearned,         ///< nothing was learned, as runs with breakpoints failed
   several_programs,  ///< or one that is a shared object
   no_disassembler,   ///< this waitpoint was built without one
 };

@@ -23,7 +23,8 @@ using namespace std::chrono_literals;
 // In windows of a millisecond: so the threads of the system alternate often. `between` is called after each.
 std::string digest_of(
     std::uint64_t seed, const std::function<void()>& between = [] {}) {
-  Simulation simulation({.order = seed % 2 == 0 ? kernel::Order::fifo : kernel::Order::seeded, .seed = seed, .replay = ""});
+  Simulation simulation(
+      {.order = seed % 2 == 0 ? kernel::Order::fifo : kernel::Order::seeded, .seed = seed, .replay = ""});
   spawn_mixed_program(simulation, {.seed = seed, .robots = 3});
   RunEnd end = RunEnd::time_reached;
   for (Time until; end == RunEnd::time_reached; between()) {

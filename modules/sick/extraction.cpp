@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "modules/sick/segment_extraction.hpp"
+#include "modules/sick/extraction.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <memory>
 
 #include "core/exact_math.hpp"
-#include "modules/sick/extraction.hpp"
 
 namespace waitpoint::sick {
 namespace {
