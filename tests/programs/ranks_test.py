@@ -164,6 +164,19 @@ class Media(Installed):
         self.assertEqual(several.files, alone.files)
 
 
+class Series(unittest.TestCase):
+    def test_runs_at_once_are_the_runs_in_turn(self):
+        def rows(*options):
+            done = subprocess.run([WAITPOINT, "run", ROOT / "scenarios/office.yaml", "--seeds", "3..8", "--until", "5", *options],
+                                  capture_output=True, text=True, timeout=120)
+            self.assertEqual(done.returncode, 1)  # not all goals are reached by then
+            return re.sub(r" +[0-9.]+(  wp1:)", r"\1", done.stdout)
+        alone = rows()
+        self.assertEqual([line.split()[0] for line in alone.splitlines()[1:7]], list("345678"))
+        self.assertRegex(alone, r"\n +simulated_s( +5\.000){5}\n$")
+        self.assertEqual(rows("--jobs", "3"), alone)
+
+
 class Refusals(unittest.TestCase):
     def assert_refused(self, words, *options, scenario="office-10.yaml", ranks=2):
         done = run(ranks, ROOT / "scenarios" / scenario, *options)

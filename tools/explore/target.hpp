@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "core/time.hpp"
-#include "tools/explore/children.hpp"
 #include "tools/explore/explore_options.hpp"
 #include "tools/explore/finding.hpp"
 #include "tools/explore/plan.hpp"
+#include "tools/processes/children.hpp"
 
 namespace waitpoint::tools {
 

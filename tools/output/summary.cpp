@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/number_text.hpp"
+#include "tools/output/quantiles.hpp"
 
 namespace waitpoint::tools {
 namespace {
@@ -250,6 +251,9 @@ std::string summary_json(std::span<const RunResult> results) {
   Json json;
   json["runs"] = Json::array();
   for (const RunResult& result : results) json["runs"].push_back(json_of(result));
+  for (const Quantiles& row : quantiles_of(results))
+    json["quantiles"][row.figure] = {
+        {"least", row.least}, {"0.1", row.tenth}, {"median", row.median}, {"0.9", row.nine_tenths}, {"most", row.most}};
   return dumped(json);
 }
 

@@ -21,7 +21,7 @@ std::string summary_json(const bridge::RunResult& result);
 /// Several runs: {"runs": [...]}, one object each as above.
 std::string summary_json(std::span<const bridge::RunResult> results);
 
-/// For `--seeds`: the head of the table, and a row for each run.
+/// For `--seeds`: the head of the table, and a row for each run; see also quantiles.hpp.
 std::string seeds_head();
 std::string seeds_row(const bridge::RunResult& result);
 

@@ -3,63 +3,33 @@
 
 #include <unistd.h>
 
-#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <memory>
 #include <optional>
 #include <system_error>
 
-#include "core/printable_line.hpp"
 #include "fibers/kernel/unfinished_run.hpp"
 #include "fibers/sync/system_calls.hpp"
-#include "modules/run/expectation.hpp"
 #include "modules/run/experiment.hpp"
 #include "modules/run/journal.hpp"
 #include "modules/run/ranks/dividable.hpp"
 #include "modules/scenario/scenario_reader.hpp"
 #include "tools/command/interruption.hpp"
 #include "tools/command/program_layer.hpp"
-#include "tools/output/output_file.hpp"
 #include "tools/output/summary.hpp"
 #include "tools/ranks/joined_ranks.hpp"
 #include "tools/run/duration_files.hpp"
 #include "tools/run/journal_file.hpp"
 #include "tools/run/outputs.hpp"
 #include "tools/run/prompt.hpp"
+#include "tools/run/reports.hpp"
 #include "tools/run/run_watchdog.hpp"
+#include "tools/run/seed_runs.hpp"
 #include "tools/run/session.hpp"
 
 namespace waitpoint::tools {
 namespace {
-
-/// Standard output, whose failure must not cost the files theirs: it is reported after them. Standard error in its
-/// place if an output file has standard output.
-class Printed {
- public:
-  explicit Printed(const RunOptions& options) : to_standard_error_(options.writes_standard_output()) {}
-
-  void print(const std::string& text) {
-    if (to_standard_error_) {
-      std::fputs(text.c_str(), stderr);
-      return;
-    }
-    try {
-      if (!failure_) write_standard_output(text);
-    } catch (const BadInput& failure) {
-      failure_ = failure;
-    }
-  }
-  /// Throws BadInput if a text could not be written.
-  void check() const {
-    if (failure_) throw BadInput(*failure_);
-    flush_standard_output();
-  }
-
- private:
-  bool to_standard_error_;
-  std::optional<BadInput> failure_;
-};
 
 bridge::RunResult result_of(const Session& session, std::uint64_t seed, bool interrupted) {
   bridge::RunResult result = session.result();
@@ -118,14 +88,6 @@ bridge::RunResult repeat(const RunOptions& options, const scenario::Scenario& sc
   return result;
 }
 
-int status(const scenario::Scenario& scenario, const bridge::RunResult& result) {
-  if (result.outcome == bridge::Outcome::interrupted) return 130;
-  const std::vector<std::string> unmet = run::unmet(scenario.expect, result);
-  std::fflush(stdout);
-  for (const std::string& line : unmet) std::fprintf(stderr, "waitpoint: not as expected: %s\n", line.c_str());
-  return unmet.empty() ? 0 : 1;
-}
-
 // Before the run, which may end like that of the journal.
 void tell_of_cut(const run::Journal& journal) {
   if (!journal.cut_off.empty())
@@ -139,15 +101,6 @@ void tell_of_difference(const run::Journal& journal) {
                journal.end->digest.c_str(), static_cast<unsigned long long>(journal.end->events));
 }
 
-// The series ends with it: the next seed's run would fail likewise.
-int report_failure(const std::exception& failure, const std::string& replay, Outputs* outputs) {
-  const std::string reason = printable_message(failure.what());
-  std::fflush(stdout);
-  std::fprintf(stderr, "waitpoint: the run failed: %s\n  replay: %s\n", reason.c_str(), replay.c_str());
-  if (outputs != nullptr) outputs->cut_off(reason);
-  return 1;
-}
-
 /// One run of a series; what it printed is in the table.
 bridge::RunResult run_seed(const RunOptions& options, const scenario::Scenario& scenario,
                            std::span<const genom::ModuleType> types, std::uint64_t seed, const std::string& replay) {
@@ -156,37 +109,6 @@ bridge::RunResult run_seed(const RunOptions& options, const scenario::Scenario& 
   single.summary.reset();
   Outputs none(single, scenario, experiment);
   return carry_out(options, scenario, seed, experiment, none);
-}
-
-int run_seeds(const RunOptions& options, const scenario::Scenario& scenario, std::span<const genom::ModuleType> types) {
-  std::optional<OutputFile> summary;
-  if (options.summary) summary.emplace(*options.summary);
-  std::vector<bridge::RunResult> results;
-  int worst = 0;
-  Printed printed(options);
-  printed.print(seeds_head());
-  for (std::uint64_t seed = options.seeds->first; interruption() == 0; ++seed) {
-    const std::string replay = replay_line(options, seed);
-    const kernel::UnfinishedRun unfinished(replay.c_str());
-    try {
-      results.push_back(run_seed(options, scenario, types, seed, replay));
-    } catch (const BadInput&) {
-      throw;
-    } catch (const std::system_error&) {
-      throw;
-    } catch (const std::exception& failure) {
-      return report_failure(failure, replay, nullptr);
-    }
-    printed.print(seeds_row(results.back()));
-    worst = std::max(worst, status(scenario, results.back()));
-    if (seed == options.seeds->last) break;
-  }
-  if (summary) {
-    summary->write(summary_json(results));
-    summary->commit();
-  }
-  printed.check();
-  return interruption() != 0 ? 130 : worst;
 }
 
 int run_once(const RunOptions& options, const scenario::Scenario& scenario, run::Experiment& experiment,
@@ -298,7 +220,10 @@ int run(const RunOptions& options, std::span<const genom::ModuleType> types) {
   const scenario::Scenario scenario = scenario_of(options);
   heed_signals();
   const RunWatchdog watchdog(options.watchdog_s);
-  return options.seeds ? run_seeds(options, scenario, types) : run_alone(options, scenario, types, nullptr);
+  if (!options.seeds) return run_alone(options, scenario, types, nullptr);
+  return run_seeds(options, scenario, [&](std::uint64_t seed, const std::string& replay) {
+    return run_seed(options, scenario, types, seed, replay);
+  });
 }
 
 }  // namespace waitpoint::tools

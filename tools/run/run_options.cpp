@@ -101,6 +101,7 @@ RunArguments::RunArguments(CommandLine& line)
   command_.option("--seeds", seeds_, "A..B",
                   "run each seed from A to B and print a row for each; of the output files\nonly --summary is allowed, "
                   "for all runs");
+  command_.option("--jobs", jobs_, "N", "with --seeds: make N runs at once, each in a process of its own (default: 1)");
   command_.option("--ranks", ranks_, "N",
                   "divide the robots among N processes, started by mpirun of Open MPI, also on\n"
                   "other hosts: mpirun ... waitpoint run ...; the run and its digest are the same");
@@ -201,6 +202,10 @@ RunOptions RunArguments::options() const {
   } else if (!order_.empty() && order_ != "fifo") {
     refuse("--order", "fifo or seeded", order_);
   }
+  constexpr std::uint32_t jobs_max = 1024;
+  if (!jobs_.empty() && (!parse_number(jobs_, options.jobs) || options.jobs < 1 || options.jobs > jobs_max))
+    refuse("--jobs", "a whole number from 1 to 1024", jobs_);
+  if (!jobs_.empty() && seeds_.empty()) throw BadInput("--jobs", "expected --seeds, whose runs it makes at once");
   constexpr int ranks_max = 4096;
   if (!ranks_.empty() && (!parse_number(ranks_, options.ranks) || options.ranks < 1 || options.ranks > ranks_max))
     refuse("--ranks", "a whole number from 1 to 4096", ranks_);

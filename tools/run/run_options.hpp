@@ -25,6 +25,7 @@ struct RunOptions {
   std::vector<std::string> assignments;            ///< of --set, in their order: "world.step_ms=5"
   std::uint64_t seed = 1;
   std::optional<SeedRange> seeds;      ///< instead of `seed`
+  std::uint32_t jobs = 1;              ///< runs of `seeds` at once
   int ranks = 1;                       ///< processes of one run
   std::vector<std::string> places;     ///< of --place, "ROBOT=RANK" each
   std::string build;                   ///< of this program, for comparison among ranks
@@ -83,7 +84,7 @@ class RunArguments {
 
   Command command_;
   ScenarioArguments scenario_;
-  std::string seed_, seeds_, ranks_, order_, until_, speed_, watchdog_, idle_, journal_, replay_journal_;
+  std::string seed_, seeds_, jobs_, ranks_, order_, until_, speed_, watchdog_, idle_, journal_, replay_journal_;
   std::string summary_, picture_, trajectory_, record_, digests_, events_;
   std::string record_durations_, replay_durations_;
   std::vector<std::string> places_;

@@ -59,6 +59,11 @@ void carry(auto& archive, bridge::RobotResult& result) {
           result.odometry_error_end_m, result.true_path, result.estimated_path, result.odometry_path, result.late_tasks,
           result.battery, result.programs, result.segments);
 }
+/// Of a run of one process, without warnings and the shapes of robots.
+void carry(auto& archive, bridge::RunResult& result) {
+  archive(result.scenario, result.seed, result.digest, result.environment_digest, result.robots, result.outcome,
+          result.trouble, result.events, result.simulated, result.wall_s, result.real_time_factor);
+}
 void carry(auto& archive, bridge::RankFigures& figures) {
   archive(figures.computing_s, figures.world_s, figures.exchange_s);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Child processes for one job each: their results, and the termination of those that do not end.
-#include "tools/explore/children.hpp"
+#include "tools/processes/children.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

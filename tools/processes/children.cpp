@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/explore/children.hpp"
+#include "tools/processes/children.hpp"
 
 #include <fcntl.h>
 #include <poll.h>
