@@ -217,8 +217,7 @@ Finding finding_of_run(const RunMemory& memory, int status, const std::string& o
   if (request.pairs && explored.pairs != nullptr) {
     finding.pairs = *explored.pairs;
     std::ranges::sort(finding.pairs);
-    const auto repeated = std::ranges::unique(finding.pairs);
-    finding.pairs.erase(repeated.begin(), repeated.end());
+    finding.pairs.erase(std::unique(finding.pairs.begin(), finding.pairs.end()), finding.pairs.end());
   }
   if (request.choices) finding.choices = schedule.decisions;
   if (request.choices && std::string_view(record.settings.asked->strategy) == "dpor" && is_single(record))
