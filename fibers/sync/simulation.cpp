@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <atomic>
 #include <cstdlib>
-#include <mutex>
 #include <ostream>
 #include <system_error>
 
@@ -133,22 +132,30 @@ namespace {
 
 // The std::terminate handler is the process's: the first of the threads that unwind a run sets it, the last one
 // restores the previous handler.
-std::mutex terminate_mutex;
+std::atomic_flag terminate_lock;  // not a mutex: a program's own ThreadSanitizer sees only a part of its calls
 int terminate_users = 0;
 std::atomic<std::terminate_handler> terminate_before = nullptr;
 
 class TerminateHandler {
  public:
   explicit TerminateHandler(std::terminate_handler handler) {
-    const std::lock_guard lock(terminate_mutex);
+    lock();
     if (terminate_users++ == 0) terminate_before = std::set_terminate(handler);
+    terminate_lock.clear(std::memory_order_release);
   }
   ~TerminateHandler() {
-    const std::lock_guard lock(terminate_mutex);
+    lock();
     if (--terminate_users == 0) std::set_terminate(terminate_before);
+    terminate_lock.clear(std::memory_order_release);
   }
   TerminateHandler(const TerminateHandler&) = delete;
   TerminateHandler& operator=(const TerminateHandler&) = delete;
+
+ private:
+  static void lock() {
+    while (terminate_lock.test_and_set(std::memory_order_acquire)) {
+    }
+  }
 };
 
 }  // namespace
