@@ -193,6 +193,9 @@ void Experiment::run_world() {
     for (const world::LooseState& loose : world().loose()) threads::record(loose_state, loose);
     constexpr std::size_t ahead = 6;  // a crowd does not fit into the cache
     for (std::size_t i = 0; i < lanes_.size(); ++i) {
+      // A release for each robot is no loop that polls: the task does not yield to the bridges that it has woken, which
+      // are others on each rank.
+      kernel::running->waitpoints = 0;
       if (!is_here(i)) {
         ranked_->windows().step(i);
         continue;

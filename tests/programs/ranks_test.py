@@ -100,6 +100,14 @@ class EqualRuns(unittest.TestCase):
         self.assert_equal(crowd(60), (2, 4), "--until", "3")
         self.assert_equal(crowd(9, goals=False), (2,), "--until", "2")
 
+    def test_more_robots_than_a_task_may_pass_waitpoints_at_an_instant(self):
+        lines = ["format: 1", "name: many", "until_s: 1", "world: {step_ms: 10}", "robots:"]
+        lines += [f"  - {{name: r{i}, shape: {{radius_m: 0.2, height_m: 0.5}}, start: [{i % 40}, {i // 40}, 0], modules: []}}"
+                  for i in range(1200)]
+        scenario = folder() / "many.yaml"
+        scenario.write_text("\n".join(lines) + "\n")
+        self.assert_equal(scenario, (2,), "--until", "0.1")
+
     def test_a_dynamic_world_and_aerial_robots(self):
         self.assert_equal(ROOT / "scenarios/office-dynamic.yaml", (2,), "--until", "20")
         self.assert_equal(ROOT / "scenarios/office-air.yaml", (2,), "--until", "20")
