@@ -10,17 +10,11 @@
 #include <string_view>
 #include <utility>
 
-#include "core/fields.hpp"
+#include "fibers/io/letter.hpp"
 #include "modules/run/ranks/processor_time.hpp"
 
 namespace waitpoint::run {
 namespace {
-
-std::uint64_t hash_of(const world::BodyState& body) {
-  Digest digest;
-  add_value(digest, body);
-  return digest.value();
-}
 
 double wall_s() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
@@ -84,7 +78,7 @@ Window RankWindows::run_window(Time end) {
   window.last_end = last_end_here_;
   window.environment = parts_.simulation.environment().digest.value();
   Digest bodies;
-  for (std::size_t i = 0; i < parts_.robots.size(); ++i) bodies.add(hash_of(parts_.world.body(world::BodyId(i))));
+  for (std::size_t i = 0; i < parts_.robots.size(); ++i) bodies.add(io::hash_of(parts_.world.body(world::BodyId(i))));
   window.bodies = bodies.value();
   window.commands = commands_;
   window.messages = messages_;
@@ -169,7 +163,8 @@ void RankWindows::check_replicas(const std::vector<Window>& windows, Time end) {
   while (other < windows.size() && is_same(windows[other])) ++other;
   if (other == windows.size()) return;
   std::vector<std::uint64_t> own;
-  for (std::size_t i = 0; i < parts_.robots.size(); ++i) own.push_back(hash_of(parts_.world.body(world::BodyId(i))));
+  for (std::size_t i = 0; i < parts_.robots.size(); ++i)
+    own.push_back(io::hash_of(parts_.world.body(world::BodyId(i))));
   const std::vector<std::vector<std::uint64_t>> all = ranks_.gather(own);
   std::string what = "the environment's events differ";
   for (std::size_t i = 0; i < own.size(); ++i)

@@ -5,6 +5,7 @@
 #include <utility>
 
 namespace waitpoint::run {
+
 /// A call of the leader's, for the others.
 struct RankedRun::Call {
   enum class Kind : std::uint8_t { run_before, intervene, idle, gather_records, complete, end };

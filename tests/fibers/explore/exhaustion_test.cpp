@@ -9,6 +9,7 @@
 #include "fibers/explore/explore.hpp"
 #include "fibers/sync/atomic.hpp"
 #include "fibers/sync/thread.hpp"
+#include "tests/fibers/explore/alternation.hpp"
 #include "tests/fibers/explore/contains.hpp"
 
 namespace waitpoint {
@@ -88,24 +89,10 @@ TEST(Exhaustion, IsNotSaidOfACampaignThatWasCutOff) {
 
 // It fails in one of many orders only, which no draw is likely to be.
 TEST(Exhaustion, FindsWhatDrawsDoNot) {
-  constexpr std::size_t stages = 9;
-  const auto body = [] {
-    std::array<atomic<bool>, stages> written;
-    std::size_t reached = 0;
-    thread writer([&] {
-      for (atomic<bool>& stage : written) stage.store(true);
-    });
-    thread reader([&] {
-      while (reached < stages && written[reached].load() == (reached % 2 != 0)) ++reached;
-    });
-    writer.join();
-    reader.join();
-    check(reached < stages, "they have alternated");
-  };
-  const ExploreReport report = explore(body, {.strategy = "pct:1"});
+  const ExploreReport report = explore(alternate, {.strategy = "pct:1"});
   ASSERT_FALSE(report.passed);
   EXPECT_TRUE(contains(report.text, " of strategy dpor, seed 1 failed: ")) << report.text;
-  const ExploreReport again = explore(body, {.replay = "wx1.2" + report.replay.substr(5)});
+  const ExploreReport again = explore(alternate, {.replay = "wx1.2" + report.replay.substr(5)});
   EXPECT_TRUE(contains(again.text, "they have alternated")) << again.text;
 }
 

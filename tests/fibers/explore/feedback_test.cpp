@@ -2,34 +2,16 @@
 // Strategies that learn from earlier schedules: what they find by it, and that their schedules repeat.
 #include <gtest/gtest.h>
 
-#include <array>
 #include <string>
 
 #include "fibers/explore/body_watch.hpp"
 #include "fibers/explore/explore.hpp"
 #include "fibers/explore/schedules/token.hpp"
 #include "fibers/explore/strategies/factory.hpp"
-#include "fibers/sync/atomic.hpp"
-#include "fibers/sync/thread.hpp"
+#include "tests/fibers/explore/alternation.hpp"
 
 namespace waitpoint {
 namespace {
-
-// Fails only if the reader is in turns before and behind the writer, at each of many variables; else it ends at once.
-void alternate() {
-  constexpr std::size_t stages = 9;
-  std::array<atomic<bool>, stages> written;
-  std::size_t reached = 0;
-  thread writer([&] {
-    for (atomic<bool>& stage : written) stage.store(true);
-  });
-  thread reader([&] {
-    while (reached < stages && written[reached].load() == (reached % 2 != 0)) ++reached;
-  });
-  writer.join();
-  reader.join();
-  check(reached < stages, "they have alternated");
-}
 
 struct Found {
   std::uint64_t number;
