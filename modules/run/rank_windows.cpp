@@ -38,12 +38,13 @@ void RankWindows::send_elsewhere() {
   std::set<std::string, std::less<>> elsewhere;
   for (std::size_t i = 0; i < parts_.robots.size(); ++i)
     if (!is_here(i)) elsewhere.insert(parts_.robots[i]->name());
-  parts_.network.set_elsewhere(std::move(elsewhere), [this](const kernel::Robot& sender, std::uint64_t count,
-                                                            Time arrives, const std::string& to, io::Packet packet) {
-    const std::vector<std::byte> bytes = io::to_bytes(packet);
-    messages_.push_back(
-        {sender.name, to, count, arrives, std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size())});
-  });
+  parts_.network.set_elsewhere(
+      std::move(elsewhere), [this](const kernel::Robot& sender, std::uint64_t count, Time arrives,
+                                   const std::string& to, const io::Packet& packet) {
+        const std::vector<std::byte> bytes = io::to_bytes(packet);
+        messages_.push_back(
+            {sender.name, to, count, arrives, std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size())});
+      });
 }
 
 Time RankWindows::end_of_window() const {
