@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "tools/exec/exec_options.hpp"
-#include "tools/explore/explore_options.hpp"
+#include "tools/explore/runs/explore_options.hpp"
 #include "tools/gdb/debug.hpp"
 #include "tools/run/run_options.hpp"
 

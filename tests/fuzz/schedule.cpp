@@ -7,7 +7,7 @@
 #include "core/error.hpp"
 #include "tests/fuzz/input_folder.hpp"
 #include "tests/fuzz/refusal.hpp"
-#include "tools/explore/schedule_file.hpp"
+#include "tools/explore/replay/schedule_file.hpp"
 
 using namespace waitpoint;
 

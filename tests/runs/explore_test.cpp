@@ -15,7 +15,7 @@
 #include "tests/runs/program.hpp"
 #include "tests/tools/folder.hpp"
 #include "tools/explore/explore.hpp"
-#include "tools/explore/scene.hpp"
+#include "tools/explore/runs/scene.hpp"
 #include "tools/papers_modules.hpp"
 
 namespace waitpoint::runs {

@@ -14,13 +14,13 @@
 #include "tools/command/interruption.hpp"
 #include "tools/command/program_layer.hpp"
 #include "tools/exec/access_obstacles.hpp"
-#include "tools/explore/discoveries.hpp"
-#include "tools/explore/failure_report.hpp"
-#include "tools/explore/program_replay.hpp"
-#include "tools/explore/program_target.hpp"
-#include "tools/explore/replay.hpp"
-#include "tools/explore/scene.hpp"
-#include "tools/explore/search.hpp"
+#include "tools/explore/replay/program_replay.hpp"
+#include "tools/explore/replay/replay.hpp"
+#include "tools/explore/report/failure_report.hpp"
+#include "tools/explore/runs/program_target.hpp"
+#include "tools/explore/runs/scene.hpp"
+#include "tools/explore/search/discoveries.hpp"
+#include "tools/explore/search/search.hpp"
 #include "tools/output/output_file.hpp"
 
 namespace waitpoint::tools {
@@ -59,7 +59,8 @@ void tell(const FailureReport& report, Files& files) {
 
 std::string sum(const Target& target, const Search& search, double seconds) {
   const std::string all = search.has_drawn() ? "; exhausted, no other ordering exists" : "; exhaustive";
-  const std::string scope = search.scope() ? all + *search.scope() : "";
+  const char* const natives = target.options().conditions.children ? "" : "; native children in one timing each";
+  const std::string scope = search.scope() ? all + *search.scope() + natives : "";
   const std::string raced = search.raced() > 0 ? fmt::format(" ({} by a data race alone)", search.raced()) : "";
   const std::string obstacle = words_of(search.obstacle());
   const std::string at_calls = obstacle.empty() ? "" : "; switches at calls only: " + obstacle;

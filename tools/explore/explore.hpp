@@ -5,7 +5,7 @@
 #include <span>
 
 #include "modules/genom/module_type.hpp"
-#include "tools/explore/explore_options.hpp"
+#include "tools/explore/runs/explore_options.hpp"
 
 namespace waitpoint::tools {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/explore/batches.hpp"
+#include "tools/explore/search/batches.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/explore/explore_options.hpp"
+#include "tools/explore/runs/explore_options.hpp"
 
 #include <gtest/gtest.h>
 

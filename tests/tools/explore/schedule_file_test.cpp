@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/explore/schedule_file.hpp"
+#include "tools/explore/replay/schedule_file.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/explore/search_progress.hpp"
+#include "tools/explore/search/search_progress.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/explore/replay/program_replay.hpp"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cstdio>
+
+#include "core/error.hpp"
+#include "tools/exec/access_obstacles.hpp"
+#include "tools/exec/family_report.hpp"
+#include "tools/exec/program_run.hpp"
+#include "tools/explore/search/feedback.hpp"
+#include "tools/explore/runs/learned_code.hpp"
+#include "tools/explore/runs/program_finding.hpp"
+#include "tools/explore/runs/program_target.hpp"
+#include "tools/explore/replay/replay_record.hpp"
+#include "tools/output/output_file.hpp"
+
+namespace waitpoint::tools {
+namespace {
+
+/// A run; the program's output is discarded.
+Finding look(const ProgramFiles& files, const ExploreOptions& options, const Plan& plan, const Target::Request& request,
+             const exploration::Profile& known) {
+  RunMemory memory(settings_of(options));
+  ask_for_run(memory, files, options, plan, request, known);
+  const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
+  const ProgramRun run(files, memory, nowhere, options.schedule_limit_s.value_or(least_limit_s));
+  close(nowhere);
+  Finding finding = finding_of_run(memory, run.status(), "", request, false, false);
+  if (run.is_over_limit()) finding.kind = Finding::Kind::no_progress;
+  return finding;
+}
+
+void check_obstacle(const Finding& finding) {
+  if (const std::string words = words_of(finding.obstacle); !words.empty())
+    throw BadInput("--switch-at", words + "; expected calls");
+}
+
+/// The parts of the profile that the schedule depends on.
+exploration::Profile take_profile(const ProgramFiles& files, const ExploreOptions& options, const Plan& plan) {
+  exploration::Profile known, profile;
+  known.code = learn_code(files, [&](const Plan& learning, const std::vector<std::uint64_t>& code) {
+    known.code = code;
+    Finding finding = look(files, options, learning, {.learn = true}, known);
+    check_obstacle(finding);
+    return finding;
+  });
+  if (plan.drawn && needs_profile(options.strategy))
+    profile = look(files, options, {.drawn = false}, {.profile = true}, known).profile;
+  profile.code = known.code;
+  return profile;
+}
+
+}  // namespace
+
+int replay_program(const ExploreOptions& asked) {
+  ExploreOptions options = asked;
+  const ProgramFiles named(options.program);
+  options.conditions.check(named.named());
+  const ReplayRecord record = read_replay_record(options, fingerprint_of(named, options));
+  check_memory(options, named);
+  const ProgramFiles files(options.program, false, options.switch_at);
+  std::optional<OutputFile> trace;
+  if (options.trace) trace.emplace(*options.trace);
+  const exploration::Profile profile = take_profile(files, options, record.plan);
+  const auto learn_from = [&](const Plan& plan) { return look(files, options, plan, {.pairs = true}, profile); };
+  const Plan plan = record.plan.drawn ? Feedback(options.strategy, options.seed).plan_of(record.plan.number, learn_from)
+                                      : record.plan;
+  const Target::Request request{.words = !record.plan.drawn, .places = true, .events = trace.has_value()};
+  RunMemory memory(settings_of(options));
+  ask_for_run(memory, files, options, plan, request, profile);
+  const double limit_s = options.schedule_limit_s.value_or(least_limit_s);
+  const ProgramRun run(files, memory, -1, limit_s);
+  Finding finding =
+      finding_of_run(memory, run.status(), "", request, trace.has_value(), options.races != Races::ignore);
+  if (run.is_over_limit()) {
+    finding.kind = Finding::Kind::no_progress;
+    finding.words = over_limit(limit_s);
+  }
+  check_obstacle(finding);
+  if (memory.record().explored == nullptr) throw BadInput("exec", "the program ended before main()");
+  const posix::History* const history = history_of(memory.record());
+  const std::vector<exploration::Told> told =
+      history != nullptr ? history->narration.switches : std::vector<exploration::Told>();
+  check_is_run_of(record, {schedule_of(memory.record()), told, finding}, options.replay);
+  if (trace) {
+    trace->write(finding.trace);
+    trace->commit();
+  }
+  std::fprintf(stderr, "waitpoint: %s%s\n", finding.passed() ? "passed" : "failed: ", finding.words.c_str());
+  std::fputs(finding.details.c_str(), stderr);
+  if (record.digest_bits > 0) std::fprintf(stderr, "waitpoint: the same run as in the record\n");
+  return finding.passed() ? 0 : 1;
+}
+
+}  // namespace waitpoint::tools

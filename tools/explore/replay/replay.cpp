@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/explore/replay/replay.hpp"
+
+#include <optional>
+
+#include "core/error.hpp"
+#include "tools/explore/search/failed_run.hpp"
+#include "tools/explore/replay/replay_record.hpp"
+#include "tools/explore/runs/scene.hpp"
+#include "tools/output/output_file.hpp"
+#include "tools/output/progress.hpp"
+#include "tools/output/summary.hpp"
+
+namespace waitpoint::tools {
+
+int replay(const ExploreOptions& asked, const scenario::Scenario& scenario, std::span<const genom::ModuleType> types) {
+  ExploreOptions options = asked;
+  const ReplayRecord record = read_replay_record(options, scenario.fingerprint);
+  std::optional<OutputFile> trace;
+  if (options.trace) trace.emplace(*options.trace);
+  const std::string command = replay_command(options, options.replay);
+  Scene scene(scenario, types, options, command);
+  if (record.plan.drawn && needs_profile(options.strategy)) {
+    Scene usual(scenario, types, options, command);
+    usual.prepare();
+    scene.set_profile(usual.run({.drawn = false}, {.profile = true}).profile);
+  }
+  const double start_s = wall_clock_s();
+  scene.prepare();
+  Target::Request request{.words = !record.plan.drawn, .places = true, .events = options.trace.has_value()};
+  if (!request.events && !record.trail.marks.empty()) request.trail = record.trail.log_spacing;
+  const Finding finding = scene.run(record.plan, request);
+  check_is_run_of(record, {scene.schedule(), scene.switches(), finding}, options.replay);
+  bridge::RunResult result = scene.result();
+  result.seed = options.seed;  // not the seed of the schedule's noise, which is derived from it
+  result.wall_s = wall_clock_s() - start_s;
+  result.real_time_factor = result.wall_s > 0 ? result.simulated.seconds() / result.wall_s : 0;
+  write_standard_output(summary_text(result));
+  if (trace) {
+    trace->write(finding.trace);
+    trace->commit();
+  }
+  if (record.digest_bits > 0) write_standard_output("\nthe same run as in the record\n");
+  if (!finding.passed()) std::fprintf(stderr, "waitpoint: failed: %s\n", finding.words.c_str());
+  return finding.passed() ? 0 : 1;
+}
+
+}  // namespace waitpoint::tools

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The report of a target's failure for people: the failure, minimised to the fewest switches found, the last choice
+// that mattered, the last events of the tasks, and the replay command.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tools/explore/search/failed_run.hpp"
+#include "tools/explore/replay/schedule_file.hpp"
+#include "tools/explore/search/search_progress.hpp"
+#include "tools/explore/runs/target.hpp"
+
+namespace waitpoint::tools {
+
+struct FailureReport {
+  std::string text;                  ///< several lines
+  StoredSchedule schedule;           ///< the minimised one
+  std::string trace;                 ///< of its last seconds, if requested
+  std::vector<ToldRace> races = {};  ///< that the text tells of
+};
+
+/// The report of a failing default order.
+FailureReport report_default(Target& target, const Finding& finding);
+/// The report of a failure found by a search. Takes at most a few minutes.
+FailureReport report(Target& target, SearchProgress& progress, const FailedRun& failed);
+
+}  // namespace waitpoint::tools

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The last choice of a failing run from which it could still have passed.
+//
+// A run could still have passed at a choice if one of a few random continuations from there passes. Bisection finds the
+// choice between the last switch, without which the run passes, and the failure, after which no continuation does.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "tools/explore/report/budget.hpp"
+#include "tools/explore/search/search_progress.hpp"
+#include "tools/explore/runs/target.hpp"
+
+namespace waitpoint::tools {
+
+/// A failed run, with the noise of schedule `number`.
+struct LeastFailure {
+  std::uint64_t number;
+  const Finding& finding;
+
+  /// The plan that repeats it.
+  Plan plan() const;
+  /// The same up to that decision, another alternative there (if none is given: the same), then the default order.
+  Plan plan_up_to(std::size_t decision, std::optional<std::uint32_t> instead = {}) const;
+};
+
+struct LastChoice {
+  std::size_t decision;
+  Plan passing;       ///< the same up to there, and a passing continuation
+  std::string words;  ///< "number 1234, at 12.100000000 s: segloc.slam of rackham computes 33 ms in place of 95 ms"
+};
+
+/// Nothing if the budget is exhausted or the failure needs no switch.
+std::optional<LastChoice> last_choice(Target& target, SearchProgress& progress, Budget& budget,
+                                      const LeastFailure& least);
+
+}  // namespace waitpoint::tools

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// An unmodified program with simulated threads: it fails by its exit status, a signal, a deadlock or a lack of
+// progress.
+//
+// Each run is a process forked just before the program's main(). All runs have the same random numbers and addresses;
+// only the schedules differ, and their switch points.
+#pragma once
+
+#include <set>
+
+#include "tools/exec/fork_server.hpp"
+#include "tools/explore/runs/snapshot_tree.hpp"
+#include "tools/explore/runs/target.hpp"
+
+namespace waitpoint::tools {
+
+class ProgramTarget final : public Target {
+ public:
+  /// BadInput for a program that cannot be simulated. The options must outlive this.
+  explicit ProgramTarget(const ExploreOptions& options);
+
+  ~ProgramTarget() override;
+
+  std::string name() const override { return calls_.files.programs.title(); }
+  std::uint64_t fingerprint() const override { return fingerprint_; }
+  bool has_noise() const override { return false; }
+  const ExploreOptions& options() const override { return options_; }
+  /// Starts it once, up to main().
+  void prepare() override;
+  using Target::run;
+  Finding run(const Plan& plan, const Request& request) override;
+
+ private:
+  bool has_processes() const override { return true; }
+
+  // The runs with the same switch points, and the process that makes them.
+  struct Runs {
+    explicit Runs(const ProgramFiles& of) : files(of) {}
+
+    ProgramFiles files;
+    std::optional<exploration::Profile> profile = {};  // of the default order with these switch points
+    int input = -1, output = -1;                       // of the present or last run
+    std::optional<ForkServer> server = {};
+  };
+
+  bool shows_new_races(const Finding& finding);
+  void open_streams(Runs& runs) const;
+  const exploration::Profile& profile_of_calls();
+  posix::AccessObstacle prepare_accesses();
+  posix::AccessObstacle learn_accesses();
+  Finding run_at_accesses(const Plan& plan, const Request& request);
+  Finding run_at_calls(const Plan& plan, const Request& request);
+  Finding run_once(Runs& runs, const Plan& plan, const Request& request, const exploration::Profile& profile);
+  Finding run_in_process(Runs& runs, const posix::Settings& settings, const Plan& plan, const Request& request,
+                         const exploration::Profile& profile, bool makes_snapshots);
+  RunMemory& begin_run(Runs& runs, const posix::Settings& settings, const Plan& plan, const Request& request,
+                       bool makes_snapshots);
+
+  const ExploreOptions& options_;
+  Runs calls_;                    // with accesses, too, if the program is instrumented
+  std::optional<Runs> accesses_;  // with breakpoints
+  std::optional<posix::AccessObstacle> obstacle_ = {};
+  std::uint64_t fingerprint_;
+  int given_input_;            // of the runs: each reads it from its beginning
+  std::set<RacingCode> told_;  // the races of this process's findings so far
+  SnapshotTree snapshots_;     // of runs at calls; they end before their server
+};
+
+/// A digest of the program's file, its words and the settings that its runs share.
+std::uint64_t fingerprint_of(const ProgramFiles& files, const ExploreOptions& options);
+
+/// BadInput if the options ask for weak memory, which only instrumented programs have.
+void check_memory(const ExploreOptions& options, const ProgramFiles& files);
+
+}  // namespace waitpoint::tools

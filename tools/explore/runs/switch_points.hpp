@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Which schedules of a search have accesses to memory as switch points, of a program that is not instrumented.
+#pragma once
+
+#include "tools/explore/runs/explore_options.hpp"
+#include "tools/explore/runs/plan.hpp"
+
+namespace waitpoint::tools {
+
+/// Never automatic. By default the first twenty schedules switch at calls, which is faster, then ten at accesses and
+/// ten at calls in turn; exhaustive strategies, the default order and
+/// schedules that begin in snapshots, at calls.
+SwitchAt switch_points_of(const Plan& plan, const ExploreOptions& options);
+
+/// The options by which a run with these switch points is repeated.
+ExploreOptions with_switches_at(SwitchAt at, const ExploreOptions& options);
+
+}  // namespace waitpoint::tools

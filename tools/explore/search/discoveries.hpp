@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a search has found: the first failure of each kind, and each distinct data race. A line for each is written to
+// standard error at once.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "tools/explore/search/failed_run.hpp"
+#include "tools/explore/search/race_discoveries.hpp"
+#include "tools/explore/search/search_progress.hpp"
+#include "tools/explore/runs/target.hpp"
+
+namespace waitpoint::tools {
+
+/// True if the search goes on after such a failure, to one of a graver kind.
+inline bool goes_on_after(Finding::Kind kind, const ExploreOptions& options) {
+  return kind == Finding::Kind::misuse || (kind == Finding::Kind::race && options.races == Races::report);
+}
+
+class Discoveries {
+ public:
+  Discoveries(Target& target, SearchProgress& progress) : target_(target), progress_(progress) {}
+
+  /// Takes a failed or racing run; runs come in the order of their numbers, so that the lines do not depend on the
+  /// number of jobs.
+  void take(FailedRun run);
+
+  /// The first run of the gravest kind; null if none failed.
+  const FailedRun* gravest() const { return first_.empty() ? nullptr : &first_.rbegin()->second; }
+  /// The others, as lines below the report of the gravest, which tells of the races `told`.
+  std::string besides(const std::vector<ToldRace>& told) const;
+
+ private:
+  Target& target_;
+  SearchProgress& progress_;
+  std::map<Finding::Kind, FailedRun> first_;
+  RaceDiscoveries races_;
+};
+
+}  // namespace waitpoint::tools

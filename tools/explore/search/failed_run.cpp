@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/explore/search/failed_run.hpp"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+
+#include "fibers/explore/strategies/factory.hpp"
+#include "tools/command/shell_words.hpp"
+
+namespace waitpoint::tools {
+namespace {
+
+using exploration::Token;
+using exploration::token_digest;
+
+// The default order has no number, and exhaustive strategies draw nothing.
+bool is_drawn(const FailedRun& run, const ExploreOptions& options) {
+  return run.number && run.enumeration.empty() && !exploration::make_strategy(options.strategy)->is_exhaustive();
+}
+
+}  // namespace
+
+std::string name_of(const FailedRun& run, const ExploreOptions& options) {
+  if (!run.number) return "the default order";
+  const std::string& strategy = run.enumeration.empty() ? options.strategy : run.enumeration;
+  return fmt::format("schedule {} of strategy {}, seed {}", *run.number, strategy, options.seed);
+}
+
+Plan plan_of(const FailedRun& run, const ExploreOptions& options) {
+  if (is_drawn(run, options)) return {.number = *run.number, .constraints = run.constraints};
+  return {.drawn = false, .switches = {}, .deviations = run.finding.deviations};
+}
+
+Token token_of(const FailedRun& run, const ExploreOptions& options) {
+  const std::uint32_t digest = token_digest(run.finding.digest);
+  if (is_drawn(run, options)) return {0, digest, options.strategy, options.seed, *run.number, {}, {}, options.memory};
+  return {0, digest, "", 0, 0, run.finding.deviations, {}, options.memory};
+}
+
+std::string replay_command(const ExploreOptions& options, const std::string& replayed) {
+  std::string line = quoted(program_invocation_name) + " explore ";
+  line += options.program.empty() ? quoted(options.scenario.string()) : "--exec";
+  line += " --seed " + std::to_string(options.seed);
+  if (options.until) line += " --until " + to_string(Time() + *options.until);
+  line += options.conditions.words();
+  if (options.races != Races::report) line += options.races == Races::fail ? " --races fail" : " --races ignore";
+  if (options.switch_at == SwitchAt::accesses) line += " --switch-at accesses";
+  if (options.memory == Memory::weak) line += " --memory weak";
+  if (options.from) line += " --from " + to_string(Time() + *options.from);
+  const std::size_t sets = options.assignments.size() - options.properties.size();
+  for (std::size_t i = 0; i < sets; ++i) line += " --set " + quoted(options.assignments[i]);
+  for (const std::string& property : options.properties) line += " --property " + quoted(property);
+  if (!replayed.empty()) line += " --replay " + quoted(replayed);
+  if (!options.program.empty()) line += " --" + quoted(options.program);
+  return line;
+}
+
+}  // namespace waitpoint::tools

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/explore/search/search_progress.hpp"
+
+#include <fmt/format.h>
+
+namespace waitpoint::tools {
+namespace {
+
+constexpr double redraw_s = 0.2;
+constexpr double line_s = 10;
+
+}  // namespace
+
+SearchProgress::SearchProgress(std::FILE* stream, bool terminal, Progress::Clock clock)
+    : stream_(stream),
+      terminal_(terminal),
+      clock_(clock),
+      start_s_(clock()),
+      next_s_(start_s_ + (terminal ? 0 : line_s)) {}
+
+bool SearchProgress::due() {
+  const double now_s = clock_();
+  if (now_s < next_s_) return false;
+  next_s_ = now_s + (terminal_ ? redraw_s : line_s);
+  return true;
+}
+
+void SearchProgress::show(const std::string& words) {
+  fmt::print(stream_, "{}{}{}", terminal_ ? "\r\x1b[K" : "", words, terminal_ ? "" : "\n");
+  std::fflush(stream_);
+  shown_ = terminal_;
+}
+
+void SearchProgress::update(std::uint64_t schedules, std::uint64_t distinct, std::uint64_t failures) {
+  if (!due()) return;
+  const double elapsed_s = seconds();
+  show(fmt::format("{} schedules, {:.1f} a second, {} distinct, {} failed", schedules,
+                   elapsed_s > 0 ? static_cast<double>(schedules) / elapsed_s : 0, distinct, failures));
+}
+
+void SearchProgress::update(const std::string& words) {
+  if (due()) show(words);
+}
+
+void SearchProgress::finish() {
+  if (shown_) fmt::print(stream_, "\r\x1b[K");
+  shown_ = false;
+}
+
+}  // namespace waitpoint::tools
