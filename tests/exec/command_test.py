@@ -8,6 +8,7 @@ import functools
 import json
 import os
 import re
+import shutil
 import signal
 import subprocess
 import time
@@ -244,6 +245,13 @@ class Refusals(ExecCase):
         for option in "-static-pie", "-static":
             subprocess.run(["gcc", option, self.folder / "empty.c", "-o", static], check=True)
             self.assertIn("is linked statically", self.refused("--", str(static)))
+        for compiler, option, reason in (("gcc", "address", "is compiled with -fsanitize=address"),
+                                         ("clang", "address", "is compiled with -fsanitize=address"),
+                                         ("clang", "thread", "can be linked by g++ with this option")):
+            sanitized = self.folder / f"{compiler}-{option}"
+            if shutil.which(compiler):
+                subprocess.run([compiler, f"-fsanitize={option}", self.folder / "empty.c", "-o", sanitized], check=True)
+                self.assertIn(reason, self.refused("--", str(sanitized)))
         static.chmod(0o4755)
         self.assertIn("changes its user or group", self.refused("--", str(static)))
         text = self.folder / "text"

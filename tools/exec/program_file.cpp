@@ -32,11 +32,51 @@ auto elf_of(std::ifstream& file) {
   });
 }
 
+// `is_wanted` is a function: bool (const Elf64_Sym& symbol, const std::string& name).
+template <class IsWanted>
+bool has_dynamic_symbol(std::ifstream& file, IsWanted is_wanted) {
+  Elf64_Ehdr header;
+  if (!read(file, 0, header) || std::memcmp(header.e_ident, ELFMAG, SELFMAG) != 0) return false;
+  std::vector<Elf64_Shdr> sections(header.e_shnum);
+  for (std::size_t i = 0; i < sections.size(); ++i)
+    if (!read(file, header.e_shoff + i * sizeof(Elf64_Shdr), sections[i])) return false;
+  for (const Elf64_Shdr& section : sections) {
+    if (section.sh_type != SHT_DYNSYM || section.sh_link >= sections.size()) continue;
+    for (std::uint64_t at = 0; at + sizeof(Elf64_Sym) <= section.sh_size; at += sizeof(Elf64_Sym)) {
+      Elf64_Sym symbol;
+      if (!read(file, section.sh_offset + at, symbol)) return false;
+      file.seekg(static_cast<std::streamoff>(sections[section.sh_link].sh_offset + symbol.st_name));
+      std::string name;
+      std::getline(file, name, '\0');
+      if (is_wanted(symbol, name)) return true;
+    }
+  }
+  return false;
+}
+
+// A sanitizer's runtime intercepts the same functions, and starts before any preloaded library: g++ links it as a
+// library, clang++ into the program. That of g++'s -fsanitize=thread is replaced by an empty one.
+std::string trouble_of_sanitizer(std::ifstream& file) {
+  if (elf_of(file).needs_library("libasan.so.")) return "is compiled with -fsanitize=address, which must be left out";
+  std::string option;
+  has_dynamic_symbol(file, [&](const Elf64_Sym& symbol, const std::string& name) {
+    if (symbol.st_shndx == SHN_UNDEF) return false;
+    if (name == "__tsan_init") option = "thread";
+    if (name == "__asan_init") option = "address";
+    if (name == "__msan_init") option = "memory";
+    return !option.empty();
+  });
+  if (option == "thread")
+    return "contains the runtime of -fsanitize=thread, as clang++ links it: what clang++ has compiled can be linked by "
+           "g++ with this option";
+  return option.empty() ? "" : "is compiled with -fsanitize=" + option + ", which must be left out";
+}
+
 // The dynamic linker, which preloads, is the program's interpreter.
 std::string trouble_of_elf(std::ifstream& file) {
   const auto elf = elf_of(file);
   if (!elf.is_known()) return "is not a program for x86-64";
-  if (elf.has_part(PT_INTERP)) return "";
+  if (elf.has_part(PT_INTERP)) return trouble_of_sanitizer(file);
   return "is linked statically: nothing can be put in front of its C library";
 }
 
@@ -76,24 +116,9 @@ std::string cannot_be_simulated(const std::filesystem::path& program) {
 // Looks in the dynamic symbol table; other symbol tables may be stripped.
 bool counts_blocks(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
-  Elf64_Ehdr header;
-  if (!read(file, 0, header) || std::memcmp(header.e_ident, ELFMAG, SELFMAG) != 0) return false;
-  std::vector<Elf64_Shdr> sections(header.e_shnum);
-  for (std::size_t i = 0; i < sections.size(); ++i)
-    if (!read(file, header.e_shoff + i * sizeof(Elf64_Shdr), sections[i])) return false;
-  for (const Elf64_Shdr& section : sections) {
-    if (section.sh_type != SHT_DYNSYM || section.sh_link >= sections.size()) continue;
-    for (std::uint64_t at = 0; at + sizeof(Elf64_Sym) <= section.sh_size; at += sizeof(Elf64_Sym)) {
-      Elf64_Sym symbol;
-      if (!read(file, section.sh_offset + at, symbol)) return false;
-      if (symbol.st_shndx != SHN_UNDEF) continue;
-      file.seekg(static_cast<std::streamoff>(sections[section.sh_link].sh_offset + symbol.st_name));
-      std::string name;
-      std::getline(file, name, '\0');
-      if (name.starts_with("__sanitizer_cov_trace_pc")) return true;
-    }
-  }
-  return false;
+  return has_dynamic_symbol(file, [](const Elf64_Sym& symbol, const std::string& name) {
+    return symbol.st_shndx == SHN_UNDEF && name.starts_with("__sanitizer_cov_trace_pc");
+  });
 }
 
 bool is_instrumented(const std::filesystem::path& program) {
