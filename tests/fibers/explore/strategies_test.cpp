@@ -106,6 +106,7 @@ TEST(Strategies, OneSeedIsOneCampaign) {
           [] {
             atomic<int> count{0};
             std::vector<thread> threads;
+            threads.reserve(4);
             for (int t = 0; t < 4; ++t)
               threads.emplace_back([&] {
                 const int seen = count.load();

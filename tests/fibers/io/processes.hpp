@@ -111,6 +111,7 @@ inline Traces run_in_processes(const Trial& trial, const std::vector<std::vector
   std::vector<std::string> names;
   for (const auto& [name, body] : trial.bodies) names.push_back(name);
   std::vector<std::unique_ptr<Process>> processes;
+  processes.reserve(groups.size());
   for (const std::vector<std::string>& own : groups)
     processes.push_back(std::make_unique<Process>(trial, names, own, options));
   const Duration window = trial.medium.latency_least;

@@ -192,6 +192,7 @@ TEST(NoProgress, ALongButFiniteInstantIsNone) {
   in_every_order([] {
     mutex m;
     std::vector<thread> threads;
+    threads.reserve(4);
     for (int t = 0; t < 4; ++t)
       threads.emplace_back([&] {
         for (int i = 0; i < 5000; ++i) {

@@ -30,13 +30,15 @@ struct Record {
 };
 static_assert(sizeof(Record) <= page);
 
-// The threads of a cycle through `thread`; empty if there is none.
-std::vector<std::size_t> cycle_from(const Record& record, std::size_t thread) {
+// The threads of a cycle through `thread`; empty if there is none. A record does not say whether a waiter on a
+// condition has been woken, and waits for the mutex: if `are_woken`, all do.
+std::vector<std::size_t> cycle_from(const Record& record, std::size_t thread, bool are_woken = false) {
   std::vector<std::size_t> cycle;
   for (std::size_t member = thread; cycle.size() <= threads_max;) {
     cycle.push_back(member);
     const auto& waiter = record.threads[member];
-    const bool locks = waiter.step == 'l' && record.owners[waiter.object] != 0;
+    const bool is_at_lock = waiter.step == 'l' || (are_woken && waiter.step == 'w');
+    const bool locks = is_at_lock && record.owners[waiter.object] != 0;
     if (waiter.has_ended != 0 || (!locks && waiter.step != 'j')) break;
     member = static_cast<std::size_t>(locks ? record.owners[waiter.object] - 1 : waiter.object);
     if (member != thread) continue;
@@ -46,8 +48,8 @@ std::vector<std::size_t> cycle_from(const Record& record, std::size_t thread) {
   return {};
 }
 
-// `all`: the outcomes that are possible.
-std::string outcome_of(const Record& record, std::size_t threads, const Outcomes& all) {
+// The outcome, or the two that it may be. `all`: those that are possible.
+Outcomes outcomes_of(const Record& record, std::size_t threads, const Outcomes& all) {
   Observed observed;
   std::vector<std::size_t> stuck;
   for (std::size_t t = 0; t < threads; ++t) {
@@ -57,16 +59,21 @@ std::string outcome_of(const Record& record, std::size_t threads, const Outcomes
   }
   observed.values.assign(std::begin(record.values), std::end(record.values));
   const auto by = static_cast<std::size_t>(record.by);
-  if (record.ending == 'k') return outcome("exit", {by}, observed);
-  if (record.ending == 'm') return outcome("misuse", {by}, observed);
-  if (record.ending == 'd') return outcome(stuck.empty() ? "ended" : "ended too early", stuck, observed);
+  if (record.ending == 'k') return {outcome("exit", {by}, observed)};
+  if (record.ending == 'm') return {outcome("misuse", {by}, observed)};
+  if (record.ending == 'd') return {outcome(stuck.empty() ? "ended" : "ended too early", stuck, observed)};
   for (std::size_t t = 0; t < threads; ++t)
     if (const std::vector<std::size_t> cycle = cycle_from(record, t); !cycle.empty())
-      return outcome("cycle", cycle, observed);
+      return {outcome("cycle", cycle, observed)};
   const std::string whole = outcome("stuck", stuck, observed);
   const bool may_be_cycle =
       std::any_of(all.begin(), all.end(), [](const auto& one) { return one.starts_with("cycle"); });
-  return all.count(whole) != 0 || !may_be_cycle ? whole : "cycle ?";
+  if (all.count(whole) == 0 && may_be_cycle) return {"cycle ?"};
+  Outcomes either{whole};
+  for (std::size_t t = 0; t < threads; ++t)
+    if (const std::vector<std::size_t> cycle = cycle_from(record, t, true); !cycle.empty())
+      if (const std::string other = outcome("cycle", cycle, observed); all.count(other) != 0) either.insert(other);
+  return either;
 }
 
 std::string text_of(const std::string& file) {
@@ -107,7 +114,7 @@ Covered cover_by_exec(const ExecTools& tools, const Program& program, const std:
     if (i >= before && i - before < cut.size() && cut[i - before]) continue;
     Record record;
     std::memcpy(&record, records.data() + i * page, sizeof record);
-    covered.outcomes.insert(outcome_of(record, program.threads.size(), all));
+    covered.outcomes.merge(outcomes_of(record, program.threads.size(), all));
     ++covered.schedules;
   }
   if (status != 0 && covered.outcomes.size() == 1 && covered.outcomes.begin()->starts_with("ended:"))
