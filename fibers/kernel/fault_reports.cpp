@@ -11,9 +11,11 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstdlib>
+#include <mutex>
 #include <utility>
 
 #include "core/doing.hpp"
+#include "core/spin_lock.hpp"
 #include "fibers/kernel/call_stack.hpp"
 #include "fibers/kernel/death_text.hpp"
 #include "fibers/kernel/signal_safe_text.hpp"
@@ -29,7 +31,7 @@ alignas(64) char handler_stack[1024 * 1024];
 std::atomic<bool> is_handler_stack_taken = false;
 
 // The process's. `lock` is held for the few system calls of installing and restoring the handlers.
-std::atomic_flag lock;
+SpinLock lock;
 std::uint32_t installers = 0;  // the number of threads with reports
 std::atomic<bool> are_installed = false;
 struct sigaction previous[std::size(FaultReports::signals)];
@@ -43,17 +45,6 @@ constinit thread_local FaultReports* innermost = nullptr;
 constinit thread_local ucontext_t* fault_context = nullptr;  // of the signal that is handled
 // A bug and an overrun stack were reported before their SIGABRT.
 constinit thread_local bool is_described = false;
-
-class Locked {
- public:
-  Locked() {
-    while (lock.test_and_set(std::memory_order_acquire)) {
-    }
-  }
-  ~Locked() { lock.clear(std::memory_order_release); }
-  Locked(const Locked&) = delete;
-  Locked& operator=(const Locked&) = delete;
-};
 
 bool is_dying() { return dying_thread != nullptr; }
 
@@ -198,7 +189,7 @@ FaultReports::FaultReports(const Scheduler* scheduler) : outer_(innermost), sche
   latest_process = process_;
   if (outer_ != nullptr) return;
   install_stack();
-  const Locked locked;
+  const std::lock_guard guard(lock);
   if (installers++ > 0) return;
   static bool is_registered = false;
   if (!std::exchange(is_registered, true)) {
@@ -217,7 +208,7 @@ FaultReports::~FaultReports() {
   innermost = outer_;
   if (outer_ != nullptr) return;
   {
-    const Locked locked;
+    const std::lock_guard guard(lock);
     if (--installers == 0) {
       are_installed = false;
       for (std::size_t i = 0; i < std::size(signals); ++i) {

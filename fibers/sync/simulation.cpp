@@ -4,11 +4,13 @@
 #include <algorithm>
 #include <atomic>
 #include <cstdlib>
+#include <mutex>
 #include <ostream>
 #include <system_error>
 
 #include "core/error.hpp"
 #include "core/number_text.hpp"
+#include "core/spin_lock.hpp"
 #include "fibers/kernel/fault_reports.hpp"
 #include "fibers/sync/blocking.hpp"
 #include "fibers/sync/object_names.hpp"
@@ -132,30 +134,22 @@ namespace {
 
 // The std::terminate handler is the process's: the first of the threads that unwind a run sets it, the last one
 // restores the previous handler.
-std::atomic_flag terminate_lock;  // not a mutex: a program's own ThreadSanitizer sees only a part of its calls
+SpinLock terminate_lock;
 int terminate_users = 0;
 std::atomic<std::terminate_handler> terminate_before = nullptr;
 
 class TerminateHandler {
  public:
   explicit TerminateHandler(std::terminate_handler handler) {
-    lock();
+    const std::lock_guard guard(terminate_lock);
     if (terminate_users++ == 0) terminate_before = std::set_terminate(handler);
-    terminate_lock.clear(std::memory_order_release);
   }
   ~TerminateHandler() {
-    lock();
+    const std::lock_guard guard(terminate_lock);
     if (--terminate_users == 0) std::set_terminate(terminate_before);
-    terminate_lock.clear(std::memory_order_release);
   }
   TerminateHandler(const TerminateHandler&) = delete;
   TerminateHandler& operator=(const TerminateHandler&) = delete;
-
- private:
-  static void lock() {
-    while (terminate_lock.test_and_set(std::memory_order_acquire)) {
-    }
-  }
 };
 
 }  // namespace

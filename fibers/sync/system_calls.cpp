@@ -9,12 +9,14 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdio>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "core/doing.hpp"
+#include "core/spin_lock.hpp"
 #include "fibers/kernel/call_stack.hpp"
 #include "fibers/kernel/fault_reports.hpp"
 #include "fibers/kernel/scheduler.hpp"
@@ -40,7 +42,7 @@ struct Call {
 Call calls[calls_max];
 std::atomic<bool> told[calls_max];
 std::atomic<std::size_t> call_count = 0, told_count = 0;
-std::atomic_flag is_adding;
+SpinLock adding;
 std::atomic<bool> are_collected = false, are_threads_noted = true;
 
 /// The thread's own: its scopes in which calls are noted, their process, and if one has started a thread or process.
@@ -53,13 +55,10 @@ bool is_known(const void* place) {
 }
 
 void add(const Call& call) {
-  while (is_adding.test_and_set(std::memory_order_acquire)) {
-  }
-  if (call_count < calls_max && !is_known(call.place)) {
-    calls[call_count] = call;
-    ++call_count;
-  }
-  is_adding.clear(std::memory_order_release);
+  const std::lock_guard guard(adding);
+  if (call_count == calls_max || is_known(call.place)) return;
+  calls[call_count] = call;
+  ++call_count;
 }
 
 void note(const char* function, const char* effect, const void* place) {

@@ -10,11 +10,11 @@
 #include "tools/exec/access_obstacles.hpp"
 #include "tools/exec/family_report.hpp"
 #include "tools/exec/program_run.hpp"
-#include "tools/explore/search/feedback.hpp"
+#include "tools/explore/replay/replay_record.hpp"
 #include "tools/explore/runs/learned_code.hpp"
 #include "tools/explore/runs/program_finding.hpp"
 #include "tools/explore/runs/program_target.hpp"
-#include "tools/explore/replay/replay_record.hpp"
+#include "tools/explore/search/feedback.hpp"
 #include "tools/output/output_file.hpp"
 
 namespace waitpoint::tools {

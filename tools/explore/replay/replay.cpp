@@ -4,9 +4,9 @@
 #include <optional>
 
 #include "core/error.hpp"
-#include "tools/explore/search/failed_run.hpp"
 #include "tools/explore/replay/replay_record.hpp"
 #include "tools/explore/runs/scene.hpp"
+#include "tools/explore/search/failed_run.hpp"
 #include "tools/output/output_file.hpp"
 #include "tools/output/progress.hpp"
 #include "tools/output/summary.hpp"

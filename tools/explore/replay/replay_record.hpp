@@ -3,10 +3,10 @@
 #pragma once
 
 #include "fibers/explore/report/narrator.hpp"
+#include "tools/explore/replay/schedule_file.hpp"
 #include "tools/explore/runs/explore_options.hpp"
 #include "tools/explore/runs/finding.hpp"
 #include "tools/explore/runs/plan.hpp"
-#include "tools/explore/replay/schedule_file.hpp"
 
 namespace waitpoint::tools {
 

@@ -9,8 +9,8 @@
 #include "fibers/explore/schedules/token.hpp"
 #include "tools/explore/report/fewer_switches.hpp"
 #include "tools/explore/report/reversed_events.hpp"
-#include "tools/explore/search/search.hpp"
 #include "tools/explore/runs/switch_points.hpp"
+#include "tools/explore/search/search.hpp"
 
 namespace waitpoint::tools {
 namespace {

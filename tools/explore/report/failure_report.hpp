@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "tools/explore/search/failed_run.hpp"
 #include "tools/explore/replay/schedule_file.hpp"
-#include "tools/explore/search/search_progress.hpp"
 #include "tools/explore/runs/target.hpp"
+#include "tools/explore/search/failed_run.hpp"
+#include "tools/explore/search/search_progress.hpp"
 
 namespace waitpoint::tools {
 

@@ -6,8 +6,8 @@
 #pragma once
 
 #include "tools/explore/report/budget.hpp"
-#include "tools/explore/search/search_progress.hpp"
 #include "tools/explore/runs/target.hpp"
+#include "tools/explore/search/search_progress.hpp"
 
 namespace waitpoint::tools {
 

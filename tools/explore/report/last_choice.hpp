@@ -9,8 +9,8 @@
 #include <string>
 
 #include "tools/explore/report/budget.hpp"
-#include "tools/explore/search/search_progress.hpp"
 #include "tools/explore/runs/target.hpp"
+#include "tools/explore/search/search_progress.hpp"
 
 namespace waitpoint::tools {
 

@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
+#include "tools/explore/runs/target.hpp"
 #include "tools/explore/search/failed_run.hpp"
 #include "tools/explore/search/race_discoveries.hpp"
 #include "tools/explore/search/search_progress.hpp"
-#include "tools/explore/runs/target.hpp"
 
 namespace waitpoint::tools {
 
