@@ -1,12 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/explore/runs/program_target.hpp"
 
-#include <fcntl.h>
-#include <sys/mman.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
-#include <algorithm>
 #include <csignal>
 #include <fstream>
 #include <utility>
@@ -14,12 +8,10 @@
 #include "core/digest.hpp"
 #include "core/error.hpp"
 #include "tools/exec/access_instructions.hpp"
-#include "tools/exec/accounts.hpp"
 #include "tools/exec/family_report.hpp"
-#include "tools/exec/program_run.hpp"
-#include "tools/exec/watchdog.hpp"
 #include "tools/explore/runs/learned_code.hpp"
 #include "tools/explore/runs/program_finding.hpp"
+#include "tools/explore/runs/run_watch.hpp"
 #include "tools/explore/runs/switch_points.hpp"
 #include "tools/output/progress.hpp"
 
@@ -27,40 +19,10 @@ namespace waitpoint::tools {
 namespace {
 
 constexpr int look_around_ms = 100;
-constexpr std::size_t output_shown = 2000;
 
 // The process of one run is asked to end by SIGTERM: see Children.
 volatile std::sig_atomic_t is_to_stop = 0;
 void note_stop(int) { is_to_stop = 1; }
-
-// Standard input of the runs, each from the beginning: this process's own if it is a regular file, else empty.
-int open_input() {
-  struct stat of {};
-  const bool is_file = fstat(STDIN_FILENO, &of) == 0 && S_ISREG(of.st_mode);
-  return is_file ? fcntl(STDIN_FILENO, F_DUPFD_CLOEXEC, 3) : open("/dev/null", O_RDONLY | O_CLOEXEC);
-}
-
-int opened_again(int descriptor) {
-  return open(("/proc/self/fd/" + std::to_string(descriptor)).c_str(), O_RDONLY | O_CLOEXEC);
-}
-
-// The last lines, indented.
-std::string end_of(int output) {
-  const off_t size = lseek(output, 0, SEEK_END);
-  const off_t from = std::max<off_t>(0, size - static_cast<off_t>(output_shown));
-  std::string text(static_cast<std::size_t>(size - from), '\0');
-  const ssize_t got = pread(output, text.data(), text.size(), from);
-  text.resize(static_cast<std::size_t>(std::max<ssize_t>(0, got)));
-  if (from > 0) text.erase(0, text.find('\n') + 1);
-  while (text.ends_with('\n')) text.pop_back();
-  std::string indented = from > 0 ? "  ..." : "";
-  for (std::size_t at = 0; at < text.size();) {
-    const std::size_t end = std::min(text.size(), text.find('\n', at));
-    indented += (indented.empty() ? "  " : "\n  ") + text.substr(at, end - at);
-    at = end + 1;
-  }
-  return indented;
-}
 
 }  // namespace
 
@@ -101,7 +63,6 @@ ProgramTarget::ProgramTarget(const ExploreOptions& options)
     : options_(options),
       calls_(ProgramFiles(options.program)),
       fingerprint_(fingerprint_of(calls_.files, options)),
-      given_input_(open_input()),
       snapshots_(options.snapshots, options.strategy) {
   options.conditions.check(calls_.files.named());
   check_snapshots(options, calls_.files);
@@ -109,12 +70,7 @@ ProgramTarget::ProgramTarget(const ExploreOptions& options)
   if (options.races == Races::ignore) ignore_races();
 }
 
-ProgramTarget::~ProgramTarget() {
-  close(given_input_);
-  for (const Runs* runs : {&calls_, accesses_ ? &*accesses_ : nullptr})
-    for (const int each : {runs != nullptr ? runs->input : -1, runs != nullptr ? runs->output : -1})
-      if (each >= 0) close(each);
-}
+ProgramTarget::~ProgramTarget() = default;
 
 void ProgramTarget::prepare() {
   if (options_.switch_at == SwitchAt::accesses && !has_disassembler()) (void)access_instructions({});  // refuses
@@ -216,19 +172,6 @@ bool ProgramTarget::shows_new_races(const Finding& finding) {
   return told_.size() > before;
 }
 
-// A process that makes another run has those of the last one.
-void ProgramTarget::open_streams(Runs& runs) const {
-  if (runs.server->is_rerun()) {
-    lseek(runs.input, 0, SEEK_SET);
-    if (lseek(runs.output, 0, SEEK_END) > 0 && ftruncate(runs.output, 0) == 0) lseek(runs.output, 0, SEEK_SET);
-    return;
-  }
-  for (const int each : {runs.input, runs.output})
-    if (each >= 0) close(each);
-  runs.input = opened_again(given_input_);
-  runs.output = memfd_create("waitpoint-output", MFD_CLOEXEC);
-}
-
 Finding ProgramTarget::run_once(Runs& runs, const Plan& plan, const Request& request,
                                 const exploration::Profile& profile) {
   posix::Settings settings = settings_of(options_);
@@ -267,46 +210,29 @@ Finding ProgramTarget::run_in_process(Runs& runs, const posix::Settings& setting
                                       bool makes_snapshots) {
   RunMemory& memory = begin_run(runs, settings, plan, request, makes_snapshots);
   ask_for_run(memory, runs.files, options_, plan, request, profile);
-  open_streams(runs);
-  const pid_t process = runs.server->start(runs.input, runs.output);
-  Watchdog watchdog(memory.record());
-  const double start_s = wall_clock_s();
-  std::uint64_t events = 0;
-  bool has_gone_on = true;  // since the last look
-  std::string stalled;
-  std::optional<int> status;
+  runs.server->is_rerun() ? runs.streams.rewind() : runs.streams.open();
+  const pid_t process = runs.server->start(runs.streams.input(), runs.streams.output());
   // The limit is not known yet where code is learned, and only the default order may be assumed to end.
-  const double limit = limit_s() <= 0 && request.learn && plan.at_random_from ? least_limit_s : limit_s();
-  const auto is_stalled = [&] {
-    const bool is_over = limit > 0 && wall_clock_s() - start_s >= limit;
-    if (is_to_stop != 0 || is_over)
-      stalled = (is_over ? over_limit(limit) : "stopped by a signal") + " at " + to_string(time_of(memory.record())) +
-                " s of virtual time\n" + states_of(memory.record());
-    else if (std::string words = watchdog.look(); !words.empty())
-      stalled = std::move(words);
-    else
-      has_gone_on = events_of(memory.record()) != std::exchange(events, events_of(memory.record()));
-    return !stalled.empty();
-  };
+  RunWatch watch(memory.record(), limit_s() <= 0 && request.learn && plan.at_random_from ? least_limit_s : limit_s(),
+                 is_to_stop);
+  std::optional<int> status;
   while (!(status = runs.server->wait(look_around_ms)))
-    if (stalled.empty() && is_stalled()) kill(process, SIGKILL);
+    if (watch.words().empty() && watch.is_to_end()) kill(process, SIGKILL);
   // Those left behind take part in the run, up to its end.
-  double looked_s = wall_clock_s();
-  const auto is_stalled_by_now = [&] {
+  const auto is_to_end_by_now = [&, looked_s = wall_clock_s()]() mutable {
     if (wall_clock_s() - looked_s < look_around_ms / 1000.0) return false;
     looked_s = wall_clock_s();
-    return is_stalled();
+    return watch.is_to_end();
   };
-  if (stalled.empty() && !request.stop_before) end_others(memory.record(), is_stalled_by_now);
+  if (watch.words().empty() && !request.stop_before) end_others(memory.record(), is_to_end_by_now);
   Finding finding =
-      finding_of_run(memory, *status, end_of(runs.output), request, options_.trace.has_value(), races_fail());
+      finding_of_run(memory, *status, runs.streams.end_of_output(), request, options_.trace.has_value(), races_fail());
   if (options_.races == Races::report && !request.learn && !request.places && shows_new_races(finding))
     tell_races(memory.record(), finding);
-  if (!stalled.empty()) {
-    while (stalled.ends_with('\n')) stalled.pop_back();
+  if (!watch.words().empty()) {
     finding.kind = Finding::Kind::no_progress;
-    finding.words = stalled;
-    if (has_gone_on) finding.digest = 0;  // how far it came is the wall clock's
+    finding.words = watch.words();
+    if (watch.has_gone_on()) finding.digest = 0;
     if (!runs.files.accesses.empty()) finding.obstacle = posix::AccessObstacle::endless;
   }
   if (memory.record().explored != nullptr)

@@ -9,6 +9,7 @@
 #include <set>
 
 #include "tools/exec/fork_server.hpp"
+#include "tools/explore/runs/run_streams.hpp"
 #include "tools/explore/runs/snapshot_tree.hpp"
 #include "tools/explore/runs/target.hpp"
 
@@ -39,12 +40,11 @@ class ProgramTarget final : public Target {
 
     ProgramFiles files;
     std::optional<exploration::Profile> profile = {};  // of the default order with these switch points
-    int input = -1, output = -1;                       // of the present or last run
+    RunStreams streams = {};                           // of the present or last run
     std::optional<ForkServer> server = {};
   };
 
   bool shows_new_races(const Finding& finding);
-  void open_streams(Runs& runs) const;
   const exploration::Profile& profile_of_calls();
   posix::AccessObstacle prepare_accesses();
   posix::AccessObstacle learn_accesses();
@@ -61,7 +61,6 @@ class ProgramTarget final : public Target {
   std::optional<Runs> accesses_;  // with breakpoints
   std::optional<posix::AccessObstacle> obstacle_ = {};
   std::uint64_t fingerprint_;
-  int given_input_;            // of the runs: each reads it from its beginning
   std::set<RacingCode> told_;  // the races of this process's findings so far
   SnapshotTree snapshots_;     // of runs at calls; they end before their server
 };
