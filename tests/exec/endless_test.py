@@ -6,12 +6,25 @@ Programs in which only timers expire; signals to `waitpoint`; loops without call
 
 import os
 import pathlib
+import re
 import signal
 import subprocess
 import time
 import unittest
 
 from exec_case import BUILD, ExecCase, HERE, Summary, WAITPOINT
+
+
+def heed_signals():
+    """In the new process: nohup and others may have left them ignored."""
+    for each in signal.SIGINT, signal.SIGTERM, signal.SIGHUP:
+        signal.signal(each, signal.SIG_DFL)
+
+
+def await_handler(process, sent):
+    """Until the process has a handler for the signal."""
+    while not int(re.search(r"SigCgt:\s+(\w+)", pathlib.Path(f"/proc/{process.pid}/status").read_text())[1], 16) >> (sent - 1) & 1:
+        time.sleep(0.02)
 
 
 class Idle(ExecCase):
@@ -73,9 +86,8 @@ class Signals(ExecCase):
     def run_and_send(self, sent, words, command=("exec",), to_group=False):
         """Returns the status, the error stream and the seconds that the end has taken."""
         words = [str(word) for word in (WAITPOINT, *command, "--", *words)]
-        heed = lambda: [signal.signal(each, signal.SIG_DFL) for each in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)]
         with subprocess.Popen(words, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
-                              preexec_fn=heed, start_new_session=True) as running:
+                              preexec_fn=heed_signals, start_new_session=True) as running:
             self.assertEqual(running.stdout.readline(), "ready\n")
             time.sleep(0.2)
             begin = time.monotonic()
@@ -142,18 +154,22 @@ class Signals(ExecCase):
         program = self.compile("until.c", "-g")
         words = [str(word) for word in (WAITPOINT, "explore", "--exec", "--", program, "spin", "thread")]
         for sent in (signal.SIGTERM, signal.SIGINT, signal.SIGHUP):
-            with subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as running:
+            with subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, preexec_fn=heed_signals) as running:
+                await_handler(running, sent)
                 time.sleep(1.5)
                 running.send_signal(sent)
                 output, text = running.communicate(timeout=60)
                 self.assertEqual(running.returncode, 130, text)
+                self.assertIn("; stopped by a signal\n", output)
                 self.assertRegex(text + output, r"  main computes\n      at spin_until_set at \S*until\.c:\d+\n")
 
     def test_to_its_group_end_an_exploration_without_a_failure(self):
         program = self.compile("lost_update.c")
         words = [str(word) for word in (WAITPOINT, "explore", "--exec", "--iterations", "1000000", "--", program, "locked")]
         for sent in (signal.SIGTERM, signal.SIGINT, signal.SIGHUP):
-            with subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=True) as running:
+            with subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=True,
+                                  preexec_fn=heed_signals) as running:
+                await_handler(running, sent)
                 time.sleep(0.5)
                 os.killpg(running.pid, sent)
                 output, text = running.communicate(timeout=60)

@@ -57,7 +57,7 @@ void tell(const FailureReport& report, Files& files) {
   files.write(report);
 }
 
-std::string sum(const Target& target, const Search& search, double seconds) {
+std::string sum(const Target& target, const Search& search, double seconds, bool is_interrupted) {
   const std::string all = search.has_drawn() ? "; exhausted, no other ordering exists" : "; exhaustive";
   const char* const natives = target.options().conditions.children ? "" : "; native children in one timing each";
   const std::string scope = search.scope() ? all + *search.scope() + natives : "";
@@ -67,7 +67,7 @@ std::string sum(const Target& target, const Search& search, double seconds) {
   return fmt::format("{}: {}, {} distinct, {} failed{}, in {:.1f} s ({:.1f} a second){}{}{}\n", target.name(),
                      counted(search.schedules(), "schedule"), search.distinct(), search.failures(), raced, seconds,
                      seconds > 0 ? static_cast<double>(search.schedules()) / seconds : 0,
-                     search.interrupted() ? "; stopped by a signal" : "", scope, at_calls);
+                     is_interrupted ? "; stopped by a signal" : "", scope, at_calls);
 }
 
 // Failures of a graver kind than a data race are analysed without regard to races, which may be in each run.
@@ -124,10 +124,11 @@ int search(Target& target, Files& files) {
   if (usual) search.run();
   const double seconds = progress.seconds() - start_s;
   if (usual && files.results() != nullptr) files.results()->commit();
-  write_standard_output(sum(target, search, seconds));
+  const bool is_interrupted = search.interrupted() || !usual;
+  write_standard_output(sum(target, search, seconds, is_interrupted));
   const FailedRun* const gravest = discoveries.gravest();
   if (gravest != nullptr) tell(report_of(target, progress, discoveries), files);
-  return search.interrupted() || !usual ? 130 : gravest != nullptr ? 1 : 0;
+  return is_interrupted ? 130 : gravest != nullptr ? 1 : 0;
 }
 
 }  // namespace
