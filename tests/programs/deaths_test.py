@@ -42,6 +42,12 @@ PLACE = r"""  at virtual time 0\.300000000 s, in task mortal\.main of doomed, at
 """
 
 
+def heed_signals():
+    """In the new process: nohup, and a shell for its background jobs, leave some ignored."""
+    for each in signal.SIGINT, signal.SIGQUIT, signal.SIGHUP:
+        signal.signal(each, signal.SIG_DFL)
+
+
 class OfMortalModules(Installed):
     def setUp(self):
         self.program = self.compile("deaths", *flags(self.prefix, "--cflags", "--libs", "waitpoint-robots"))
@@ -51,6 +57,10 @@ class OfMortalModules(Installed):
     def command(self, way, *options):
         return [self.program, "run", HERE / "deaths/deaths.yaml", "--seed", "7", "--set", f"robots.0.modules.mortal.end={way}",
                 *options]
+
+    def start(self, way, *options):
+        return subprocess.Popen(self.command(way, *options), stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True,
+                                preexec_fn=heed_signals)
 
     def run_to_its_death(self, way, *options):
         return subprocess.run(self.command(way, *options), capture_output=True, text=True, errors="replace", timeout=120)
@@ -153,8 +163,7 @@ class Deaths(OfMortalModules):
     def test_by_a_signal_of_another_process_have_a_last_word(self):
         for sent in signal.SIGQUIT, signal.SIGABRT, signal.SIGXCPU:
             target = self.outputs / sent.name
-            process = subprocess.Popen(self.command("loop", "--events", target), stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
-                                       text=True)
+            process = self.start("loop", "--events", target)
             time.sleep(1)
             process.send_signal(sent)
             said = process.communicate(timeout=60)[1]
@@ -298,7 +307,7 @@ class Hangs(OfMortalModules):
 
     def test_are_ended_by_a_signal_at_once(self):
         for way, sent in ("loop", signal.SIGTERM), ("loop", signal.SIGINT), ("blocked", signal.SIGTERM):
-            process = subprocess.Popen(self.command(way), stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+            process = self.start(way)
             time.sleep(1.5)
             process.send_signal(sent)
             began = time.monotonic()
@@ -308,7 +317,7 @@ class Hangs(OfMortalModules):
             self.assertLess(time.monotonic() - began, 30)
 
     def test_of_a_constructor_are_ended_by_a_signal_at_once(self):
-        process = subprocess.Popen(self.command("constructor spins"), stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+        process = self.start("constructor spins")
         time.sleep(1.5)
         process.send_signal(signal.SIGHUP)
         said = process.communicate(timeout=60)[1]
