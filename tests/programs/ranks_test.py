@@ -162,6 +162,32 @@ class EqualRuns(unittest.TestCase):
         self.assertEqual(events(3), events(None))
 
 
+class Recordings(unittest.TestCase):
+    """Bytes are equal, lines of modules between the last step and the end included."""
+
+    def recorded(self, ranks, file, *options, **more):
+        done = run(ranks, ROOT / "scenarios/office-10.yaml", "--record", file, *options, **more)
+        self.assertIn("digest", done.output, done.errors)
+        return file.read_bytes()
+
+    def test_each_format(self):
+        bags = subprocess.run([WAITPOINT, "run", ROOT / "scenarios/office.yaml", "--until", "0.1", "--record", folder() / "no.bag"],
+                              capture_output=True, text=True, timeout=60)
+        endings = [".mcap", ".log"] if "without rosbag_storage" in bags.stderr else [".mcap", ".log", ".bag"]
+        for ending in endings:
+            with self.subTest(ending):
+                alone, several = (self.recorded(ranks, folder() / f"record{ending}", "--until", "3.2046") for ranks in (None, 3))
+                self.assertGreater(len(alone), 100_000)
+                self.assertTrue(several == alone)
+
+    def test_obstacles_that_are_moved_and_pauses(self):
+        commands = "run 1.033\nobstacle {name: box, centre_m: [22, 6], size_m: [0.5, 0.5]}\nrun +0.5\nrequest ines ndd Stop\n" \
+                   "run +0.7\nremove-obstacle box\nrun +0.501\nquit\n"
+        alone, several = (self.recorded(ranks, folder() / "moved.mcap", "--interactive", input=commands) for ranks in (None, 4))
+        self.assertGreaterEqual(alone.count(b"Stop:"), 2)
+        self.assertTrue(several == alone)
+
+
 class Media(Installed):
     def test_messages_between_robots_on_different_ranks(self):
         program = self.compile("two_robots", *flags(self.prefix, "--cflags", "--libs", "waitpoint-robots"))

@@ -16,40 +16,37 @@ std::string ending(Time time, const std::string& robot) {
 }  // namespace
 
 CarmenRecording::CarmenRecording(const std::filesystem::path& path, const scenario::Scenario& scenario)
-    : Recording(path), scenario_(scenario), file_(path) {
+    : Recording(path), file_(path) {
   file_.write("# CARMEN Logfile\n");
+  for (const scenario::RobotScenario& robot : scenario.robots) {
+    OfRobot& added = robots_.emplace_back(OfRobot{robot.name});
+    if (const auto lasers = recorded_lasers(robot); !lasers.empty()) added.mount = lasers.front().description.mount;
+  }
 }
 
-void CarmenRecording::begin(run::Experiment& experiment) {
-  for (std::size_t i = 0; i < scenario_.robots.size(); ++i)
-    robots_.push_back({RobotPosters(scenario_.robots[i], *experiment.robots()[i]), std::nullopt});
+void CarmenRecording::record(const StepNews& step) {
+  for (const RobotNews& news : step.robots) record_robot(news);
 }
 
-void CarmenRecording::record(const run::Experiment& experiment, Time) {
-  for (std::size_t i = 0; i < robots_.size(); ++i) record_robot(experiment, i);
-}
-
-void CarmenRecording::record_robot(const run::Experiment& experiment, std::size_t i) {
-  OfRobot& robot = robots_[i];
-  const std::string& name = scenario_.robots[i].name;
-  if (const auto odometry = robot.posters.odometry()) {
+void CarmenRecording::record_robot(const RobotNews& news) {
+  OfRobot& robot = robots_[news.robot];
+  if (const auto& odometry = news.odometry) {
     robot.odometry = odometry->position.pose;
     file_.write(fmt::format("ODOM {} {:.6f} {:.6f} 0", text(*robot.odometry), odometry->v_m_s, odometry->w_rad_s) +
-                ending(odometry->position.date, name));
+                ending(odometry->position.date, robot.name));
   }
-  if (!robot.odometry || robot.posters.lasers.empty()) return;
-  RobotPosters::Laser& laser = robot.posters.lasers.front();
-  const auto scan = robot.posters.scan(laser);
-  if (!scan) return;
-  std::string line = fmt::format("FLASER {}", scan->range_m.size());
-  for (const float range : scan->range_m) line += fmt::format(" {:.3f}", range);
-  const Pose device = compose(*robot.odometry, laser.description.mount);
-  file_.write(line + fmt::format(" {} {}", text(device), text(*robot.odometry)) + ending(scan->date, name));
-  const Pose& truth = experiment.world().body(world::BodyId(static_cast<std::uint32_t>(i))).pose;
-  file_.write(fmt::format("TRUEPOS {} {}", text(truth), text(*robot.odometry)) + ending(scan->date, name));
+  if (robot.mount && news.scans.front()) robot.scan = news.scans.front();
+  if (!robot.odometry || !robot.scan) return;
+  const posters::LaserReading& scan = *robot.scan;
+  std::string line = fmt::format("FLASER {}", scan.range_m.size());
+  for (const float range : scan.range_m) line += fmt::format(" {:.3f}", range);
+  const Pose device = compose(*robot.odometry, *robot.mount);
+  file_.write(line + fmt::format(" {} {}", text(device), text(*robot.odometry)) + ending(scan.date, robot.name));
+  file_.write(fmt::format("TRUEPOS {} {}", text(news.pose), text(*robot.odometry)) + ending(scan.date, robot.name));
+  robot.scan.reset();
 }
 
-void CarmenRecording::commit(const bridge::RunResult& result) {
+void CarmenRecording::commit(const StepNews&, const bridge::RunResult& result) {
   if (result.outcome == bridge::Outcome::crashed) file_.write("# cut off: " + result.trouble + "\n");
   file_.commit();
 }

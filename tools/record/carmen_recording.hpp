@@ -19,19 +19,20 @@ class CarmenRecording final : public Recording {
   /// Throws BadInput if the file cannot be written.
   CarmenRecording(const std::filesystem::path& path, const scenario::Scenario& scenario);
 
-  void begin(run::Experiment& experiment) override;
+  bool shows_obstacles() const override { return false; }
 
  private:
   struct OfRobot {
-    RobotPosters posters;
-    std::optional<Pose> odometry;
+    std::string name;
+    std::optional<Pose> mount{};  ///< of its first laser
+    std::optional<Pose> odometry{};
+    std::optional<posters::LaserReading> scan{};  ///< not written
   };
 
-  void record(const run::Experiment& experiment, Time now) override;
-  void commit(const bridge::RunResult& result) override;
-  void record_robot(const run::Experiment& experiment, std::size_t i);
+  void record(const StepNews& step) override;
+  void commit(const StepNews& last, const bridge::RunResult& result) override;
+  void record_robot(const RobotNews& news);
 
-  const scenario::Scenario& scenario_;
   OutputFile file_;
   std::vector<OfRobot> robots_;
 };

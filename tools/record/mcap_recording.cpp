@@ -25,14 +25,16 @@ McapRecording::McapRecording(const std::filesystem::path& path, const scenario::
       time_(number_of(file_, foxglove::clock())),
       frames_(file_.add_channel(transform_, "/tf")),
       world_(file_.add_channel(scene_, "/world")),
-      clock_(file_.add_channel(time_, "/clock")) {}
+      clock_(file_.add_channel(time_, "/clock")) {
+  for (const OfRobot& robot : robots()) add(robot);
+}
 
 void McapRecording::add(const OfRobot& robot) {
   const auto channel = [&](std::uint16_t schema, const std::string& topic) {
     return file_.add_channel(schema, "/" + robot.name + "/" + topic);
   };
   Channels& of = channels_.emplace_back();
-  for (const RobotPosters::Laser& laser : robot.posters.lasers) of.scans.push_back(channel(scan_, laser.name));
+  for (const RecordedLaser& laser : robot.lasers) of.scans.push_back(channel(scan_, laser.name));
   of.odometry = channel(pose_, "odometry");
   of.position = channel(pose_, "position");
   of.truth = channel(pose_, "truth");
@@ -51,8 +53,8 @@ void McapRecording::write_transform(Time date, const std::string& parent, const 
   file_.write(frames_, now_, foxglove::frame_transform(date, parent, child, pose, height_m));
 }
 
-void McapRecording::write_truth(const OfRobot& robot, Time date, const world::BodyState& body) {
-  file_.write(channels_[robot.number].truth, now_, foxglove::pose_in_frame(date, root, body.pose));
+void McapRecording::write_truth(const OfRobot& robot, Time date, const Pose& pose, double) {
+  file_.write(channels_[robot.number].truth, now_, foxglove::pose_in_frame(date, root, pose));
 }
 
 void McapRecording::write_odometry(const OfRobot& robot, const posters::Odometry& odometry) {

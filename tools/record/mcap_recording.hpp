@@ -28,13 +28,13 @@ class McapRecording final : public ViewerRecording {
     std::uint16_t odometry, position, truth, log;
   };
 
-  void add(const OfRobot& robot) override;
+  void add(const OfRobot& robot);
   void set_time(Time now) override { now_ = now; }
   void write_clock() override;
   void write_obstacles(const std::vector<world::Shape>& shapes) override;
   void write_transform(Time date, const std::string& parent, const std::string& child, const Pose& pose,
                        double height_m) override;
-  void write_truth(const OfRobot& robot, Time date, const world::BodyState& body) override;
+  void write_truth(const OfRobot& robot, Time date, const Pose& pose, double height_m) override;
   void write_odometry(const OfRobot& robot, const posters::Odometry& odometry) override;
   void write_position(const OfRobot& robot, const posters::PositionEstimate& position) override;
   void write_scan(const OfRobot& robot, std::size_t laser, const std::string& frame,

@@ -33,28 +33,34 @@ class NewValues {
   std::optional<Time> taken_;
 };
 
+/// A laser that a module reads.
+struct RecordedLaser {
+  std::string name, poster;
+  world::LaserDescription description;
+};
+
+inline std::vector<RecordedLaser> recorded_lasers(const scenario::RobotScenario& robot) {
+  std::vector<RecordedLaser> lasers;
+  for (const scenario::BridgeRow& row : robot.bridge)
+    for (std::size_t i = 0; i < robot.laser_names.size(); ++i)
+      if (row.device == robot.laser_names[i] + std::string(".reading"))
+        lasers.push_back({robot.laser_names[i], row.poster, robot.body.lasers[i]});
+  return lasers;
+}
+
 class RobotPosters {
  public:
-  struct Laser {
-    std::string name;
-    world::LaserDescription description;
-    NewValues<posters::LaserReading> readings;
-  };
-
   RobotPosters(const scenario::RobotScenario& scenario, const bridge::Robot& robot)
       : odometry_(robot.names(), "rflex.odometry"), position_(robot.names(), "pom.position") {
-    constexpr std::string_view reading = ".reading";
-    for (const scenario::BridgeRow& row : scenario.bridge)
-      for (std::size_t i = 0; i < scenario.laser_names.size(); ++i)
-        if (row.device == scenario.laser_names[i] + std::string(reading))
-          lasers.push_back({scenario.laser_names[i], scenario.body.lasers[i], {robot.names(), row.poster}});
+    for (const RecordedLaser& laser : recorded_lasers(scenario)) lasers_.emplace_back(robot.names(), laser.poster);
   }
 
-  /// Those that a module reads.
-  std::vector<Laser> lasers;
-
-  std::optional<posters::LaserReading> scan(Laser& laser) {
-    return laser.readings.take([](const posters::LaserReading& reading) { return reading.date; });
+  /// By recorded laser.
+  std::vector<std::optional<posters::LaserReading>> scans() {
+    std::vector<std::optional<posters::LaserReading>> scans;
+    for (NewValues<posters::LaserReading>& laser : lasers_)
+      scans.push_back(laser.take([](const posters::LaserReading& reading) { return reading.date; }));
+    return scans;
   }
   std::optional<posters::Odometry> odometry() {
     return odometry_.take([](const posters::Odometry& odometry) { return odometry.position.date; });
@@ -66,6 +72,7 @@ class RobotPosters {
  private:
   NewValues<posters::Odometry> odometry_;
   NewValues<posters::FusedPosition> position_;
+  std::vector<NewValues<posters::LaserReading>> lasers_;
 };
 
 }  // namespace waitpoint::tools

@@ -45,8 +45,8 @@ void RosBagRecording::write_transform(Time date, const std::string& parent, cons
   bag_->write_transform(place(date, parent, pose, height_m), child);
 }
 
-void RosBagRecording::write_truth(const OfRobot& robot, Time date, const world::BodyState& body) {
-  bag_->write_pose("/" + robot.name + "/truth", place(date, root, body.pose, body.height_m));
+void RosBagRecording::write_truth(const OfRobot& robot, Time date, const Pose& pose, double height_m) {
+  bag_->write_pose("/" + robot.name + "/truth", place(date, root, pose, height_m));
 }
 
 void RosBagRecording::write_odometry(const OfRobot& robot, const posters::Odometry& odometry) {

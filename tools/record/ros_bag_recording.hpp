@@ -24,13 +24,12 @@ class RosBagRecording final : public ViewerRecording {
   RosBagRecording(const std::filesystem::path& path, const scenario::Scenario& scenario);
 
  private:
-  void add(const OfRobot&) override {}
   void set_time(Time now) override { bag_->set_time(now.ns()); }
   void write_clock() override { bag_->write_clock(); }
   void write_obstacles(const std::vector<world::Shape>& shapes) override;
   void write_transform(Time date, const std::string& parent, const std::string& child, const Pose& pose,
                        double height_m) override;
-  void write_truth(const OfRobot& robot, Time date, const world::BodyState& body) override;
+  void write_truth(const OfRobot& robot, Time date, const Pose& pose, double height_m) override;
   void write_odometry(const OfRobot& robot, const posters::Odometry& odometry) override;
   void write_position(const OfRobot& robot, const posters::PositionEstimate& position) override;
   void write_scan(const OfRobot& robot, std::size_t laser, const std::string& frame,

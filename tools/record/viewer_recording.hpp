@@ -6,7 +6,6 @@
 //                       (in ROBOT/position -> ROBOT/LASER), requests to its modules and their outcomes
 #pragma once
 
-#include "tools/record/module_log.hpp"
 #include "tools/record/recording.hpp"
 #include "tools/record/robot_posters.hpp"
 
@@ -14,40 +13,37 @@ namespace waitpoint::tools {
 
 class ViewerRecording : public Recording {
  public:
-  void begin(run::Experiment& experiment) final;
+  bool shows_obstacles() const final { return true; }
 
  protected:
   struct OfRobot {
     std::size_t number;
     std::string name;
-    RobotPosters posters;
-    std::unique_ptr<ModuleLog> modules;
+    std::vector<RecordedLaser> lasers;
   };
 
   static constexpr const char* root = "world";  ///< the root frame
 
-  ViewerRecording(const std::filesystem::path& path, const scenario::Scenario& scenario)
-      : Recording(path), scenario_(scenario) {}
+  ViewerRecording(const std::filesystem::path& path, const scenario::Scenario& scenario);
+
+  const std::vector<OfRobot>& robots() const { return robots_; }
 
  private:
-  void record(const run::Experiment& experiment, Time now) final;
-  void commit(const bridge::RunResult& result) final;
-  void record_obstacles(const std::vector<world::Obstacle>& obstacles);
-  void record_truth(const OfRobot& robot, const world::World& world, Time now);
-  void record_news(OfRobot& robot);
-  void record_modules(OfRobot& robot);
+  void record(const StepNews& step) final;
+  void commit(const StepNews& last, const bridge::RunResult& result) final;
+  void record_truth(const OfRobot& robot, const RobotNews& news, Time now);
+  void record_news(const OfRobot& robot, const RobotNews& news);
+  void record_lines(const OfRobot& robot, const RobotNews& news);
 
   // Implemented by the format.
 
-  /// Called once per robot before the run.
-  virtual void add(const OfRobot& robot) = 0;
   /// The time of receipt of the following messages.
   virtual void set_time(Time now) = 0;
   virtual void write_clock() = 0;
   virtual void write_obstacles(const std::vector<world::Shape>& shapes) = 0;
   virtual void write_transform(Time date, const std::string& parent, const std::string& child, const Pose& pose,
                                double height_m) = 0;
-  virtual void write_truth(const OfRobot& robot, Time date, const world::BodyState& body) = 0;
+  virtual void write_truth(const OfRobot& robot, Time date, const Pose& pose, double height_m) = 0;
   virtual void write_odometry(const OfRobot& robot, const posters::Odometry& odometry) = 0;
   virtual void write_position(const OfRobot& robot, const posters::PositionEstimate& position) = 0;
   /// Of the robot's laser number `laser`, in that frame.
@@ -57,11 +53,7 @@ class ViewerRecording : public Recording {
   /// Called last.
   virtual void close(const bridge::RunResult& result) = 0;
 
-  const scenario::Scenario& scenario_;
   std::vector<OfRobot> robots_;
-  std::optional<std::vector<world::Shape>> meshes_;  // as shown on a plan, computed once
-  std::optional<std::vector<world::Shape>> drawn_;   // the obstacles as last written
-  std::optional<Time> sampled_;
 };
 
 }  // namespace waitpoint::tools

@@ -27,7 +27,7 @@ std::string picture_of(const run::Experiment& experiment, const bridge::RunResul
 }  // namespace
 
 Outputs::Outputs(const RunOptions& options, const scenario::Scenario& scenario, run::Experiment& experiment)
-    : experiment_(experiment), seed_(options.seed), process_(getpid()) {
+    : scenario_(scenario), experiment_(experiment), seed_(options.seed), process_(getpid()) {
   std::vector<std::string> names;
   for (const scenario::RobotScenario& robot : scenario.robots) names.push_back(robot.name);
   check_files(options, names);
@@ -62,21 +62,25 @@ void Outputs::watch() {
     if (trajectory_) experiment_.robots()[i]->add_path_sink(trajectory_->sink(i));
   }
   if (!recording_) return;
-  recording_->begin(experiment_);
+  reader_.emplace(scenario_, experiment_,
+                  recording_->shows_obstacles() ? NewsReader::Obstacles::read : NewsReader::Obstacles::left_out);
   // A library that writes bags knows nothing of forked copies.
   experiment_.set_observer([this](Time now) {
-    if (getpid() == process_) recording_->observe(experiment_, now);
+    if (getpid() == process_) recording_->add(reader_->take(now));
   });
 }
 
 void Outputs::watch_ranks() {
-  RankOutputOptions options{
-      .events = events_.has_value(), .paths = trajectory_.has_value(), .picture = picture_.has_value()};
+  RankOutputOptions options{.events = events_.has_value(),
+                            .paths = trajectory_.has_value(),
+                            .picture = picture_.has_value(),
+                            .record = recording_ != nullptr};
   options.write_event = [this](const std::string& line) { events_->add(line); };
   options.write_sample = [this](std::size_t robot, bridge::PathKind kind, const bridge::DatedPose& sample) {
     trajectory_->sink(robot).add(kind, sample);
   };
-  ranks_.emplace(experiment_, std::move(options));
+  options.recording = recording_.get();
+  ranks_.emplace(scenario_, experiment_, std::move(options));
 }
 
 void Outputs::second(std::int64_t second) {
@@ -102,7 +106,10 @@ void Outputs::complete(const bridge::RunResult& result, const std::string& cut_o
     file.commit();
   });
   attempt(trajectory_, [&](TrajectoryFiles& files) { is_cut ? files.cut_off(cut_off) : files.finish(); });
-  attempt(recording_, [&](Recording& file) { file.finish(result); });
+  attempt(recording_, [&](Recording& file) {
+    if (reader_) file.hold(reader_->lines());
+    file.finish(result);
+  });
   attempt(digests_, [&](DigestRecorder& file) { is_cut ? file.cut_off(cut_off) : file.finish(); });
   attempt(events_, [&](EventRecorder& file) { is_cut ? file.cut_off(cut_off) : file.finish(); });
 }

@@ -17,6 +17,7 @@
 #include "tools/output/output_file.hpp"
 #include "tools/output/recorders.hpp"
 #include "tools/output/trajectory.hpp"
+#include "tools/record/news_reader.hpp"
 #include "tools/record/recording.hpp"
 #include "tools/run/duration_files.hpp"
 #include "tools/run/journal_file.hpp"
@@ -52,6 +53,7 @@ class Outputs {
   void complete(const bridge::RunResult& result, const std::string& cut_off, Attempt attempt);
   void watch_ranks();
 
+  const scenario::Scenario& scenario_;
   run::Experiment& experiment_;
   std::optional<JournalFile> journal_;
   std::optional<DurationFiles> durations_;
@@ -60,6 +62,7 @@ class Outputs {
   std::optional<DigestRecorder> digests_;
   std::optional<EventRecorder> events_;
   std::unique_ptr<Recording> recording_;
+  std::optional<NewsReader> reader_;  // for the recording of one process
   std::optional<RankOutputs> ranks_;  // of several
   std::uint64_t seed_;
   pid_t process_;  // of the run

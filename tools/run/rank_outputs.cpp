@@ -33,7 +33,8 @@ std::vector<T> unpacked(std::span<const std::string> loads) {
 
 }  // namespace
 
-RankOutputs::RankOutputs(run::Experiment& experiment, RankOutputOptions options) : experiment_(experiment) {
+RankOutputs::RankOutputs(const scenario::Scenario& scenario, run::Experiment& experiment, RankOutputOptions options)
+    : experiment_(experiment) {
   if (options.events) {
     events_.emplace(options.write_event != nullptr, options.write_event);
     experiment.simulation().scheduler().set_watch(&*events_);
@@ -45,6 +46,10 @@ RankOutputs::RankOutputs(run::Experiment& experiment, RankOutputOptions options)
   }
   for (std::size_t i = 0; options.picture && i < experiment.robots().size(); ++i)
     if (experiment.is_here(i)) experiment.robots()[i]->keep_paths();
+  if (options.record) {
+    recording_.emplace(scenario, experiment, options.recording);
+    experiment.add(*recording_);
+  }
 }
 
 RankOutputs::~RankOutputs() {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the output files of a run of several ranks take from each of them, while it runs: events and samples of paths.
+// What the output files of a run of several ranks take from each of them, while it runs: events, samples of paths, and
+// what a recording takes.
 #pragma once
 
 #include <deque>
@@ -9,6 +10,7 @@
 #include <vector>
 
 #include "modules/run/experiment.hpp"
+#include "tools/record/rank_recording.hpp"
 
 namespace waitpoint::tools {
 
@@ -16,14 +18,16 @@ namespace waitpoint::tools {
 struct RankOutputOptions {
   bool events = false, paths = false;  ///< of --events, of --trajectory
   bool picture = false;                ///< paths in the results
+  bool record = false;                 ///< of --record
   std::function<void(const std::string& line)> write_event = nullptr;
   std::function<void(std::size_t robot, bridge::PathKind kind, const bridge::DatedPose& sample)> write_sample = nullptr;
+  Recording* recording = nullptr;
 };
 
 class RankOutputs {
  public:
-  /// On all ranks, before the run. The experiment must outlive this.
-  RankOutputs(run::Experiment& experiment, RankOutputOptions options);
+  /// On all ranks, before the run. The scenario, which is the experiment's, and the experiment must outlive this.
+  RankOutputs(const scenario::Scenario& scenario, run::Experiment& experiment, RankOutputOptions options);
   ~RankOutputs();
   RankOutputs(const RankOutputs&) = delete;
   RankOutputs& operator=(const RankOutputs&) = delete;
@@ -80,6 +84,7 @@ class RankOutputs {
   run::Experiment& experiment_;
   std::optional<Events> events_;
   std::optional<Paths> paths_;
+  std::optional<RankRecording> recording_;
 };
 
 }  // namespace waitpoint::tools

@@ -173,9 +173,11 @@ int follow(const RunOptions& options, const scenario::Scenario& scenario, std::s
   const kernel::UnfinishedRun unfinished(replay.c_str());
   try {
     run::Experiment experiment(scenario, types, {options.seed, options.order, replay, &ranks});
-    const RankOutputs outputs(experiment, {.events = options.events.has_value(),
-                                           .paths = options.trajectory.has_value(),
-                                           .picture = options.picture.has_value()});
+    const RankOutputs outputs(scenario, experiment,
+                              {.events = options.events.has_value(),
+                               .paths = options.trajectory.has_value(),
+                               .picture = options.picture.has_value(),
+                               .record = options.record.has_value()});
     experiment.follow();
   } catch (const LeaderLost& lost) {
     return report_failure(lost, replay, nullptr);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Values as bytes, between the processes of one run, which are of one build: a type lists its members once.
+// Values as bytes, between the processes of one run, which are of one build: a type lists its members once, unless it
+// has declared fields (core/fields.hpp).
 //
 //   void carry(auto& archive, RobotResult& result) { archive(result.name, result.goals, result.distance_m); }
 //
@@ -8,6 +9,7 @@
 //   send(packing.bytes());
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -20,6 +22,7 @@
 
 #include "core/digest.hpp"
 #include "core/error.hpp"
+#include "core/fields.hpp"
 #include "core/pose.hpp"
 #include "core/time.hpp"
 
@@ -60,8 +63,21 @@ class Packing {
     put(value.has_value());
     if (value) put(*value);
   }
+  template <class T, std::size_t Size>
+  void put(const std::array<T, Size>& items) {
+    for (const T& item : items) put(item);
+  }
+  template <class T, std::size_t Capacity>
+  void put(const Bounded<T, Capacity>& items) {
+    put(items.size());
+    for (const T& item : items) put(item);
+  }
+  template <HasFields T>
+  void put(const T& value) {
+    for_each_field(value, [this](std::string_view, const auto& member) { put(member); });
+  }
   template <class T>
-  requires(!Plain<T>) void put(const T& value) {
+  requires(!Plain<T> && !HasFields<T>) void put(const T& value) {
     carry(*this, const_cast<T&>(value));  // which it only reads
   }
 
@@ -110,8 +126,23 @@ class Unpacking {
     value.reset();
     if (is_there) take(value.emplace());
   }
+  template <class T, std::size_t Size>
+  void take(std::array<T, Size>& items) {
+    for (T& item : items) take(item);
+  }
+  template <class T, std::size_t Capacity>
+  void take(Bounded<T, Capacity>& items) {
+    std::size_t size = 0;
+    take(size);
+    items.resize(size);
+    for (T& item : items) take(item);
+  }
+  template <HasFields T>
+  void take(T& value) {
+    for_each_field(value, [this](std::string_view, auto& member) { take(member); });
+  }
   template <class T>
-  requires(!Plain<T>) void take(T& value) { carry(*this, value); }
+  requires(!Plain<T> && !HasFields<T>) void take(T& value) { carry(*this, value); }
 
   std::string_view rest_;
 };
