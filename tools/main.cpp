@@ -24,6 +24,7 @@
 #include "tools/options.hpp"
 #include "tools/output/output_file.hpp"
 #include "tools/papers_modules.hpp"
+#include "tools/ranks/launcher.hpp"
 #include "tools/run/run.hpp"
 #include "tools/run/run_watchdog.hpp"
 #include "tools/version.hpp"
@@ -49,9 +50,7 @@ int check(const tools::CheckOptions& options, std::span<const genom::ModuleType>
   return 0;
 }
 
-}  // namespace
-
-int main(int argc, const char* const* argv, std::vector<genom::ModuleType> own) {
+int carry_out(int argc, const char* const* argv, std::vector<genom::ModuleType> own) {
   // Of two types of one name the first counts.
   std::vector<genom::ModuleType> types = std::move(own);
   for (genom::ModuleType& type : tools::shipped_modules()) types.push_back(std::move(type));
@@ -89,6 +88,12 @@ int main(int argc, const char* const* argv, std::vector<genom::ModuleType> own) 
     std::fprintf(stderr, "waitpoint: the run failed: %s\n", printable_message(error.what()).c_str());
     return 1;
   }
+}
+
+}  // namespace
+
+int main(int argc, const char* const* argv, std::vector<genom::ModuleType> own) {
+  return tools::give_status(carry_out(argc, argv, std::move(own)));
 }
 
 }  // namespace waitpoint

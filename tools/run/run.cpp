@@ -19,6 +19,7 @@
 #include "tools/command/program_layer.hpp"
 #include "tools/output/summary.hpp"
 #include "tools/ranks/joined_ranks.hpp"
+#include "tools/ranks/launcher.hpp"
 #include "tools/run/duration_files.hpp"
 #include "tools/run/journal_file.hpp"
 #include "tools/run/outputs.hpp"
@@ -198,7 +199,9 @@ int run_rank(const RunOptions& options, std::span<const genom::ModuleType> types
   heed_signals();
   const RunWatchdog watchdog(options.watchdog_s);
   const std::unique_ptr<run::Transport> transport = join_ranks(options.ranks);
-  run::Ranks ranks(*transport, watch_over(*transport, options.watchdog_s * 6));
+  const RankProcesses processes(*transport);
+  tell_launcher_of_leader();
+  run::Ranks ranks(*transport, watch_over(*transport, processes, options.watchdog_s * 6));
   try {
     ranks.act_together([&] {
       if (bad != nullptr) std::rethrow_exception(bad);
@@ -218,7 +221,10 @@ int run_rank(const RunOptions& options, std::span<const genom::ModuleType> types
 
 int run(const RunOptions& options, std::span<const genom::ModuleType> types) {
   if (is_rank() && !options.seeds) return run_rank(options, types);
-  if (options.ranks > 1) start_ranks(options.ranks, options.arguments);
+  if (options.ranks > 1) {
+    check_for_ranks();
+    return run_ranks(options.ranks, options.arguments);
+  }
   const scenario::Scenario scenario = scenario_of(options);
   heed_signals();
   const RunWatchdog watchdog(options.watchdog_s);

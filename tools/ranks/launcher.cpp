@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/ranks/launcher.hpp"
+
+#include <fcntl.h>
+#include <sched.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+#include "core/error.hpp"
+#include "core/program_path.hpp"
+
+namespace waitpoint::tools {
+namespace {
+
+constexpr const char* door_variable = "WAITPOINT_LAUNCHER";  // the pipe, as a file of the launcher's
+constexpr int not_yet = -1;
+
+/// What a rank tells the launcher, in a single write.
+struct Told {
+  pid_t process;
+  int status;  ///< not_yet: it leads, and runs
+};
+
+int processors() {
+  cpu_set_t set;
+  return sched_getaffinity(0, sizeof set, &set) == 0 ? CPU_COUNT(&set) : 1;
+}
+
+int own_rank() {
+  const char* const rank = std::getenv("OMPI_COMM_WORLD_RANK");
+  return rank != nullptr ? std::atoi(rank) : 0;
+}
+
+std::vector<std::string> command_of(const std::string& mpirun, int ranks, std::span<const std::string> arguments) {
+  // Messages by copies within shared memory, without a right to read another process's; after an interruption, two
+  // seconds to end in order.
+  std::vector<std::string> words{mpirun, "--quiet", "-n", std::to_string(ranks)};
+  words.insert(words.end(), {"--mca", "btl_vader_single_copy_mechanism", "none"});
+  words.insert(words.end(), {"--mca", "odls_base_sigkill_timeout", "2"});
+  words.insert(words.end(), {"--enable-recovery", "--mca", "orte_abort_on_non_zero_status", "0"});
+  if (ranks > processors()) words.insert(words.end(), {"--oversubscribe", "--bind-to", "none"});
+  // The processes have this user's rights as the present one has.
+  if (geteuid() == 0) words.emplace_back("--allow-run-as-root");
+  words.push_back(std::filesystem::read_symlink("/proc/self/exe").string());
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  return words;
+}
+
+[[noreturn]] void execute(const std::vector<std::string>& words, const sigset_t& signals, pid_t launcher) {
+  prctl(PR_SET_PDEATHSIG, SIGTERM);
+  if (getppid() != launcher) _exit(1);
+  sigprocmask(SIG_SETMASK, &signals, nullptr);
+  std::vector<char*> pointers;
+  for (const std::string& word : words) pointers.push_back(const_cast<char*>(word.c_str()));
+  pointers.push_back(nullptr);
+  execv(pointers.front(), pointers.data());
+  std::fprintf(stderr, "waitpoint: '%s' cannot be started: %s\n", pointers.front(), std::strerror(errno));
+  _exit(2);
+}
+
+void tell(int status) {
+  const char* const door = std::getenv(door_variable);
+  const int pipe = door != nullptr ? open(door, O_WRONLY | O_CLOEXEC) : -1;
+  if (pipe < 0) return;
+  const Told told{getpid(), status};
+  static_cast<void>(!write(pipe, &told, sizeof told));
+  close(pipe);
+}
+
+/// What the ranks have told so far.
+class Door {
+ public:
+  Door() {
+    if (pipe2(ends_, O_CLOEXEC | O_NONBLOCK) != 0) throw BadInput("--ranks", std::strerror(errno));
+    setenv(door_variable, ("/proc/" + std::to_string(getpid()) + "/fd/" + std::to_string(ends_[1])).c_str(), 1);
+  }
+  ~Door() {
+    close(ends_[0]);
+    close(ends_[1]);
+  }
+  Door(const Door&) = delete;
+  Door& operator=(const Door&) = delete;
+
+  void read_all() {
+    for (Told told{}; read(ends_[0], &told, sizeof told) == sizeof told;)
+      if (told.status == not_yet)
+        leader_ = told.process;
+      else if (!status_)
+        status_ = told.status;
+  }
+  std::optional<pid_t> leader() const { return leader_; }
+  std::optional<int> status() const { return status_; }
+
+ private:
+  int ends_[2];
+  std::optional<pid_t> leader_;
+  std::optional<int> status_;
+};
+
+int status_of(const Door& door, int of_mpirun, bool is_interrupted) {
+  if (door.status()) return *door.status();
+  if (is_interrupted) return 130;
+  if (WIFEXITED(of_mpirun) && WEXITSTATUS(of_mpirun) != 0) return WEXITSTATUS(of_mpirun);
+  std::fprintf(stderr, "waitpoint: the run failed: all its processes have ended without a result\n");
+  return 1;
+}
+
+}  // namespace
+
+bool is_rank() {
+  const char* const size = std::getenv("OMPI_COMM_WORLD_SIZE");
+  return size != nullptr && std::atoi(size) > 1;
+}
+
+int run_ranks(int ranks, std::span<const std::string> arguments) {
+  const std::string mpirun = find_program("mpirun").string();
+  if (mpirun.empty())
+    throw BadInput("--ranks",
+                   "there is no program 'mpirun': install openmpi-bin and libopenmpi-dev, and build "
+                   "waitpoint again");
+  const std::vector<std::string> words = command_of(mpirun, ranks, arguments);
+  Door door;
+  sigset_t heeded, before;
+  sigemptyset(&heeded);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGCHLD}) sigaddset(&heeded, signal);
+  sigprocmask(SIG_BLOCK, &heeded, &before);
+  const pid_t self = getpid(), child = fork();
+  if (child < 0) throw BadInput("--ranks", std::string("mpirun cannot be started: ") + std::strerror(errno));
+  if (child == 0) execute(words, before, self);
+  bool is_interrupted = false;
+  int of_mpirun = 0;
+  while (waitpid(child, &of_mpirun, WNOHANG) == 0) {
+    siginfo_t info;
+    const int signal = sigwaitinfo(&heeded, &info);
+    if (signal < 0 || signal == SIGCHLD) continue;
+    is_interrupted = true;
+    // A terminal sends its own to mpirun, too.
+    door.read_all();
+    if (info.si_code != SI_KERNEL) kill(door.leader().value_or(child), signal);
+  }
+  door.read_all();
+  return status_of(door, of_mpirun, is_interrupted);
+}
+
+void tell_launcher_of_leader() {
+  if (own_rank() == 0) tell(not_yet);
+}
+
+int give_status(int status) {
+  if (!is_rank() || std::getenv(door_variable) == nullptr) return status;
+  if (own_rank() == 0 || status != 0) tell(status);
+  return 0;
+}
+
+}  // namespace waitpoint::tools
