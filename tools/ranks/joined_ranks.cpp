@@ -43,35 +43,55 @@ class Interrupted {
 // A process that has ended may have sent what this wait is for.
 constexpr double arrives_s = 0.15;
 
+/// Tells of one that has not answered for 5, 10, 20, ... seconds.
+class Reminder {
+ public:
+  void tell(const std::string& who, double seconds, const std::string& where) {
+    constexpr double first_s = 5;
+    if (seconds < told_s_) told_s_ = 0;  // another wait
+    if (seconds < first_s || seconds < 2 * told_s_) return;
+    std::fprintf(stderr, "waitpoint: %s\n", text(who, seconds, where).c_str());
+    told_s_ = seconds;
+  }
+  static std::string text(const std::string& who, double seconds, const std::string& where) {
+    return who + " has not answered for " + std::to_string(static_cast<long>(seconds)) + " s, " + where;
+  }
+
+ private:
+  double told_s_ = 0;
+};
+
 run::Ranks::Waiting watch_followers(run::Transport& transport, const RankProcesses& processes, double limit_s) {
-  return [&transport, &processes, limit_s, interrupted = Interrupted(), told_s = 0.0](
+  return [&transport, &processes, limit_s, interrupted = Interrupted(), reminder = Reminder()](
              double seconds, const std::string& where) mutable {
     // The user interrupts the first rank alone, which then ends all in order.
-    constexpr double in_order_s = 0.4, first_told_s = 5;
+    constexpr double in_order_s = 0.4;
     const std::string ended = processes.ended();
     if (!ended.empty() && seconds > arrives_s) throw std::runtime_error(ended + " has ended, " + where);
     const std::string missing = transport.missing(), who = missing.empty() ? "another rank" : missing;
-    if (seconds < told_s) told_s = 0;  // another wait
     if (interrupted.seconds() > in_order_s && seconds > in_order_s)
       throw std::runtime_error(who + " has ended or does not answer, " + where);
-    const std::string so_long = " has not answered for " + std::to_string(static_cast<long>(seconds)) + " s, " + where;
-    if (limit_s > 0 && seconds > limit_s) throw std::runtime_error(who + so_long);
-    if (seconds < first_told_s || seconds < 2 * told_s) return;
-    std::fprintf(stderr, "waitpoint: %s%s\n", who.c_str(), so_long.c_str());
-    told_s = seconds;
+    if (limit_s > 0 && seconds > limit_s) throw std::runtime_error(Reminder::text(who, seconds, where));
+    reminder.tell(who, seconds, where);
   };
 }
 
-run::Ranks::Waiting watch_leader(run::Transport& transport, const RankProcesses& processes) {
-  return [&transport, &processes, interrupted = Interrupted()](double seconds, const std::string& where) mutable {
+// The leader may take its time, at the prompt.
+run::Ranks::Waiting watch_leader(run::Transport& transport, const RankProcesses& processes, double limit_s) {
+  return [&transport, &processes, limit_s, interrupted = Interrupted(), reminder = Reminder()](
+             double seconds, const std::string& where) mutable {
     constexpr double in_order_s = 0.9;
-    const bool has_leader_ended = processes.has_ended(0) && seconds > arrives_s;
-    if (!has_leader_ended && interrupted.seconds() <= in_order_s) return;
+    const std::string who = "rank 0";
+    const bool has_ended = processes.has_ended(0) && seconds > arrives_s, is_stopped = processes.is_stopped(0);
+    const bool is_lost = is_stopped && limit_s > 0 && seconds > limit_s;
     int first_left = 1;
     while (first_left < transport.rank() && processes.has_ended(first_left)) ++first_left;
-    if (transport.rank() != first_left || transport.has_first_failed())
-      throw std::runtime_error("the run has been ended");
-    throw LeaderLost((has_leader_ended ? "rank 0 has ended, " : "rank 0 has ended or does not answer, ") + where);
+    const bool is_reporter = transport.rank() == first_left;
+    if (is_stopped && is_reporter) reminder.tell(who, seconds, where);
+    if (!has_ended && !is_lost && interrupted.seconds() <= in_order_s) return;
+    if (!is_reporter || transport.has_first_failed()) throw std::runtime_error("the run has been ended");
+    throw LeaderLost(is_lost ? Reminder::text(who, seconds, where)
+                             : who + (has_ended ? " has ended, " : " has ended or does not answer, ") + where);
   };
 }
 
@@ -94,7 +114,8 @@ std::unique_ptr<run::Transport> join_ranks(int wanted) {
 }
 
 run::Ranks::Waiting watch_over(run::Transport& transport, const RankProcesses& processes, double limit_s) {
-  return transport.rank() == 0 ? watch_followers(transport, processes, limit_s) : watch_leader(transport, processes);
+  return transport.rank() == 0 ? watch_followers(transport, processes, limit_s)
+                               : watch_leader(transport, processes, limit_s);
 }
 
 }  // namespace waitpoint::tools

@@ -60,6 +60,8 @@ std::vector<std::string> command_of(const std::string& mpirun, int ranks, std::s
   prctl(PR_SET_PDEATHSIG, SIGTERM);
   if (getppid() != launcher) _exit(1);
   sigprocmask(SIG_SETMASK, &signals, nullptr);
+  // Its library prints an error of its own for each process that is killed.
+  setenv("PMIX_OUTPUT_REDIRECT", "syslog", 0);
   std::vector<char*> pointers;
   for (const std::string& word : words) pointers.push_back(const_cast<char*>(word.c_str()));
   pointers.push_back(nullptr);

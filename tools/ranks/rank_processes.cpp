@@ -40,23 +40,32 @@ RankProcesses::RankProcesses(run::Transport& transport) {
     run::Unpacking unpacking(bytes);
     unpacking(other);
     const bool is_watched = other.numbered_by == own.numbered_by && other.number != own.number;
-    descriptors_.push_back(is_watched ? static_cast<int>(syscall(SYS_pidfd_open, other.number, 0)) : -1);
+    processes_.push_back({other.number, is_watched ? static_cast<int>(syscall(SYS_pidfd_open, other.number, 0)) : -1});
   }
 }
 
 RankProcesses::~RankProcesses() {
-  for (const int descriptor : descriptors_)
-    if (descriptor >= 0) close(descriptor);
+  for (const Watched& process : processes_)
+    if (process.descriptor >= 0) close(process.descriptor);
 }
 
 bool RankProcesses::has_ended(int rank) const {
-  pollfd process{.fd = descriptors_[static_cast<std::size_t>(rank)], .events = POLLIN, .revents = 0};
+  pollfd process{.fd = processes_[static_cast<std::size_t>(rank)].descriptor, .events = POLLIN, .revents = 0};
   return process.fd >= 0 && poll(&process, 1, 0) == 1;
+}
+
+bool RankProcesses::is_stopped(int rank) const {
+  const Watched& process = processes_[static_cast<std::size_t>(rank)];
+  if (process.descriptor < 0) return false;
+  std::string text;
+  std::getline(std::ifstream("/proc/" + std::to_string(process.number) + "/stat"), text);
+  const std::size_t state = text.rfind(") ");  // after the program's name
+  return state + 2 < text.size() && (text[state + 2] == 'T' || text[state + 2] == 't');
 }
 
 std::string RankProcesses::ended() const {
   std::string names;
-  for (int rank = 0; rank < static_cast<int>(descriptors_.size()); ++rank)
+  for (int rank = 0; rank < static_cast<int>(processes_.size()); ++rank)
     if (has_ended(rank)) names += (names.empty() ? "rank " : ", rank ") + std::to_string(rank);
   return names;
 }

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The processes of a run's ranks, as far as they are on this host: whether they have ended, known within moments and
-// whatever mpirun does.
+// The processes of a run's ranks, as far as they are on this host: whether they have ended or are stopped, known within
+// moments and whatever mpirun does.
 #pragma once
+
+#include <sys/types.h>
 
 #include <string>
 #include <vector>
@@ -18,13 +20,19 @@ class RankProcesses {
   RankProcesses(const RankProcesses&) = delete;
   RankProcesses& operator=(const RankProcesses&) = delete;
 
-  /// False if not known.
+  // False if not known.
   bool has_ended(int rank) const;
+  /// By a signal or a debugger.
+  bool is_stopped(int rank) const;
   /// All ranks that have, "rank 1, rank 2"; empty: none is known.
   std::string ended() const;
 
  private:
-  std::vector<int> descriptors_;  // of each rank's process; -1: on another host, or this one
+  struct Watched {
+    pid_t number;
+    int descriptor;  // -1: on another host, or this one
+  };
+  std::vector<Watched> processes_;  // by rank
 };
 
 }  // namespace waitpoint::tools
