@@ -38,7 +38,7 @@ Link* Node::link_to(std::string_view robot) {
     medium = *declared;
     network_.has_traffic_ = true;
   }
-  const Forward* const forward = network_.elsewhere_.contains(to) ? &network_.forward_ : nullptr;
+  const Forward* const forward = network_.is_elsewhere(to) ? &network_.forward_ : nullptr;
   return &links_
               .try_emplace(to, network_.scheduler_, robot_, to, *receiver, medium, network_.distance_,
                            network_.limits_.in_flight_max, forward)
@@ -116,7 +116,7 @@ void Network::set_elsewhere(std::set<std::string, std::less<>> robots, Forward f
 void Network::arrive_at(Time time, const std::string& sender, std::uint64_t count, const std::string& to,
                         Packet packet) {
   const std::shared_ptr<Node> there = node(sender);
-  Link* const link = there != nullptr && elsewhere_.contains(sender) ? there->link_to(to) : nullptr;
+  Link* const link = there != nullptr && is_elsewhere(sender) ? there->link_to(to) : nullptr;
   WAITPOINT_CHECK(link != nullptr, "a packet comes from a robot that is not elsewhere, or over no link");
   link->arrive_at(time, count, std::move(packet));
 }

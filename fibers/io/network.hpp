@@ -110,6 +110,7 @@ class Network {
 
   /// The tasks of these robots run in other processes: packets to them go to `forward`. Must precede all messages.
   void set_elsewhere(std::set<std::string, std::less<>> robots, Forward forward);
+  bool is_elsewhere(std::string_view robot) const { return elsewhere_.contains(robot); }
   /// A packet that the process with the sender's tasks has forwarded, with the arguments of its Forward: it arrives as
   /// if the sender were here.
   void arrive_at(Time time, const std::string& sender, std::uint64_t count, const std::string& to, Packet packet);

@@ -11,6 +11,7 @@
 #include "fibers/sync/threads.hpp"
 #include "modules/run/heap_pages.hpp"
 #include "modules/run/ranks/processor_time.hpp"
+#include "modules/run/task_list.hpp"
 
 namespace waitpoint::run {
 namespace {
@@ -108,13 +109,13 @@ void Experiment::make(const scenario::Scenario& scenario, std::span<const genom:
 }
 
 void Experiment::join_ranks() {
-  ranked_ =
-      std::make_unique<RankedRun>(*options_.ranks, RankedParts{simulation_, assembly_->world(), robots(), lanes_,
-                                                               *operator_, *network_, assembly_->scenario().step});
+  ranked_ = std::make_unique<RankedRun>(
+      *options_.ranks, RankedParts{simulation_, assembly_->world(), robots(), lanes_, *operator_, *network_, steps()});
   ranked_->add_intervention = [this](const Intervention& intervention, std::optional<Time> date) {
     return operator_->add(intervention, date);
   };
   ranked_->describe_idle = [this](Duration least) { return idle_here(least); };
+  ranked_->list_tasks = [this](const kernel::Robot& robot) { return list_tasks(simulation_.scheduler(), robot); };
   ranked_->result_of = [this](std::size_t robot) {
     bridge::RobotResult result = robots()[robot]->result();
     complete(result, robot);
@@ -209,9 +210,8 @@ void Experiment::run_world() {
 }
 
 RunEnd Experiment::run_to_end_of_step(Time until) {
-  const Duration step = assembly_->scenario().step;
   for (;;) {
-    const Time stop = last_end_ ? Time() + step * (last_end_->since_start() / step + 1) : Time::max();
+    const Time stop = last_end_ ? steps().next(*last_end_) : Time::max();
     const RunEnd end = simulation_.run_before(std::min(until, stop));
     if (end == RunEnd::ended && simulation_.go_on_with_services()) {
       last_end_ = simulation_.global_time();
@@ -259,6 +259,13 @@ std::string Experiment::idle_here(Duration least) {
   const Duration run = simulation_.global_time().since_start();
   if (run < least) return "";
   return sync::describe_idle(simulation_.scheduler(), Time() + (run - least), sync::Places::told);
+}
+
+std::string Experiment::tasks() {
+  if (ranked_) return ranked_->tasks();
+  std::string lines = list_tasks(simulation_.scheduler(), simulation_.environment());
+  for (const kernel::Robot* lane : lanes_) lines += list_tasks(simulation_.scheduler(), *lane);
+  return lines;
 }
 
 void Experiment::gather_records() const {

@@ -82,6 +82,8 @@ class Experiment {
 
   /// The tasks that have waited without a timeout for `least` of virtual time (sync::describe_idle), for people.
   std::string idle(Duration least);
+  /// A line for each task (list_tasks()): the environment's, then by robot, for people.
+  std::string tasks();
   /// The figures so far that expectations refer to; cheap.
   bridge::RunTotals figures() const;
   /// The result so far.
@@ -97,6 +99,7 @@ class Experiment {
   void spawn(bridge::Robot& robot);
   std::string idle_here(Duration least);
   void complete(bridge::RobotResult& result, std::size_t robot) const;
+  WorldSteps steps() const { return WorldSteps(assembly_->scenario().step); }
   void run_world();
   void step_world();
   RunEnd run_to_end_of_step(Time until);

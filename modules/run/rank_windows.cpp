@@ -6,7 +6,6 @@
 #include <functional>
 #include <set>
 #include <span>
-#include <stdexcept>
 #include <string_view>
 #include <utility>
 
@@ -48,11 +47,10 @@ void RankWindows::send_elsewhere() {
 }
 
 Time RankWindows::end_of_window() const {
-  const Duration begun = parts_.step * (reached_.since_start() / parts_.step);
+  const Time begun = parts_.steps.last(reached_), step = parts_.steps.next(reached_);
   const Duration lookahead = parts_.simulation.scheduler().lookahead();
-  const Time step = Time() + begun + parts_.step;
-  if (lookahead >= parts_.step) return step;
-  return std::min(step, Time() + begun + lookahead * ((reached_.since_start() - begun) / lookahead + 1));
+  if (lookahead >= parts_.steps.period()) return step;
+  return std::min(step, begun + lookahead * ((reached_ - begun) / lookahead + 1));
 }
 
 RunEnd RankWindows::run_before(Time until) {
@@ -78,8 +76,10 @@ Window RankWindows::run_window(Time end) {
   window.live_tasks = parts_.simulation.scheduler().roster().live_tasks();
   window.last_end = last_end_here_;
   window.environment = parts_.simulation.environment().digest.value();
+  bodies_.clear();
   Digest bodies;
-  for (std::size_t i = 0; i < parts_.robots.size(); ++i) bodies.add(io::hash_of(parts_.world.body(world::BodyId(i))));
+  for (std::size_t i = 0; i < parts_.robots.size(); ++i)
+    bodies.add(bodies_.emplace_back(io::hash_of(parts_.world.body(world::BodyId(i)))));
   window.bodies = bodies.value();
   window.commands = commands_;
   window.messages = messages_;
@@ -132,7 +132,7 @@ RunEnd RankWindows::take_over(const std::vector<Window>& windows, Time end) {
   std::optional<Time> last_end;
   for (std::size_t rank = 0; rank < windows.size(); ++rank) {
     const Window& window = windows[rank];
-    if (window.failure.kind == Failure::Kind::exception) throw std::runtime_error(window.failure.text);
+    if (window.failure.kind == Failure::Kind::exception) throw FailedTogether(window.failure.text);
     if (window.failure.kind != Failure::Kind::none) {
       trouble_ = window.failure.text;
       return end_of(window.failure.kind);
@@ -143,7 +143,7 @@ RunEnd RankWindows::take_over(const std::vector<Window>& windows, Time end) {
     for (const bridge::BodyCommand& command : window.commands) parts_.world.command(command.body, command.velocity);
     for (const GoalCounts& goals : window.goals) parts_.robots[goals.robot]->set_goals(goals.goals, goals.reached);
     for (const Message& message : window.messages)
-      if (is_here(bridge::index_of(message.to, parts_.robots, {})))
+      if (!parts_.network.is_elsewhere(message.to))
         parts_.network.arrive_at(message.arrives, message.sender, message.count, message.to,
                                  io::packet_of(std::as_bytes(std::span(message.packet))));
     for (const StepNumber& step : window.steps) remote_steps_[step.robot].adopt(*parts_.lanes[step.robot], step.number);
@@ -152,8 +152,7 @@ RunEnd RankWindows::take_over(const std::vector<Window>& windows, Time end) {
   }
   check_replicas(windows, end);
   last_end_ = live_tasks == 0 ? last_end : std::nullopt;
-  const bool is_whole_step = end == Time() + parts_.step * (end.since_start() / parts_.step);
-  return live_tasks == 0 && last_end_ && is_whole_step ? RunEnd::ended : RunEnd::time_reached;
+  return live_tasks == 0 && last_end_ && parts_.steps.contain(end) ? RunEnd::ended : RunEnd::time_reached;
 }
 
 void RankWindows::check_replicas(const std::vector<Window>& windows, Time end) {
@@ -163,18 +162,15 @@ void RankWindows::check_replicas(const std::vector<Window>& windows, Time end) {
   };
   while (other < windows.size() && is_same(windows[other])) ++other;
   if (other == windows.size()) return;
-  std::vector<std::uint64_t> own;
-  for (std::size_t i = 0; i < parts_.robots.size(); ++i)
-    own.push_back(io::hash_of(parts_.world.body(world::BodyId(i))));
-  const std::vector<std::vector<std::uint64_t>> all = ranks_.gather(own);
+  const std::vector<std::vector<std::uint64_t>> all = ranks_.gather(bodies_);
   std::string what = "the environment's events differ";
-  for (std::size_t i = 0; i < own.size(); ++i)
+  for (std::size_t i = 0; i < bodies_.size(); ++i)
     if (all[other][i] != all[0][i]) {
       what = "the state of body '" + parts_.robots[i]->name() + "' differs";
       break;
     }
-  throw std::runtime_error("rank " + std::to_string(other) + " is not equal to rank 0 after window " +
-                           std::to_string(windows_) + ", which ends at " + to_string(end) + " s: " + what);
+  throw FailedTogether("rank " + std::to_string(other) + " is not equal to rank 0 after window " +
+                       std::to_string(windows_) + ", which ends at " + to_string(end) + " s: " + what);
 }
 
 }  // namespace waitpoint::run

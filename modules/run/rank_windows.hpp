@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,7 @@
 #include "modules/run/rank_window.hpp"
 #include "modules/run/ranks/ranks.hpp"
 #include "modules/run/ranks/remote_step.hpp"
+#include "modules/run/world_steps.hpp"
 
 namespace waitpoint::run {
 
@@ -28,7 +30,13 @@ struct RankedParts {
   const std::vector<kernel::Robot*>& lanes;  // by robot
   Operator& the_operator;
   io::Network& network;
-  Duration step;
+  WorldSteps steps;
+};
+
+/// Thrown on all ranks after the same window, whose exchange took place: an exception in a task of any, or replicated
+/// state that differs.
+struct FailedTogether : std::runtime_error {
+  using std::runtime_error::runtime_error;
 };
 
 class RankWindows {
@@ -38,8 +46,7 @@ class RankWindows {
   RankWindows(const RankWindows&) = delete;
   RankWindows& operator=(const RankWindows&) = delete;
 
-  /// Collective: executes all events before `until`. Throws std::runtime_error, on all ranks, for an exception in a
-  /// task of any, and if replicated state differs.
+  /// Collective: executes all events before `until`. Throws FailedTogether.
   RunEnd run_before(Time until);
 
   /// On the world's task: releases the bridge of a robot elsewhere.
@@ -69,6 +76,7 @@ class RankWindows {
   std::vector<Message> messages_;              // to robots elsewhere, in this window
   std::vector<RemoteStep> remote_steps_;       // by robot; unused for those here
   std::vector<GoalCounts> told_;               // by robot
+  std::vector<std::uint64_t> bodies_;          // hashes of their states at the end of this window, by robot
   std::size_t seen_outcomes_ = 0;
   Time reached_;
   std::uint64_t windows_ = 0;

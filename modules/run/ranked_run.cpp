@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "modules/run/ranked_run.hpp"
 
+#include <algorithm>
 #include <exception>
+#include <iterator>
 #include <utility>
 
 namespace waitpoint::run {
 
 /// A call of the leader's, for the others.
 struct RankedRun::Call {
-  enum class Kind : std::uint8_t { run_before, intervene, idle, gather_records, complete, end };
+  enum class Kind : std::uint8_t { run_before, intervene, idle, tasks, gather_records, complete, end };
 
   Kind kind = Kind::end;
   Time until = {};
@@ -64,9 +66,31 @@ std::string RankedRun::idle(Duration least) {
   return all;
 }
 
+std::string RankedRun::tasks() {
+  if (is_over_) return "";
+  tell({.kind = Call::Kind::tasks});
+  std::vector<RobotTasks> all;
+  for (std::vector<RobotTasks>& part : ranks_.gather(tasks_here())) std::ranges::move(part, std::back_inserter(all));
+  std::ranges::sort(all, {}, &RobotTasks::robot);
+  std::string lines = list_tasks(parts_.simulation.environment());
+  for (const RobotTasks& of_robot : all) lines += of_robot.lines;
+  return lines;
+}
+
+std::vector<RobotTasks> RankedRun::tasks_here() const {
+  std::vector<RobotTasks> all;
+  for (std::size_t i = 0; i < parts_.lanes.size(); ++i)
+    if (is_here(i)) all.push_back({static_cast<std::uint32_t>(i), list_tasks(*parts_.lanes[i])});
+  return all;
+}
+
 void RankedRun::gather_records() {
   if (is_over_) return;
-  if (ranks_.leads()) tell({.kind = Call::Kind::gather_records});
+  tell({.kind = Call::Kind::gather_records});
+  take_over(ranks_.gather(records_here()));
+}
+
+Records RankedRun::records_here() const {
   Records own;
   own.pairs_after_ends = parts_.simulation.scheduler().roster().pairs_after_ends();
   for (std::size_t i = 0; i < parts_.lanes.size(); ++i) {
@@ -74,12 +98,14 @@ void RankedRun::gather_records() {
     if (is_here(i))
       own.robots.push_back({static_cast<std::uint32_t>(i), lane.digest, lane.outputs, lane.ended, lane.end_time});
   }
+  return own;
+}
+
+void RankedRun::take_over(const std::vector<Records>& records) {
   after_ends_elsewhere_ = 0;
-  const std::vector<Records> all = ranks_.gather(own);
-  for (std::size_t rank = 0; rank < all.size(); ++rank) {
-    if (rank == static_cast<std::size_t>(ranks_.rank())) continue;
-    after_ends_elsewhere_ += all[rank].pairs_after_ends;
-    for (const RobotRecord& record : all[rank].robots) {
+  for (std::size_t rank = 1; rank < records.size(); ++rank) {
+    after_ends_elsewhere_ += records[rank].pairs_after_ends;
+    for (const RobotRecord& record : records[rank].robots) {
       kernel::Robot& lane = *parts_.lanes[record.robot];
       lane.digest = record.digest;
       lane.outputs = record.outputs;
@@ -91,23 +117,27 @@ void RankedRun::gather_records() {
 
 void RankedRun::complete(bridge::RunResult& result) {
   if (is_over_) return;
-  if (ranks_.leads()) tell({.kind = Call::Kind::complete});
-  Results own;
-  own.figures = windows_.figures();
-  for (std::size_t i = 0; i < parts_.robots.size(); ++i) {
-    if (!is_here(i) || ranks_.leads()) continue;
-    own.robots.push_back(static_cast<std::uint32_t>(i));
-    own.results.push_back(result_of(i));
-  }
-  for (const Results& of_rank : ranks_.gather(own)) {
+  tell({.kind = Call::Kind::complete});
+  for (const Results& of_rank : ranks_.gather(Results{.figures = windows_.figures()})) {
     result.ranks.push_back(of_rank.figures);
-    for (std::size_t i = 0; i < of_rank.robots.size() && ranks_.leads(); ++i) {
+    for (std::size_t i = 0; i < of_rank.robots.size(); ++i) {
       bridge::RobotResult& robot = result.robots[of_rank.robots[i]];
       world::Shape shape = std::move(robot.shape);
       robot = of_rank.results[i];
       robot.shape = std::move(shape);
     }
   }
+}
+
+Results RankedRun::results_here() const {
+  Results own;
+  own.figures = windows_.figures();
+  for (std::size_t i = 0; i < parts_.robots.size(); ++i) {
+    if (!is_here(i)) continue;
+    own.robots.push_back(static_cast<std::uint32_t>(i));
+    own.results.push_back(result_of(i));
+  }
+  return own;
 }
 
 void RankedRun::follow() {
@@ -131,19 +161,22 @@ void RankedRun::obey(const Call& call) {
       }
       break;
     case Call::Kind::idle: ranks_.gather(describe_idle(call.least)); break;
-    case Call::Kind::gather_records: gather_records(); break;
-    case Call::Kind::complete: {
-      bridge::RunResult none;
-      complete(none);
-      break;
-    }
+    case Call::Kind::tasks: ranks_.gather(tasks_here()); break;
+    case Call::Kind::gather_records: ranks_.gather(records_here()); break;
+    case Call::Kind::complete: ranks_.gather(results_here()); break;
     case Call::Kind::end: break;
   }
 }
 
 RunEnd RankedRun::carry_on(Time until) {
   is_over_ = true;  // if it fails, all ranks leave
-  const RunEnd end = windows_.run_before(until);
+  RunEnd end = RunEnd::time_reached;
+  try {
+    end = windows_.run_before(until);
+  } catch (const FailedTogether&) {
+    ship();
+    throw;
+  }
   ship();
   is_over_ = false;
   return end;

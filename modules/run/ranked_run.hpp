@@ -53,6 +53,8 @@ class RankedRun {
   Time intervene(const Intervention& intervention, std::optional<Time> date);
   /// Experiment::idle() of all ranks.
   std::string idle(Duration least);
+  /// Experiment::tasks() of all ranks.
+  std::string tasks();
   /// Takes over the other ranks' records of their robots, for digests and counts of events.
   void gather_records();
   /// Completes a result by the robots that are elsewhere.
@@ -66,9 +68,10 @@ class RankedRun {
   /// The number of events of services elsewhere after the ends of their robots; after gather_records().
   std::uint64_t events_after_ends_elsewhere() const { return after_ends_elsewhere_; }
 
-  /// For intervene() and idle() on each rank: the experiment's own.
+  /// For the calls above on each rank: the experiment's own.
   std::function<Time(const Intervention&, std::optional<Time>)> add_intervention;
   std::function<std::string(Duration)> describe_idle;
+  std::function<std::string(const kernel::Robot&)> list_tasks;
   std::function<bridge::RobotResult(std::size_t robot)> result_of;
 
  private:
@@ -78,6 +81,10 @@ class RankedRun {
   void obey(const Call& call);
   RunEnd carry_on(Time until);
   void ship();
+  Records records_here() const;
+  void take_over(const std::vector<Records>& records);
+  Results results_here() const;
+  std::vector<RobotTasks> tasks_here() const;
   bool is_here(std::size_t robot) const { return ranks_.placement().is_here(robot); }
 
   Ranks& ranks_;

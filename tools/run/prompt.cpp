@@ -39,15 +39,6 @@ constexpr const char* help_text = R"(  step [N]                     execute the 
   quit                         end the run here, with summary and digest
 )";
 
-const char* state_name(kernel::TaskState state) {
-  switch (state) {
-    case kernel::TaskState::running: return "running";
-    case kernel::TaskState::ready: return "ready";
-    case kernel::TaskState::blocked: return "blocked";
-    default: return "ended";
-  }
-}
-
 }  // namespace
 
 const Prompt::Named Prompt::commands[] = {
@@ -209,14 +200,7 @@ void Prompt::status(std::string_view rest) {
 
 void Prompt::tasks(std::string_view rest) {
   scenario::require_end(rest, written_);
-  for (const kernel::Task* task = session_.experiment().simulation().scheduler().first_task(); task != nullptr;
-       task = task->next) {
-    fmt::print("  {:<24} {:<12} {:<8} {} s, {}", task->name, task->robot->name, state_name(task->state),
-               to_string(task->local_time), kernel::name(task->operation));
-    if (const kernel::Object* at = task->blocked_on; at != nullptr)
-      fmt::print(" {}#{} {}", at->kind, at->number, at->label);
-    std::puts("");
-  }
+  std::fputs(session_.experiment().tasks().c_str(), stdout);
 }
 
 void Prompt::idle(std::string_view rest) {

@@ -30,10 +30,17 @@ struct Records {
 /// The results of a rank's robots, and its own figures.
 struct Results {
   bridge::RankFigures figures;
-  std::vector<std::uint32_t> robots;
-  std::vector<bridge::RobotResult> results;  ///< of these
+  std::vector<std::uint32_t> robots{};
+  std::vector<bridge::RobotResult> results{};  ///< of these
 };
 
+/// Of a robot, in words: list_tasks().
+struct RobotTasks {
+  std::uint32_t robot = 0;
+  std::string lines;
+};
+
+void carry(auto& archive, RobotTasks& tasks) { archive(tasks.robot, tasks.lines); }
 void carry(auto& archive, RobotRecord& record) {
   archive(record.robot, record.digest, record.outputs, record.ended, record.end_time);
 }
