@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A run of several processes joined by MPI is the run of one process: ranks_test.py BUILD."""
+"""A run of several processes joined by MPI is the run of one process: ranks_test.py BUILD [--long]."""
 
 import collections
 import functools
@@ -13,11 +13,12 @@ import signal
 import subprocess
 import sys
 import tempfile
-import time
 import unittest
 
 from installed import BUILD, HERE, Installed, flags, main
+from two_hosts import TwoHosts
 
+LONG = "--long" in sys.argv and not sys.argv.remove("--long")
 ROOT = HERE.parents[1]
 WAITPOINT = BUILD / "tools/waitpoint"
 MPIRUN = shutil.which("mpirun")
@@ -91,13 +92,13 @@ class EqualRuns(unittest.TestCase):
         return alone
 
     def test_an_office(self):
-        self.assert_equal(ROOT / "scenarios/office-10.yaml", (2, 3, 8))
+        self.assert_equal(ROOT / "scenarios/office-10.yaml", (2, 3, 8) if LONG else (3,))
 
     def test_a_part_of_a_run_that_ends_within_a_step_in_another_order(self):
-        self.assert_equal(ROOT / "scenarios/office-10.yaml", (2, 4), "--until", "12.3456", "--order", "seeded", "--seed", "7")
+        self.assert_equal(ROOT / "scenarios/office-10.yaml", (2, 4) if LONG else (2,), "--until", "12.3456", "--order", "seeded", "--seed", "7")
 
     def test_a_crowd_some_of_which_have_no_goals(self):
-        self.assert_equal(crowd(60), (2, 4), "--until", "3")
+        self.assert_equal(crowd(60), (2, 4) if LONG else (4,), "--until", "3")
         self.assert_equal(crowd(9, goals=False), (2,), "--until", "2")
 
     def test_more_robots_than_a_task_may_pass_waitpoints_at_an_instant(self):
@@ -117,13 +118,22 @@ class EqualRuns(unittest.TestCase):
         names = [robot["name"] for robot in json.loads(
             run(None, ROOT / "scenarios/office-10.yaml", "--until", "1").files["s.json"])["robots"]]
         expected = digest(run(None, ROOT / "scenarios/office-10.yaml", "--until", "6"))
-        for _ in range(4):
+        for _ in range(8 if LONG else 2):
             places = [word for name in names for word in ("--place", f"{name}={placements.randrange(3)}")]
             self.assertEqual(digest(run(3, ROOT / "scenarios/office-10.yaml", "--until", "6", *places)), expected, places)
 
     def test_over_tcp(self):
         launcher = [*AS_RANKS, "--mca", "btl", "tcp,self", "-n", "2"]
         self.assert_equal(ROOT / "scenarios/office-10.yaml", (2,), "--until", "5", launcher=launcher)
+
+    def test_two_hosts_a_millisecond_apart(self):
+        with TwoHosts(folder(), delay_s=0.001) as hosts:
+            launcher = hosts.launcher(AS_RANKS, 2)
+            self.assert_equal(ROOT / "scenarios/office-10.yaml", (2,), "--until", "0.5", launcher=launcher)
+            if LONG:
+                launcher = hosts.launcher(AS_RANKS, 5)
+                self.assert_equal(ROOT / "scenarios/office-10.yaml", (5,), "--until", "20", "--order", "seeded", launcher=launcher)
+                self.assert_equal(crowd(60), (5,), "--until", "3", launcher=launcher)
 
     def test_a_robot_with_commands(self):
         programs = 'robots.4.programs=[{name: clock, command: [sh, -c, "sleep 1; date; sleep 1; exit 3"]}]'
@@ -132,7 +142,7 @@ class EqualRuns(unittest.TestCase):
 
     def test_interventions_and_their_journal(self):
         commands = "run 1\nmove jan 30 6 90\nrequest ines ndd Stop\nrequest nobody rflex Stop\nrun +1.5\nstatus\n" \
-                   "until ada.travelled_m > 0.5\nquit\n"
+                   "tasks\nidle 0.1\nuntil ada.travelled_m > 0.5\nquit\n"
         office = ROOT / "scenarios/office-10.yaml"
         alone, several = (run(ranks, office, "--interactive", input=commands) for ranks in (None, 3))
         self.assertIn("there is no robot 'nobody'", alone.errors)
@@ -286,9 +296,18 @@ class Faults(Installed):
         self.start(rest="run 3\nquit")
         stopped = self.ranks()[2]
         os.kill(stopped, signal.SIGSTOP)
-        time.sleep(7)
+        self.assertRegex(self.process.stderr.readline(), r"waitpoint: rank 2 has not answered for 5 s, in window ")
         os.kill(stopped, signal.SIGCONT)
-        self.assertRegex(self.wait(), r"waitpoint: rank 2 has not answered for 5 s, in window ")
+        self.wait()
+        self.assertRegex(self.output, r"at 3\.0+ s after")
+
+    def test_a_stopped_leader_is_told_by_another(self):
+        self.start(rest="run 3\nquit")
+        stopped = self.ranks()[0]
+        os.kill(stopped, signal.SIGSTOP)
+        self.assertRegex(self.process.stderr.readline(), r"waitpoint: rank 0 has not answered for 5 s, in window ")
+        os.kill(stopped, signal.SIGCONT)
+        self.wait()
         self.assertRegex(self.output, r"at 3\.0+ s after")
 
     def test_an_interrupted_run_ends_in_order(self):
@@ -297,18 +316,28 @@ class Faults(Installed):
         self.wait()
         self.assertEqual(self.process.returncode, 130)
 
-    def test_an_exception_on_any_rank_is_reported_once(self):
+    def test_an_exception_or_a_deadlock_on_any_rank_is_reported_once(self):
         program = self.compile("deaths", *flags(self.prefix, "--cflags", "--libs", "waitpoint-robots"))
         text = (HERE / "deaths/deaths.yaml").read_text()
         text += text[text.index("  - name: doomed"):].replace("doomed", "second").replace("[0, 0, 0]", "[5, 0, 0]")
         scenario = folder() / "deaths.yaml"
         scenario.write_text(text)
-        for robot in (0, 1):
-            options = ["--set", f"robots.{robot}.modules.mortal.end=exception"]
-            alone, several = (run(ranks, scenario, *options, program=program) for ranks in (None, 2))
-            self.assertRegex(alone.errors, r"the run failed: an exception escaped")
-            self.assertEqual(re.sub(r"tmp\w+", "", several.errors), re.sub(r"tmp\w+", "", alone.errors))
-            self.assertEqual(several.status, 1)
+        def events(robot):
+            text = (folder() / "events").read_text()
+            return [line for line in text.splitlines() if f" {robot} " in line], re.search(r"(?m)^# cut off: .*", text)
+        for number, robot in enumerate(("doomed", "second")):
+            for end, words in (("exception", "an exception escaped from task mortal.main"), ("deadlock", "a task waits for itself")):
+                with self.subTest(robot=robot, end=end):
+                    options = ["--set", f"robots.{number}.modules.mortal.end={end}", "--events", folder() / "events"]
+                    alone, alone_events = run(None, scenario, *options, program=program), events(robot)
+                    several, several_events = run(2, scenario, *options, program=program), events(robot)
+                    self.assertRegex(alone.output + alone.errors, words)
+                    self.assertEqual(re.sub(r"tmp\w+", "", several.errors), re.sub(r"tmp\w+", "", alone.errors))
+                    self.assertEqual([line for line in several.output.splitlines() if words in line],
+                                     [line for line in alone.output.splitlines() if words in line])
+                    self.assertEqual(several.status, 1)
+                    self.assertEqual(several_events[0], alone_events[0])  # up to the failure
+                    self.assertEqual(several_events[1] is None, alone_events[1] is None)
 
 
 if __name__ == "__main__":

@@ -76,6 +76,11 @@ std::mutex of_the_system;
   std::unique_lock lock(mutex);
   condition.wait(lock);
 }
+[[gnu::noinline]] void wait_for_itself() {
+  static waitpoint::mutex mutex("own");
+  mutex.lock();
+  mutex.lock();
+}
 
 // The setting comes too late for it.
 struct EarlyThread {
@@ -128,6 +133,7 @@ void die(const std::string& way) {
       {"fork crashes", fork_a_child_that_crashes},
       {"sleep", [] { std::this_thread::sleep_for(1ms); }},
       {"lost", wait_for_a_lost_notification},
+      {"deadlock", wait_for_itself},
       {"block",
        [] {
          sem_t taken;
