@@ -173,9 +173,9 @@ void RunArguments::check_alone() const {
 
 /// What is measured, compared or written per process is not there for several.
 void RunArguments::check_for_ranks() const {
-  check_not_together("--ranks", {{"--seeds", seeds_},
-                                 {"--record-durations", record_durations_},
-                                 {"--replay-durations", replay_durations_}});
+  check_not_together(
+      "--ranks",
+      {{"--seeds", seeds_}, {"--record-durations", record_durations_}, {"--replay-durations", replay_durations_}});
   if (check_) throw BadInput("--ranks", "cannot be used together with --check");
 }
 
