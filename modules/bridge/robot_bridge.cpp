@@ -263,7 +263,7 @@ void RobotBridge::wait_for_step() {
 // The memory that exchanges usually touch; of large parts only the beginning.
 void RobotBridge::find_working_set() {
   constexpr std::size_t beams_known = 32, of_stack = 512;
-  working_set_.add_between(this, &robot_);
+  working_set_.add_between(this, &device_values_);
   for (const Laser& laser : lasers_) {
     const std::size_t beams = std::min(beams_known, laser.scan.range_m.size());
     working_set_.add_between(&laser, laser.reading.range_m.begin() + beams);
