@@ -118,10 +118,10 @@ bool DepthBuffer::hidden(const Pending& what) const {
 template <class Find, class Place>
 void DepthBuffer::push_in_sight(std::span<const TreeNode> nodes, std::size_t node, const View& view, Find find,
                                 Place place) {
-  const auto& [bounds, children] = nodes[node];
-  Sight sight{};
+  const auto& children = nodes[node].child;
+  Sight sight;
   const std::size_t before = pending_.size();
-  unsigned seen = kernels_->look(bounds, view, sight);
+  unsigned seen = kernels_->look(nodes[node], view, sight);
   const bool is_large = nodes.size() >= many_nodes;
   for (unsigned rest = is_large ? seen : 0; rest != 0; rest &= rest - 1) {
     const std::int32_t child = children[static_cast<std::size_t>(std::countr_zero(rest))];
@@ -132,13 +132,7 @@ void DepthBuffer::push_in_sight(std::span<const TreeNode> nodes, std::size_t nod
   }
   std::array<NarrowQuestion, EightBounds::width> narrow;
   int narrow_count = 0;
-  // Without branches, which would be unpredictable.
-  unsigned narrow_ones = 0;
-  for (std::size_t i = 0; i < EightBounds::width; ++i) {
-    const bool is_narrow = static_cast<std::uint32_t>(sight.last[i] - sight.first[i]) < narrow_beams;
-    narrow_ones |= static_cast<unsigned>(is_narrow & (children[i] < 0)) << i;
-  }
-  narrow_ones &= seen;
+  unsigned narrow_ones = seen & sight.narrow & sight.solids;
   seen &= ~narrow_ones;
   for (; narrow_ones != 0; narrow_ones &= narrow_ones - 1) {
     const auto i = static_cast<std::size_t>(std::countr_zero(narrow_ones));

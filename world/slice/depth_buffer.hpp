@@ -55,13 +55,12 @@ class DepthBuffer {
     std::int32_t child, first, last;
   };
 
-  /// Narrower candidates are tested at once, batched per node: an occlusion test would take longer, since its branch is
+  /// Narrow candidates are tested at once, batched per node: an occlusion test would take longer, since its branch is
   /// unpredictable.
-  static constexpr std::int32_t narrow_beams = 16;
   /// Intervals of fewer blocks are compared beam by beam: the outer beams may be the only visible ones.
   static constexpr std::int32_t few_blocks = 3;
   static bool is_narrow(const Pending& what) {
-    return what.first <= what.last && what.last - what.first < narrow_beams;
+    return what.first <= what.last && what.last - what.first < Sight::narrow_beams;
   }
 
   /// A node and the set of beams that may meet it, a bit per beam.

@@ -48,8 +48,12 @@ struct FloatBounds {
 /// A view's result for eight rectangles: the least squared distance and the interval of beams that could meet each. An
 /// interval with `last` < `first` wraps: it consists of the beams from `first` to the end and from 0 to `last`.
 struct alignas(32) Sight {
+  static constexpr std::int32_t narrow_beams = 16;  ///< an interval of so many beams, or fewer, is narrow
+
   float near_m2[EightBounds::width];
   std::int32_t first[EightBounds::width], last[EightBounds::width];
+  unsigned narrow;  ///< a bit per narrow interval that does not wrap
+  unsigned solids;  ///< a bit per rectangle of a solid
 };
 
 /// A few beams, in floats, for the intersection test of eight rectangles.
@@ -86,9 +90,9 @@ struct Kernels {
   /// Rotates directions given in a fan's frame, whose x axis is `axis`, into the world frame. Returns the number done:
   /// all but a remainder of less than a vector.
   std::size_t (*turn)(const Point* directions, std::size_t count, Point axis, double* x, double* y);
-  /// A bit per rectangle that is in view, without those that are occluded and span at most two blocks of beams. `sight`
-  /// is defined for the rectangles in the result only.
-  unsigned (*look)(const EightBounds& bounds, const View& view, Sight& sight);
+  /// A bit per rectangle of the node that is in view, without those that are occluded and span at most two blocks of
+  /// beams. `sight` is defined for the rectangles in the result only.
+  unsigned (*look)(const TreeNode& node, const View& view, Sight& sight);
   /// True if all blocks `first` to `last` are nearer than `than_m2`. Reads beyond the last block, without effect.
   bool (*all_nearer)(const float* farthest_m2, std::int32_t first, std::int32_t last, float than_m2);
   /// True if all beams `first` to `last` end nearer than `than_m`. Reads beyond the last beam, without effect.

@@ -59,39 +59,61 @@ struct VectorAsking {
     }
   }
 
+  typedef double Pair __attribute__((vector_size(16)));  // by x and by y of a box's own frame
+
+  // A box as seen from the beams' origin.
+  struct Facing {
+    Pair near;            // from the origin to the nearer sides; 0 if it is between the sides
+    Pair forth, back;     // to the side by which a beam leaves that leads forth along the axis, or back
+    std::int64_t inside;  // all bits or none
+  };
+  __attribute__((always_inline)) static Facing facing(const Outline& box, Point origin) {
+    const Pair from = {origin.x - box.centre.x, origin.y - box.centre.y}, turned = {from[1], -from[0]};
+    const Pair o = box.axis_cos * from + box.axis_sin * turned;
+    const Pair half = Pair{box.half_length_m, box.half_width_m} + seal_m;
+    const Pair beside = (o < 0 ? -o : o) - half, none = {};
+    const auto between = beside <= none;
+    return {beside > none ? beside : none, half - o, half + o, between[0] & between[1]};
+  }
+
+  // The hits of a box by the beams with these directions, undecided ones excluded.
+  struct Hits {
+    Doubles distance;
+    Longs hit, undecided;
+  };
   // hit_distance() computes the distances along the ray of its entry and exit by x and by y:
   //
   //   near_x / |dx|, near_y / |dy|, far_x / |dx|, far_y / |dy|     for an origin outside, |d| in the box's own frame
   //
   // and has a hit if the greater entry comes before the lesser exit. Products decide the order without a quotient,
-  // unless the two are equal but for rounding; those few beams call hit_distance() one by one. `far` is negative if the
-  // beam leads away, and then smaller than the entry by more than any rounding.
+  // unless the two are equal but for rounding; those few beams are undecided. `far` is negative if the beam leads away,
+  // and then smaller than the entry by more than any rounding.
+  __attribute__((always_inline)) static Hits hits(const Outline& box, const Facing& from, Doubles x, Doubles y) {
+    const Doubles cosine = V::all(box.axis_cos), sine = V::all(box.axis_sin);
+    const Doubles near_x = V::all(from.near[0]), near_y = V::all(from.near[1]);
+    const Doubles d_x = cosine * x + sine * y, d_y = cosine * y - sine * x;
+    const Doubles along_x = V::absolute(d_x), along_y = V::absolute(d_y);
+    const Doubles far_x = d_x < 0 ? V::all(from.back[0]) : V::all(from.forth[0]);
+    const Doubles far_y = d_y < 0 ? V::all(from.back[1]) : V::all(from.forth[1]);
+    const Doubles enter_x = near_x * along_y, enter_y = near_y * along_x;
+    const Doubles spare = V::least(far_y * along_x - enter_x, far_x * along_y - enter_y);
+    const Doubles rounding = 1e-14 * (enter_x + enter_y) + 1e-290;
+    const Longs by_x = enter_x > enter_y, hit = spare > rounding;
+    const Longs undecided =
+        (Longs)(V::absolute(spare) <= rounding) | (hit & (Longs)(V::absolute(enter_x - enter_y) <= rounding));
+    return {(by_x ? near_x : near_y) / (by_x ? along_x : along_y), hit & ~undecided, undecided};
+  }
+
   template <class Asker>
   __attribute__((always_inline)) static void ask_box(const Outline& box, const Beams& beams, Asker asker) {
-    const double from_x = beams.origin.x - box.centre.x, from_y = beams.origin.y - box.centre.y;
-    const double o_x = box.axis_cos * from_x + box.axis_sin * from_y;
-    const double o_y = box.axis_cos * from_y - box.axis_sin * from_x;
-    const double half_x = box.half_length_m + seal_m, half_y = box.half_width_m + seal_m;
-    const double beside_x = (o_x < 0 ? -o_x : o_x) - half_x, beside_y = (o_y < 0 ? -o_y : o_y) - half_y;
-    if (beside_x <= 0 && beside_y <= 0) return hit_all(asker);
-    const Doubles cosine = V::all(box.axis_cos), sine = V::all(box.axis_sin);
-    const Doubles near_x = V::all(beside_x > 0 ? beside_x : 0), near_y = V::all(beside_y > 0 ? beside_y : 0);
-    const Doubles forth_x = V::all(half_x - o_x), back_x = V::all(half_x + o_x);
-    const Doubles forth_y = V::all(half_y - o_y), back_y = V::all(half_y + o_y);
+    const Facing from = facing(box, beams.origin);
+    if (from.inside != 0) return hit_all(asker);
     asker([&](int at, Doubles& distance, Longs& hit) __attribute__((always_inline)) {
       const Doubles x = V::template load<Doubles>(beams.x + at), y = V::template load<Doubles>(beams.y + at);
-      const Doubles d_x = cosine * x + sine * y, d_y = cosine * y - sine * x;
-      const Doubles along_x = V::absolute(d_x), along_y = V::absolute(d_y);
-      const Doubles far_x = d_x < 0 ? back_x : forth_x, far_y = d_y < 0 ? back_y : forth_y;
-      const Doubles enter_x = near_x * along_y, enter_y = near_y * along_x;
-      const Doubles spare = V::least(far_y * along_x - enter_x, far_x * along_y - enter_y);
-      const Doubles rounding = 1e-14 * (enter_x + enter_y) + 1e-290;
-      const Longs by_x = enter_x > enter_y;
-      hit = spare > rounding;
-      distance = (by_x ? near_x : near_y) / (by_x ? along_x : along_y);
-      const unsigned undecided = V::bits((Longs)(V::absolute(spare) <= rounding) |
-                                         (hit & (Longs)(V::absolute(enter_x - enter_y) <= rounding)));
-      for (unsigned rest = undecided; rest != 0; rest &= rest - 1) {
+      const Hits found = hits(box, from, x, y);
+      distance = found.distance;
+      hit = found.hit;
+      for (unsigned rest = V::bits(found.undecided); rest != 0; rest &= rest - 1) {
         const int lane = __builtin_ctz(rest);
         const double exact = hit_distance(box, Ray{beams.origin, Point{x[lane], y[lane]}});
         distance[lane] = exact;
@@ -129,31 +151,57 @@ struct VectorAsking {
     ask_disc(question.outline, beams, [&](auto answer) { ask(question, beams, answer); });
   }
 
+  // Of beams whose hits rounding decides. Out of line: a call within a loop would keep its vectors out of registers.
+  __attribute__((noinline, cold)) static void ask_each(const NarrowQuestion& q, const Beams& beams) {
+    for (int at = q.first; at <= q.last; ++at) {
+      const double exact = hit_distance(*q.outline, Ray{beams.origin, Point{beams.x[at], beams.y[at]}});
+      if (exact < beams.range_m[at]) beams.range_m[at] = exact;
+    }
+  }
+
+  __attribute__((always_inline)) static void lower(const Beams& beams, int at, Doubles distance, Longs hit) {
+    const Doubles range = V::template load<Doubles>(beams.range_m + at);
+    V::store(beams.range_m + at, hit & (Longs)(distance < range) ? distance : range);
+  }
+
+  static std::int32_t block_of(std::int32_t beam) {
+    return static_cast<std::int32_t>(static_cast<unsigned>(beam) / Beams::block);
+  }
+
   // Without branches on the result: every range is written, lowered or not, and every block's bound is updated once. A
   // range is lowered about every second time, and a mispredicted branch costs as much as the test.
   static void ask_narrow(const NarrowQuestion* questions, int count, const Beams& beams) {
     std::int32_t first_block = 0x7FFFFFFF, last_block = -1;
     for (int i = 0; i < count; ++i) {
       const NarrowQuestion& q = questions[i];
-      const auto asker = [&](auto answer) __attribute__((always_inline)) {
-        int at = q.first;
-        do {
-          Doubles distance;
-          Longs hit;
-          answer(at, distance, hit);
-          const Doubles range = V::template load<Doubles>(beams.range_m + at);
-          const Longs nearer = hit & (Longs)(distance < range);
-          V::store(beams.range_m + at, nearer ? distance : range);
-          at += lanes;
-        } while (at <= q.last);
-      };
-      if (q.outline->is_box)
-        ask_box(*q.outline, beams, asker);
-      else
-        ask_disc(*q.outline, beams, asker);
-      const std::int32_t first = q.first / Beams::block, last = q.last / Beams::block;
+      const std::int32_t first = block_of(q.first), last = block_of(q.last);
       first_block = first < first_block ? first : first_block;
       last_block = last > last_block ? last : last_block;
+      if (!q.outline->is_box) {
+        ask_disc(
+            *q.outline, beams, [&](auto answer) __attribute__((always_inline)) {
+              int at = q.first;
+              do {
+                Doubles distance;
+                Longs hit;
+                answer(at, distance, hit);
+                lower(beams, at, distance, hit);
+                at += lanes;
+              } while (at <= q.last);
+            });
+        continue;
+      }
+      const Facing from = facing(*q.outline, beams.origin);
+      Longs undecided = from.inside - Longs{};
+      int at = q.first;
+      do {
+        const Hits found =
+            hits(*q.outline, from, V::template load<Doubles>(beams.x + at), V::template load<Doubles>(beams.y + at));
+        undecided |= found.undecided;
+        lower(beams, at, found.distance, found.hit);
+        at += lanes;
+      } while (at <= q.last);
+      if (V::bits(undecided != 0) != 0) ask_each(q, beams);
     }
     for (std::int32_t block = first_block; block <= last_block; ++block) note_farthest(block, beams);
   }

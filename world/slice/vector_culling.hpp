@@ -36,9 +36,14 @@ struct VectorCulling {
   static constexpr float margin_rad = 5e-5f;
   static constexpr float pi = 3.14159265f;
 
-  static unsigned look(const EightBounds& bounds, const View& view, Sight& sight) {
+  static unsigned look(const TreeNode& node, const View& view, Sight& sight) {
     unsigned seen = 0;
-    for (int at = 0; at < EightBounds::width; at += V::float_lanes) seen |= look_at(bounds, view, sight, at) << at;
+    sight.narrow = sight.solids = 0;
+    for (int at = 0; at < EightBounds::width; at += V::float_lanes) {
+      sight.solids |= V::bits(V::template load<Ints>(reinterpret_cast<const std::int32_t*>(&node.child) + at) < 0)
+                      << at;
+      seen |= look_at(node.bounds, view, sight, at) << at;
+    }
     return seen;
   }
 
@@ -75,6 +80,7 @@ struct VectorCulling {
     V::store(sight.near_m2 + at, near_m2);
     V::store(sight.first + at, first);
     V::store(sight.last + at, last);
+    unsigned narrow = V::bits((first <= last) & (last - first < Sight::narrow_beams));
     const unsigned around = ~V::bits(west | east | south | north),
                    behind = V::bits((Ints)((left > pi) | (right < -pi)));
     unsigned seen = in_reach & V::bits((Ints)(first <= last) & ~hidden(near_m2, first, last, view));
@@ -88,7 +94,10 @@ struct VectorCulling {
       } else if (!look_behind(right[lane], left[lane], view, first_of_it, last_of_it)) {
         seen &= ~(1u << lane);
       }
+      const bool is_narrow = first_of_it <= last_of_it && last_of_it - first_of_it < Sight::narrow_beams;
+      narrow = (narrow & ~(1u << lane)) | (is_narrow ? 1u << lane : 0u);
     }
+    sight.narrow |= narrow << at;
     return seen;
   }
 
