@@ -2,6 +2,7 @@
 // Helpers to make meshes for tests.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -12,6 +13,7 @@
 #include <vector>
 
 #include "tests/world/scenes.hpp"
+#include "world/mesh/surfaces.hpp"
 #include "world/triangle_mesh.hpp"
 
 namespace waitpoint::world {
@@ -95,6 +97,14 @@ inline TriangleMesh lumpy_ball(Draws& draw, int halvings, double radius_m) {
     corner = (radius_m * draw(0.9, 1.1) / length) * corner;
   }
   return {corners, triangles};
+}
+
+/// The distance of a body from the nearest triangle.
+inline double nearest_m(const Surfaces& surfaces, const Outline& outline, double z_low_m, double z_high_m) {
+  double nearest = HUGE_VAL;
+  for (std::uint32_t i = 0; i < surfaces.size(); ++i)
+    nearest = std::min(nearest, surfaces.separation(outline, z_low_m, z_high_m, i).distance_m);
+  return nearest;
 }
 
 }  // namespace waitpoint::world

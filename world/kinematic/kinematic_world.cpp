@@ -6,6 +6,7 @@
 #include "core/error.hpp"
 #include "world/kinematic/start_check.hpp"
 #include "world/kinematic/vehicle_world.hpp"
+#include "world/mesh/band.hpp"
 #include "world/motion/meetings.hpp"
 #include "world/planar/separation.hpp"
 #include "world/slice/footprints.hpp"
@@ -17,7 +18,23 @@ Footprints footprints_of(const WorldDescription& description) {
   return Footprints(description.engine == Engine::slice ? shapes_of(description.obstacles) : std::vector<Shape>{});
 }
 
-bool climbs(const Vehicle& vehicle) { return vehicle.description().base.kind == BaseDescription::Kind::aerial; }
+const Band* find_band(std::span<const Band> bands, const Shape& shape) {
+  for (const Band& band : bands)
+    if (band.z_low_m() == shape.z_low_m && band.z_high_m() == shape.z_high_m) return &band;
+  return nullptr;
+}
+
+bool climbs(const BodyDescription& body) { return body.base.kind == BaseDescription::Kind::aerial; }
+
+// One for each pair of heights of bodies that do not climb.
+std::vector<Band> bands_of(const WorldDescription& description, const Surfaces& surfaces) {
+  std::vector<Band> bands;
+  if (surfaces.size() == 0) return bands;
+  for (const BodyDescription& body : description.bodies)
+    if (!climbs(body) && find_band(bands, body.shape) == nullptr)
+      bands.emplace_back(surfaces, body.shape.z_low_m, body.shape.z_high_m);
+  return bands;
+}
 
 class KinematicWorld final : public VehicleWorld, private MeetingPlace {
  public:
@@ -51,6 +68,9 @@ class KinematicWorld final : public VehicleWorld, private MeetingPlace {
   std::optional<std::vector<Obstacle>> first_obstacles_;  // those of the start, once they have been changed
   Footprints footprints_;                                 // of the obstacles; empty if FCL finds neighbours
 
+  std::vector<Band> bands_;           // of the surfaces, one for each pair of heights of bodies that do not climb
+  std::vector<const Band*> band_of_;  // each body's own; null for one that climbs, or without surfaces
+
   std::vector<double> reaches_m_;  // of the bodies
   Meetings meetings_;
 
@@ -64,8 +84,12 @@ class KinematicWorld final : public VehicleWorld, private MeetingPlace {
 KinematicWorld::KinematicWorld(const WorldDescription& description, std::uint64_t seed)
     : VehicleWorld(description, shapes_of(description.obstacles), shapes_of(description.bodies)),
       footprints_(footprints_of(description)),
+      bands_(bands_of(description, senses_.surfaces())),
       meetings_(*this, shapes_of(description.bodies)) {
-  for (const BodyDescription& body : description_.bodies) reaches_m_.push_back(reach_m(body.shape));
+  for (const BodyDescription& body : description_.bodies) {
+    reaches_m_.push_back(reach_m(body.shape));
+    band_of_.push_back(climbs(body) ? nullptr : find_band(bands_, body.shape));
+  }
   reset(seed);
 }
 
@@ -126,10 +150,8 @@ double KinematicWorld::gap_m(std::uint32_t body, std::uint32_t obstacle) const {
   const Vehicle& vehicle = vehicles_[body];
   const std::uint32_t solids = senses_.standing().size();
   if (obstacle < solids) return separation(vehicle.outline(), senses_.standing().outline(obstacle)).distance_m;
-  const Surfaces& surfaces = senses_.surfaces();
-  if (climbs(vehicle)) return separation(vehicle.outline(), surfaces.outline(obstacle - solids)).distance_m;
-  const Shape& shape = vehicle.description().shape;
-  return surfaces.separation(vehicle.outline(), shape.z_low_m, shape.z_high_m, obstacle - solids).distance_m;
+  if (band_of_[body] != nullptr) return band_of_[body]->separation_m(vehicle.outline(), obstacle - solids);
+  return separation(vehicle.outline(), senses_.surfaces().outline(obstacle - solids)).distance_m;
 }
 
 void KinematicWorld::near(std::uint32_t body, const Bounds& bounds, std::vector<std::uint32_t>& found) const {
@@ -139,10 +161,10 @@ void KinematicWorld::near(std::uint32_t body, const Bounds& bounds, std::vector<
   else
     senses_.standing().near(bounds, any.low_m, any.high_m, found);
   if (senses_.surfaces().size() == 0) return;
-  const Vehicle& vehicle = vehicles_[body];
-  const Shape& shape = vehicle.description().shape;
-  const Heights own = climbs(vehicle) ? any : Heights{shape.z_low_m, shape.z_high_m};
-  senses_.surfaces().near(bounds, own.low_m, own.high_m, near_);
+  if (band_of_[body] != nullptr)
+    band_of_[body]->near(bounds, near_);
+  else
+    senses_.surfaces().near(bounds, any.low_m, any.high_m, near_);
   for (const std::uint32_t number : near_) found.push_back(senses_.standing().size() + number);
   WAITPOINT_FAST_CHECK(std::is_sorted(found.begin(), found.end()),
                        "the obstacles near a body are not in ascending order");

@@ -11,7 +11,7 @@ namespace waitpoint::world {
 namespace {
 
 // Ends within this distance coincide.
-constexpr double meeting_m = 1e-6;
+constexpr double coinciding_m = 1e-6;
 // The least turn at an edge: joints within a wall of several triangles turn less, by rounding.
 constexpr double turn_rad_min = 1e-3;
 
@@ -22,7 +22,7 @@ void SurfaceCorners::find(std::span<const Outline> segments) {
   edges_.clear();
   corners_.clear();
   for (const Outline& segment : segments) {
-    if (segment.half_length_m <= meeting_m) continue;
+    if (segment.half_length_m <= coinciding_m) continue;
     const double length_m = 2 * segment.half_length_m;
     const Point along = segment.outward({1, 0}), back = {-along.x, -along.y};
     const Point half = segment.half_length_m * along;
@@ -35,8 +35,8 @@ void SurfaceCorners::find(std::span<const Outline> segments) {
   for (std::size_t i = 0; i < ends_.size(); ++i) {
     if (ends_[i].is_taken) continue;
     here_.clear();
-    for (std::size_t j = i; j < ends_.size() && ends_[j].at.x - ends_[i].at.x <= meeting_m; ++j) {
-      if (ends_[j].is_taken || std::fabs(ends_[j].at.y - ends_[i].at.y) > meeting_m) continue;
+    for (std::size_t j = i; j < ends_.size() && ends_[j].at.x - ends_[i].at.x <= coinciding_m; ++j) {
+      if (ends_[j].is_taken || std::fabs(ends_[j].at.y - ends_[i].at.y) > coinciding_m) continue;
       ends_[j].is_taken = true;
       here_.push_back(ends_[j]);
     }

@@ -36,7 +36,7 @@ class Collider {
   virtual ~Collider() = default;
   virtual bool collides(Point centre) = 0;
 };
-inline constexpr double robot_radius_m = 0.25;
+inline constexpr double robot_radius_m = 0.25, robot_low_m = 0, robot_high_m = 1;
 
 std::unique_ptr<Collider> our_footprints(const Place& place);
 std::unique_ptr<Collider> fcl_collide(const Place& place);

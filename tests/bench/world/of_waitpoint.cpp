@@ -3,7 +3,7 @@
 #include "tests/bench/world/contenders.hpp"
 #include "world/fcl/mesh_tree.hpp"
 #include "world/fcl/scene.hpp"
-#include "world/mesh/surfaces.hpp"
+#include "world/mesh/band.hpp"
 #include "world/slice/depth_buffer.hpp"
 #include "world/slice/footprints.hpp"
 
@@ -63,14 +63,18 @@ class ByFclTrees : public Contender {
 
 class ByFootprints : public Collider {
  public:
-  explicit ByFootprints(const Place& place) : footprints_(place.obstacles) { robot_.radius_m = robot_radius_m; }
+  explicit ByFootprints(const Place& place)
+      : footprints_(place.obstacles), band_(world::Surfaces(place.meshes), robot_low_m, robot_high_m) {
+    robot_.radius_m = robot_radius_m;
+  }
   bool collides(Point centre) override {
     robot_.centre = centre;
-    return footprints_.collides(robot_, 0, 1);
+    return footprints_.collides(robot_, robot_low_m, robot_high_m) || band_.collides(robot_);
   }
 
  private:
   world::Footprints footprints_;
+  world::Band band_;
   world::Outline robot_;
 };
 

@@ -277,7 +277,7 @@ int main(int argc, char** argv) {
       bench.scans(place);
       if (!place.robots.empty())
         bench.steps(place);
-      else if (place.meshes.empty())
+      else
         bench.collisions(place);
     }
     Figures figures;

@@ -15,13 +15,6 @@
 namespace waitpoint::world {
 namespace {
 
-double nearest_m(const Surfaces& surfaces, const Outline& outline, double z_low_m, double z_high_m) {
-  double nearest = HUGE_VAL;
-  for (std::uint32_t i = 0; i < surfaces.size(); ++i)
-    nearest = std::min(nearest, surfaces.separation(outline, z_low_m, z_high_m, i).distance_m);
-  return nearest;
-}
-
 TEST(Surfaces, CollideWhereFclDoesOnRandomPlacements) {
   Draws draw(1);
   constexpr int of_each_scene = 2000;
