@@ -3,8 +3,8 @@
 
 For each number of robots and ranks: wall-clock time of a simulated second, processor time of the slowest rank in a window (a
 step of the world), its part for the world, and the time of an exchange. Processor times hold also where there are more ranks than
-cores; wall-clock times are printed only where there are not. A model with three figures is fitted to the runs of one and two
-ranks, compared with all, and says what more cores would give.
+cores; wall-clock times are printed only where there are not. A model is fitted to the runs of two and four ranks, compared with
+all, and says what more cores would give.
 """
 
 import argparse
@@ -59,17 +59,22 @@ def run(build, scenario, ranks, until_s, folder):
 
 
 class Model:
-    """Processor time of the slowest rank in a window, with n robots on r ranks: world * n + software * ceil(n / r)."""
+    """Processor time of the slowest rank in a window, with n robots on r ranks: shared * n + own * ceil(n / r).
 
-    def __init__(self, robots, one, two, windows):
-        self.world = two["world_s"] / windows / robots
-        own = math.ceil(robots / 2)
-        self.software = (two["computing_s"] / windows - self.world * robots) / own
+    Fitted to the runs of two and four ranks: a run of one is another program, which exchanges nothing, and whose robots do not
+    share the caches with another process's.
+    """
+
+    def __init__(self, robots, one, two, four, windows):
+        (at_two, at_four), (own_two, own_four) = (each["computing_s"] / windows for each in (two, four)), (
+            math.ceil(robots / 2), math.ceil(robots / 4))
+        self.own = min((at_two - at_four) / (own_two - own_four), at_four / own_four)
+        self.shared = (at_four - self.own * own_four) / robots
         self.exchange = two["exchange_s"] / windows
         self.one = one["computing_s"] / windows
 
     def computing(self, robots, ranks):
-        return self.world * robots + self.software * math.ceil(robots / ranks)
+        return self.shared * robots + self.own * math.ceil(robots / ranks)
 
     def window(self, robots, ranks):
         """With an exchange that takes as many steps as a number of ranks has binary digits."""
@@ -85,7 +90,7 @@ def main():
     parser.add_argument("--json", type=pathlib.Path)
     options = parser.parse_args()
     robots_of = [int(n) for n in (options.robots or ("10,100" if options.quick else "10,100,1000")).split(",")]
-    ranks_of = sorted({1, 2, *(int(n) for n in options.ranks.split(","))})
+    ranks_of = sorted({1, 2, 4, *(int(n) for n in options.ranks.split(","))})
     cores = len(os.sched_getaffinity(0))
     rows, predictions = [], []
     print(f"{'robots':>7} {'ranks':>6} {'wall ms a s':>12} {'us a window':>12} {'of it world':>12} {'exchange us':>12} {'model':>8} {'error':>7}")
@@ -97,7 +102,7 @@ def main():
             measured = {ranks: run(options.build, scenario, ranks, until_s, folder) for ranks in ranks_of}
             if len({each["digest"] for each in measured.values()}) != 1:
                 sys.exit(f"ranks: the digests of {robots} robots differ: {measured}")
-            model = Model(robots, measured[1], measured[2], windows)
+            model = Model(robots, measured[1], measured[2], measured[4], windows)
             for ranks, each in measured.items():
                 used = each["computing_s"] / windows * 1e6
                 wall = each["wall_s"] / until_s * 1e3 if ranks <= cores else None
@@ -113,11 +118,11 @@ def main():
                     rows.append({"bench": "ranks", "case": case, "who": "waitpoint", "value": wall, "unit": "ms a simulated second"})
             predictions.append((robots, model))
     print(f"\nthe model, with an exchange of as many steps as the number of ranks has binary digits:\n{'robots':>7} {'cores':>6} "
-          f"{'us a window':>12} {'speed-up':>9} {'of it world':>12}")
+          f"{'us a window':>12} {'speed-up':>9} {'shared':>12}")
     for robots, model in predictions:
         for count in CORES:
             window = model.window(robots, count)
-            print(f"{robots:>7} {count:>6} {window * 1e6:>12.1f} {model.one / window:>9.1f} {model.world * robots / window:>12.0%}")
+            print(f"{robots:>7} {count:>6} {window * 1e6:>12.1f} {model.one / window:>9.1f} {model.shared * robots / window:>12.0%}")
     if options.json:
         options.json.write_text(json.dumps(rows, indent=1) + "\n")
 
