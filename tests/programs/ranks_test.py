@@ -132,7 +132,7 @@ class EqualRuns(unittest.TestCase):
             self.assert_equal(ROOT / "scenarios/office-10.yaml", (2,), "--until", "0.5", launcher=launcher)
             if LONG:
                 launcher = hosts.launcher(AS_RANKS, 5)
-                self.assert_equal(ROOT / "scenarios/office-10.yaml", (5,), "--until", "20", "--order", "seeded", launcher=launcher)
+                self.assert_equal(ROOT / "scenarios/office-10.yaml", (5,), "--until", "5", "--order", "seeded", launcher=launcher)
                 self.assert_equal(crowd(60), (5,), "--until", "3", launcher=launcher)
 
     def test_a_robot_with_commands(self):
@@ -249,20 +249,26 @@ class Faults(Installed):
     """A run goes at real time, so that it lasts for as long as is needed."""
 
     def start(self, *options, rest="go"):
+        self.begin([WAITPOINT, "run", "--ranks", "3"], *options, rest=rest)
+        self.assertEqual(len(self.ranks()), 3)
+
+    def begin(self, command, *options, rest="go"):
         """Returns when the first second of virtual time is over; standard input ends the run."""
         self.process = subprocess.Popen(
-            [WAITPOINT, "run", "--ranks", "3", ROOT / "scenarios/office-10.yaml", "--speed", "1", "--seed", "4", "--interactive",
-             *options], text=True, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+            [*command, ROOT / "scenarios/office-10.yaml", "--speed", "1", "--seed", "4", "--interactive", *options], text=True,
+            stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
         for ending in (self.process.stdin.close, self.process.stdout.close, self.process.stderr.close, self.process.wait,
                        self.process.kill):
             self.addCleanup(ending)
         self.process.stdin.write(f"run 1\n{rest}\n")
         self.process.stdin.flush()
         self.assertRegex(self.process.stdout.readline(), r"^at 1\.0+ s after")
-        self.assertEqual(len(self.ranks()), 3)
 
     def ranks(self):
-        """The processes, by rank."""
+        return self.ranks_with(b"WAITPOINT_LAUNCHER=/proc/%d/" % self.process.pid)
+
+    def ranks_with(self, variable):
+        """The processes, by rank, whose environment has this variable."""
         found = {}
         for entry in pathlib.Path("/proc").glob("[0-9]*/environ"):
             try:
@@ -270,7 +276,7 @@ class Faults(Installed):
             except OSError:
                 continue
             rank = [word for word in words if word.startswith(b"OMPI_COMM_WORLD_RANK=")]
-            if rank and any(word.startswith(b"WAITPOINT_LAUNCHER=/proc/%d/" % self.process.pid) for word in words):
+            if rank and any(word.startswith(variable) for word in words):
                 found[int(rank[0].partition(b"=")[2])] = int(entry.parent.name)
         return found
 
@@ -311,10 +317,22 @@ class Faults(Installed):
         self.assertRegex(self.output, r"at 3\.0+ s after")
 
     def test_an_interrupted_run_ends_in_order(self):
-        self.start()
-        os.kill(self.ranks()[0], signal.SIGTERM)
-        self.wait()
-        self.assertEqual(self.process.returncode, 130)
+        for who in ("the first rank", "the process that has started them"):
+            with self.subTest(who):
+                self.start()
+                os.kill(self.ranks()[0] if who == "the first rank" else self.process.pid, signal.SIGTERM)
+                self.wait()
+                self.assertIn("digest", self.output)
+                self.assertEqual(self.process.returncode, 130)
+
+    @unittest.skipUnless(LONG, "takes long: --long")
+    def test_a_killed_rank_on_another_host_ends_the_run(self):
+        with TwoHosts(folder(), delay_s=0.001) as hosts:
+            self.begin([*hosts.launcher(AS_RANKS, 2), WAITPOINT, "run"])
+            far = self.ranks_with(b"PMIX_HOSTNAME=far")
+            self.assertEqual(list(far), [1])
+            os.kill(far[1], signal.SIGKILL)
+            self.assertRegex(self.wait(), r"the run failed: rank 1 has ended or does not answer, " + self.REPLAY)
 
     def test_an_exception_or_a_deadlock_on_any_rank_is_reported_once(self):
         program = self.compile("deaths", *flags(self.prefix, "--cflags", "--libs", "waitpoint-robots"))
