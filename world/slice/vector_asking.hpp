@@ -201,7 +201,7 @@ struct VectorAsking {
         lower(beams, at, found.distance, found.hit);
         at += lanes;
       } while (at <= q.last);
-      if (V::bits(undecided != 0) != 0) ask_each(q, beams);
+      if (V::bits(undecided) != 0) ask_each(q, beams);
     }
     for (std::int32_t block = first_block; block <= last_block; ++block) note_farthest(block, beams);
   }
