@@ -22,6 +22,10 @@ inline void fetch_lines(const void* from, std::ptrdiff_t count) {
   for (std::ptrdiff_t line = 0; line < count; ++line) fetch(static_cast<const char*>(from) + 64 * line);
 }
 
+inline void fetch_lines(const CacheLines& lines) {
+  fetch_lines(reinterpret_cast<const void*>(lines.first * CacheLines::bytes), lines.count);
+}
+
 // Prefetches for the next three tasks, any of which may be null. A task passes through three steps, each of which reads
 // the lines that the previous step has fetched: its record; its stack, robot and list of working set; its working set.
 inline void fetch_ahead(const Task* next, const Task* second, const Task* third) {
@@ -34,10 +38,7 @@ inline void fetch_ahead(const Task* next, const Task* second, const Task* third)
     fetch_lines(second->working_set, static_cast<std::ptrdiff_t>((listed + 63) / 64));
   }
   if (next == nullptr) return;
-  for (std::uint32_t i = 0; i < next->working_set_size; ++i) {
-    const CacheLines& lines = next->working_set[i];
-    fetch_lines(reinterpret_cast<const void*>(lines.first * CacheLines::bytes), lines.count);
-  }
+  for (std::uint32_t i = 0; i < next->working_set_size; ++i) fetch_lines(next->working_set[i]);
 }
 
 /// Prefetches for events of the list. The distances between the steps exceed the latency of memory. The last node may

@@ -49,6 +49,12 @@ void Evaluation::observe(Time now, const world::BodyState& truth) {
   }
 }
 
+void Evaluation::add_to(WorkingSet& set) const {
+  set.add_between(this, &sampled_);
+  if (fused_ != nullptr) fused_->add_to(set);
+  if (odometry_ != nullptr) odometry_->add_to(set);
+}
+
 void Evaluation::write(RobotResult& result) const {
   result.position_error_mean_m = fused_count_ > 0 ? fused_error_sum_m_ / static_cast<double>(fused_count_) : 0;
   result.position_error_max_m = fused_error_max_m_;

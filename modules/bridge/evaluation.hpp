@@ -5,7 +5,7 @@
 // its own date. Paths are given to whom asked for them; nothing is kept here.
 #pragma once
 
-#include "fibers/kernel/fetch.hpp"
+#include "core/working_set.hpp"
 #include "modules/bridge/path.hpp"
 #include "modules/bridge/run_result.hpp"
 #include "modules/genom/name_space.hpp"
@@ -26,8 +26,8 @@ class alignas(64) Evaluation {
   /// Before the first observe(): `sink`, which must outlive the last one, receives the paths.
   void add_path_sink(PathSink& sink) { path_sinks_.push_back(&sink); }
 
-  /// Prefetches the memory that observe() touches.
-  void fetch() const { kernel::fetch(this); }
+  /// Adds the memory that every observe() touches.
+  void add_to(WorkingSet& set) const;
 
   /// Maximum error of the fused position so far.
   double position_error_max_m() const { return fused_error_max_m_; }

@@ -125,6 +125,12 @@ void Robot::run() {
   if (executive_) executive_->run();
 }
 
+void Robot::add_step_to(WorkingSet& set) const {
+  set.add(body_);
+  evaluation_.add_to(set);
+  bridge_->add_step_to(set);
+}
+
 void Robot::stop() {
   if (executive_) executive_->stop();
 }

@@ -64,8 +64,8 @@ class Robot {
   /// Compares the robot's estimates with the true state. Call after a step of the world.
   void observe(Time now) { evaluation_.observe(now, world_.body(body_)); }
 
-  /// Prefetches the memory that observe() touches.
-  void fetch_evaluation() const { evaluation_.fetch(); }
+  /// Of a robot that is here: adds the memory that observe() and the bridge's stepped() touch.
+  void add_step_to(WorkingSet& set) const;
 
   /// Before the run: `sink`, which must outlive it, receives the robot's paths.
   void add_path_sink(PathSink& sink) { evaluation_.add_path_sink(sink); }

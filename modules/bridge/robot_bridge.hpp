@@ -58,6 +58,8 @@ class RobotBridge {
   /// The body of the bridge's task: one exchange at once and one after each stepped(); never returns.
   void run();
   void stepped() { stepped_.release(); }
+  /// Adds the memory that stepped() touches.
+  void add_step_to(WorkingSet& set) const { set.add(stepped_); }
 
  private:
   struct Laser {

@@ -24,45 +24,56 @@ std::int64_t floor_divide(std::int64_t a, std::int64_t b) {  // b > 0
 
 }  // namespace
 
-void DistanceTransform::run(std::span<const std::uint8_t> occupied, std::int32_t width, std::int32_t height,
+void DistanceTransform::run(std::span<const Cell> cells, std::int32_t width, std::int32_t height,
                             std::span<std::uint16_t> squares) {
   const std::size_t columns = static_cast<std::size_t>(width), rows = static_cast<std::size_t>(height);
-  WAITPOINT_CHECK(occupied.size() == columns * rows && squares.size() == columns * rows, "arrays of the wrong size");
-  along_columns(occupied, columns, squares);
+  WAITPOINT_CHECK(cells.size() == columns * rows && squares.size() == columns * rows, "arrays of the wrong size");
+  along_columns(cells, columns, squares);
   row_.resize(columns);
   sites_.resize(2 * columns + 1);
   heights_.resize(2 * columns + 1);
   starts_.resize(2 * columns + 1);
-  for (std::size_t y = 0; y < rows; ++y) {
-    const std::span<std::uint16_t> row = squares.subspan(y * columns, columns);
-    bool any = false;
-    for (std::size_t x = 0; x < columns; ++x) {
-      any |= row[x] < no_cell;
-      row_[x] = row[x] < no_cell ? square_to_edge(row[x]) : no_square;
+  for (std::size_t y = 0; y < rows; ++y) divide(squares.subspan(y * columns, columns));
+}
+
+// Each part reaches no_cell beyond its outermost obstacles: farther cells are beyond the cap.
+void DistanceTransform::divide(std::span<std::uint16_t> row) {
+  const auto is_near = [](std::uint16_t steps) { return steps < no_cell; };
+  auto done = row.begin();
+  for (auto near = std::find_if(done, row.end(), is_near); near != row.end();) {
+    const auto begin = near - std::min<std::ptrdiff_t>(near - done, no_cell);
+    auto last = near;
+    // The next obstacle's part would overlap, or touch, this one.
+    while (near != row.end() && near - last <= 2 * no_cell) {
+      last = near;
+      near = std::find_if(near + 1, row.end(), is_near);
     }
-    if (any)
-      along_row(width, row_, row);
-    else
-      std::fill(row.begin(), row.end(), square_half_cells_max);
+    const auto end = last + std::min<std::ptrdiff_t>(row.end() - last, no_cell);
+    std::fill(done, begin, square_half_cells_max);
+    along_row({begin, end});
+    done = end;
   }
+  std::fill(done, row.end(), square_half_cells_max);
 }
 
 // The steps to the nearest occupied cell of the same column, at most no_cell; in the memory of the result, for a map
 // may have a hundred million cells.
-void DistanceTransform::along_columns(std::span<const std::uint8_t> occupied, std::size_t width,
-                                      std::span<std::uint16_t> steps) {
+void DistanceTransform::along_columns(std::span<const Cell> cells, std::size_t width, std::span<std::uint16_t> steps) {
   const auto one_more = [](std::uint16_t cells) {
     return cells < no_cell ? static_cast<std::uint16_t>(cells + 1) : no_cell;
   };
   for (std::size_t i = 0; i < steps.size(); ++i) {
     const std::uint16_t below = i >= width ? steps[i - width] : no_cell;
-    steps[i] = occupied[i] ? 0 : one_more(below);
+    steps[i] = cells[i] == Cell::occupied ? 0 : one_more(below);
   }
   for (std::size_t i = steps.size(); i-- > width;) steps[i - width] = std::min(steps[i - width], one_more(steps[i]));
 }
 
-void DistanceTransform::along_row(std::int32_t width, std::span<const std::int64_t> column_squares,
-                                  std::span<std::uint16_t> squares) {
+// From steps along the columns to squared distances.
+void DistanceTransform::along_row(std::span<std::uint16_t> part) {
+  const auto width = static_cast<std::int32_t>(part.size());
+  std::transform(part.begin(), part.end(), row_.begin(),
+                 [](std::uint16_t steps) { return steps < no_cell ? square_to_edge(steps) : no_square; });
   // The envelope: site k is the lowest parabola from starts_[k], a half-cell coordinate, to the next one's start.
   std::size_t count = 0;
   const auto add_site = [&](std::int32_t site, std::int64_t height) {
@@ -83,8 +94,8 @@ void DistanceTransform::along_row(std::int32_t width, std::span<const std::int64
     starts_[count++] = start;
   };
   for (std::int32_t x = 0; x <= width; ++x) {
-    const std::int64_t left = x > 0 ? column_squares[static_cast<std::size_t>(x - 1)] : no_square;
-    const std::int64_t right = x < width ? column_squares[static_cast<std::size_t>(x)] : no_square;
+    const std::int64_t left = x > 0 ? row_[static_cast<std::size_t>(x - 1)] : no_square;
+    const std::int64_t right = x < width ? row_[static_cast<std::size_t>(x)] : no_square;
     // Between equal heights the edge is nowhere lower, at a cell's centre, than the centre lines beside it.
     if (left != right) add_site(2 * x, std::min(left, right));
     if (right != no_square) add_site(2 * x + 1, right);
@@ -98,7 +109,7 @@ void DistanceTransform::along_row(std::int32_t width, std::span<const std::int64
       const std::int64_t d = at - sites_[k];
       square = std::min(square, d * d + heights_[k]);
     }
-    squares[static_cast<std::size_t>(x)] = static_cast<std::uint16_t>(square);
+    part[static_cast<std::size_t>(x)] = static_cast<std::uint16_t>(square);
   }
 }
 

@@ -10,10 +10,9 @@ namespace waitpoint::executive {
 const std::vector<std::uint16_t>& KnownSpace::clearances() const {
   if (!clearances_.empty()) return clearances_;
   const std::span<const Cell> cells = map_.cells();
-  std::vector<std::uint8_t> occupied(cells.size());
-  std::transform(cells.begin(), cells.end(), occupied.begin(), [](Cell cell) { return cell == Cell::occupied; });
   clearances_.resize(cells.size());
-  DistanceTransform().run(occupied, map_.width(), map_.height(), clearances_);
+  DistanceTransform().run(cells, map_.width(), map_.height(), clearances_);
+  if (std::find(cells.begin(), cells.end(), Cell::unknown) == cells.end()) return clearances_;
   for (std::size_t i = 0; i < cells.size(); ++i)
     if (cells[i] == Cell::unknown) clearances_[i] = 0;
   return clearances_;

@@ -2,8 +2,9 @@
 // A module's table of activities. Guarded by the lock on the control data.
 //
 // Numbers are given in turn, so that the number of an ended activity is not soon reused. A bit mask of those in use is
-// kept apart: every wake-up of every task iterates over them. An activity has two kilobytes, for its input and output:
-// one that has ended is reused by the next, whatever its number, so that a module has as many as ran at once.
+// kept apart, and their tasks: every wake-up of every task looks for its own. An activity has two kilobytes, for its
+// input and output: one that has ended is reused by the next, whatever its number, so that a module has as many as ran
+// at once.
 #pragma once
 
 #include <array>
@@ -15,6 +16,8 @@
 #include "modules/genom/activity.hpp"
 
 namespace waitpoint::genom {
+
+class ExecutionTask;
 
 class ActivityTable {
   using Slot = std::unique_ptr<Activity>;
@@ -49,17 +52,25 @@ class ActivityTable {
   /// The activities, by number; the current element of an iteration may be freed.
   Used<Activity> used() { return {slots_.data(), used_}; }
   Used<const Activity> used() const { return {slots_.data(), used_}; }
+  /// Those of one execution task.
+  Used<Activity> used_of(const ExecutionTask& task) {
+    std::uint32_t own = 0;
+    for (std::uint32_t left = used_; left != 0; left &= left - 1)
+      if (task_[static_cast<std::size_t>(std::countr_zero(left))] == &task) own |= left & -left;
+    return {slots_.data(), own};
+  }
   bool empty() const { return used_ == 0; }
 
   bool full() const { return used_ == all; }
-  /// Allocates an activity and gives it a number. Not while the table is full.
-  Activity& add() {
+  /// Allocates an activity of `task` and gives it a number. Not while the table is full.
+  Activity& add(const ExecutionTask& task) {
     while ((used_ >> next_ & 1) != 0) next_ = (next_ + 1) % activities_max;
     if (spare_.empty()) spare_.push_back(std::make_unique<Activity>());
     slots_[next_] = std::move(spare_.back());
     spare_.pop_back();
     Activity& added = *slots_[next_];
     added.number = static_cast<std::int32_t>(next_);
+    task_[next_] = &task;
     used_ |= 1U << next_;
     next_ = (next_ + 1) % activities_max;
     return added;
@@ -84,7 +95,8 @@ class ActivityTable {
 
   std::uint32_t used_ = 0;  // one bit per slot
   std::size_t next_ = 0;
-  std::array<Slot, activities_max> slots_;  // by number
+  std::array<const ExecutionTask*, activities_max> task_{};  // by number
+  std::array<Slot, activities_max> slots_;                   // by number
   std::vector<Slot> spare_;
 };
 

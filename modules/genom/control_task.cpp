@@ -79,7 +79,7 @@ Report ControlTask::execute(const RequestType& type, const Letter& letter) {
   threads::this_thread::set_work(nullptr, "");
   if (checked != ok) return checked;
   interrupt_incompatible(type);
-  Activity& a = table.add();
+  Activity& a = table.add(*type.task);
   a.state = State::init;
   a.type = &type;
   a.send_id = letter.send_id;

@@ -70,8 +70,7 @@ bool ExecutionTask::wake_up(std::int64_t periods) {
   if (suspended_) return true;
   call_permanent(permanent_);
   bool state_changed = false;
-  for (Activity& activity : module_.activities.used())
-    if (activity.type->task == this) state_changed |= step(activity);
+  for (Activity& activity : module_.activities.used_of(*this)) state_changed |= step(activity);
   call_permanent(second_permanent_);
   for (OutputPosterBase* poster : posters_) {
     poster->update();

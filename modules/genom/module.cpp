@@ -29,7 +29,7 @@ void Module::add_to(WorkingSet& set) const {
   constexpr std::size_t of_own_max = 512;
   set.add_between(&data_.control_lock, &data_.functional_lock);
   set.add(data_.functional_lock);
-  set.add(&data_.activities, 1);
+  set.add(data_.activities);
   for (const Link& link : links_) link.poster->add_to(set);
   set.add(reinterpret_cast<const char*>(this) + sizeof(Module), std::min(size_ - sizeof(Module), of_own_max));
 }

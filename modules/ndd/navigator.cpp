@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 namespace waitpoint::ndd {
 namespace {
@@ -14,6 +15,17 @@ constexpr double security_m_min = 0.04;
 constexpr int pushes_max = 4;
 constexpr double push_m_max = 0.15;
 constexpr double security_per_m = 0.5;  // growth of the security distance with distance from the target
+
+struct WorkingMemory {
+  std::vector<Point> obstacles;
+  Diagram diagram;
+  Regions regions;
+};
+
+WorkingMemory& working_memory() {
+  thread_local const auto memory = std::make_unique<WorkingMemory>();
+  return *memory;
+}
 
 // The displacement after `seconds` at constant speeds, in the robot's frame.
 Pose displacement(const Speeds& speeds, double seconds) {
@@ -65,7 +77,7 @@ Decision Navigator::decide(Time now, const posters::PositionEstimate& position) 
   route_.advance(robot.position(), parameters_.via_tolerance_m);
   const Pose ahead = displacement(measured_, parameters_.prediction_s);
   decided_for_ = compose(trail_.newest(), ahead);
-  memory_.points_from(decided_for_, obstacles_);
+  memory_.points_from(decided_for_, working_memory().obstacles);
   const Point via = between(compose(robot, ahead), {route_.target().x, route_.target().y, 0}).position();
   const Point target = clear_of_obstacles(via);
   Decision decision;
@@ -101,7 +113,7 @@ void Navigator::steer(Point target, Decision& decision) {
   if (gives_way(assessment, target)) v_max *= give_way_share;
   if (route_.target_is_last()) v_max = std::min(v_max, std::sqrt(2 * parameters_.goal_braking_m_s2 * distance));
   const Speeds wanted = motion_law(parameters_, assessment.direction_rad, assessment.safety, v_max);
-  decision.speeds = limiter_.limit(wanted, measured_, obstacles_);
+  decision.speeds = limiter_.limit(wanted, measured_, working_memory().obstacles);
 }
 
 // A small position error can put a via point into a door's jamb, or the goal into a wall: the robot drives to the
@@ -112,7 +124,7 @@ Point Navigator::clear_of_obstacles(Point via) const {
   for (int push = 0; push < pushes_max; ++push) {
     double nearest = least;
     Point away;
-    for (const Point p : obstacles_) {
+    for (const Point p : working_memory().obstacles) {
       const Point d = target - p;
       if (dot(d, d) >= nearest * nearest) continue;
       nearest = length(d);
@@ -125,25 +137,26 @@ Point Navigator::clear_of_obstacles(Point via) const {
 }
 
 Assessment Navigator::assess(Point target, double target_distance_m) {
-  diagram_.build(obstacles_, parameters_.diagram_range_m);
+  auto& [obstacles, diagram, regions] = working_memory();
+  diagram.build(obstacles, parameters_.diagram_range_m);
   const double width = 2 * parameters_.robot_radius_m;
-  find_regions(diagram_, width, regions_);
+  find_regions(diagram, width, regions);
   std::optional<Point> previous;
   if (last_target_) previous = between(decided_for_, {last_target_->x, last_target_->y, 0}).position();
-  const Choice choice = choose_region(diagram_, regions_, target, previous, width);
+  const Choice choice = choose_region(diagram, regions, target, previous, width);
   if (choice.found) last_target_ = transform(decided_for_, choice.target);
   const double security = security_distance_m(target, target_distance_m);
-  Assessment free_way = high_safety(diagram_, choice, parameters_.robot_radius_m, security);
+  Assessment free_way = high_safety(diagram, choice, parameters_.robot_radius_m, security);
   if (free_way.situation == Situation::no_region) return free_way;
   const double regarded = std::min(parameters_.bypass_distance_m, length(choice.target));
-  free_way.direction_rad = keep_turning(bypass_.clear(diagram_, free_way.direction_rad, regarded));
-  return with_obstacles(diagram_, free_way, parameters_.robot_radius_m, security);
+  free_way.direction_rad = keep_turning(bypass_.clear(diagram, free_way.direction_rad, regarded));
+  return with_obstacles(diagram, free_way, parameters_.robot_radius_m, security);
 }
 
 // With its full security distance, a wall close to the target would deflect the motion from it.
 double Navigator::security_distance_m(Point target, double target_distance_m) const {
   double nearest = parameters_.robot_radius_m + parameters_.security_distance_m;
-  for (const Point p : obstacles_) {
+  for (const Point p : working_memory().obstacles) {
     const Point d = p - target;
     if (dot(d, d) < nearest * nearest) nearest = std::sqrt(dot(d, d));
   }

@@ -6,6 +6,9 @@
 //
 // Obstacles are in the odometry frame, via points in the map frame. A decision is made for the predicted pose at which
 // the command takes effect. The robot never drives backwards; it turns on the spot towards a goal behind it.
+//
+// The working memory of a decision, up to 40 KB, is one per thread of the system: all robots' decisions pass through
+// it, one after the other, and it stays in the cache.
 #pragma once
 
 #include "modules/ndd/bypass.hpp"
@@ -76,10 +79,6 @@ class Navigator {
   std::optional<Point> last_target_;  // of the region choice, in the odometry frame
   double last_turn_ = 0;              // direction of the last decision
 
-  // Working memory of a decision.
-  std::vector<Point> obstacles_;
-  Diagram diagram_;
-  Regions regions_;
   Pose decided_for_;  // in the odometry frame
 };
 

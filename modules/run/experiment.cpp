@@ -6,6 +6,7 @@
 #include <system_error>
 
 #include "core/error.hpp"
+#include "fibers/kernel/fetch_ahead.hpp"
 #include "fibers/sync/blocked_report.hpp"
 #include "fibers/sync/thread.hpp"
 #include "fibers/sync/threads.hpp"
@@ -17,7 +18,7 @@ namespace waitpoint::run {
 namespace {
 
 // Number of robots from which huge pages pay: the TLB does not hold the small pages of more, half a megabyte each.
-constexpr std::size_t crowd = 50;
+constexpr std::size_t crowd = 50, robot_bytes = std::size_t{512} << 10;
 
 bridge::Outcome outcome_of(RunEnd end) {
   switch (end) {
@@ -93,6 +94,8 @@ Experiment::Experiment(const scenario::Scenario& scenario, std::span<const genom
 }
 
 void Experiment::make(const scenario::Scenario& scenario, std::span<const genom::ModuleType> types) {
+  const std::size_t robots_here = scenario.robots.size() / static_cast<std::size_t>(ranks());
+  if (robots_here >= crowd) grow_heap_on_large_pages(robots_here * robot_bytes);
   make_network(scenario);
   assembly_.emplace(scenario, types, &*network_, options_.seed, placement());
   operator_.emplace(assembly_->world(), robots(), lanes_);
@@ -105,7 +108,7 @@ void Experiment::make(const scenario::Scenario& scenario, std::span<const genom:
   for (std::size_t i = 0; i < lanes_.size(); ++i)
     for (const scenario::ProgramScenario& program : scenario.robots[i].programs)
       if (is_here(i)) programs_.add(program, *lanes_[i]);
-  if (robots().size() / static_cast<std::size_t>(ranks()) >= crowd) put_heap_on_large_pages();
+  if (robots_here >= crowd) put_heap_on_large_pages();
 }
 
 void Experiment::join_ranks() {
@@ -168,9 +171,11 @@ void Experiment::spawn_robots(const scenario::Scenario& scenario) {
 void Experiment::spawn(bridge::Robot& robot) {
   kernel::Robot& lane = simulation_.add_robot(robot.name());
   lanes_.push_back(&lane);
+  bridges_.push_back(nullptr);
   if (robot.presence() == bridge::Presence::elsewhere) return;
   simulation_.spawn(lane, {.name = "bridge", .phase = kernel::Phase::world, .service = true},
                     [&robot] { robot.bridge().run(); });
+  bridges_.back() = simulation_.scheduler().roster().last_task();
   const genom::TaskComputing& computing = robot.computing();
   // Planning needs a large stack, of which there are 16 384; crowds of more have no goals.
   const kernel::StackSize stack = robot.has_goals() ? kernel::StackSize::large : kernel::StackSize::medium;
@@ -186,13 +191,31 @@ void Experiment::step_world() {
   ranked_->windows().add_world_time(processor_s() - begin_s);
 }
 
+// What the world's task touches of each robot after a step: a crowd does not fit into the cache.
+void Experiment::find_working_sets() {
+  for (std::size_t i = 0; i < robots().size(); ++i) {
+    if (bridges_[i] != nullptr) {
+      robots()[i]->add_step_to(step_sets_);
+      step_sets_.add(bridges_[i], kernel::record_lines_fetched * CacheLines::bytes);
+    }
+    step_sets_ends_.push_back(step_sets_.lines().size());
+  }
+}
+
+void Experiment::fetch_for_step(std::size_t robot) const {
+  if (robot >= step_sets_ends_.size()) return;
+  for (std::size_t i = robot > 0 ? step_sets_ends_[robot - 1] : 0; i < step_sets_ends_[robot]; ++i)
+    kernel::fetch_lines(step_sets_.lines()[i]);
+}
+
 void Experiment::run_world() {
+  find_working_sets();
   for (std::int64_t k = 1;; ++k) {
     this_thread::sleep_until(Time() + assembly_->scenario().step * k);
     operator_->act(now());
     step_world();
     for (const world::LooseState& loose : world().loose()) threads::record(loose_state, loose);
-    constexpr std::size_t ahead = 6;  // a crowd does not fit into the cache
+    constexpr std::size_t ahead = 4;
     for (std::size_t i = 0; i < lanes_.size(); ++i) {
       // A release for each robot is no loop that polls: the task does not yield to the bridges that it has woken, which
       // are others on each rank.
@@ -201,7 +224,7 @@ void Experiment::run_world() {
         ranked_->windows().step(i);
         continue;
       }
-      if (i + ahead < lanes_.size()) robots()[i + ahead]->fetch_evaluation();
+      fetch_for_step(i + ahead);
       if (!lanes_[i]->ended) robots()[i]->observe(now());
       robots()[i]->bridge().stepped();
     }

@@ -101,13 +101,18 @@ class Experiment {
   void complete(bridge::RobotResult& result, std::size_t robot) const;
   WorldSteps steps() const { return WorldSteps(assembly_->scenario().step); }
   void run_world();
+  void find_working_sets();
+  void fetch_for_step(std::size_t robot) const;
   void step_world();
   RunEnd run_to_end_of_step(Time until);
 
   ExperimentOptions options_;
   std::optional<io::Network> network_;  // destroyed after the robots, whose modules have sockets
   std::optional<Assembly> assembly_;
-  std::vector<kernel::Robot*> lanes_;  // by robot
+  std::vector<kernel::Robot*> lanes_;         // by robot
+  std::vector<const kernel::Task*> bridges_;  // by robot; null: elsewhere
+  WorkingSet step_sets_;                      // of the world's task at each robot, one after the other
+  std::vector<std::size_t> step_sets_ends_;   // by robot, in that list
   std::optional<Operator> operator_;
   std::function<void(Time now)> observer_;
   Simulation simulation_;                            // destroyed before the objects that its tasks use

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "modules/run/heap_pages.hpp"
 
+#include <malloc.h>
 #include <sys/mman.h>
+#include <unistd.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdlib>
 #include <fstream>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -44,6 +48,19 @@ std::vector<Mapping> heap() {
 }
 
 }  // namespace
+
+void grow_heap_on_large_pages(std::size_t bytes) {
+  constexpr std::size_t bytes_max = std::size_t{1} << 30, piece = std::size_t{64} << 10, pieces_max = 1024;
+  if (!are_large_pages_wanted()) return;
+  const int padding = static_cast<int>(std::min(bytes, bytes_max));
+  mallopt(M_TOP_PAD, padding);
+  mallopt(M_TRIM_THRESHOLD, padding);
+  // malloc() grows the heap, by the padding, when the free memory at its end does not suffice.
+  const void* const end = sbrk(0);
+  std::vector<std::unique_ptr<char[]>> pieces;
+  while (sbrk(0) == end && pieces.size() < pieces_max) pieces.push_back(std::make_unique_for_overwrite<char[]>(piece));
+  for (const Mapping part : heap()) madvise(part.begin, static_cast<std::size_t>(part.end - part.begin), MADV_HUGEPAGE);
+}
 
 void put_heap_on_large_pages() {
   if (!are_large_pages_wanted()) return;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The memory that tasks declare for prefetching is their own, a few kilobytes each: more of it would displace what other
-// tasks need next.
+// The memory that tasks declare for prefetching is their own, a few kilobytes each: more of it would displace what
+// other tasks need next.
 #include <gtest/gtest.h>
 
 #include "modules/run/experiment.hpp"

@@ -74,6 +74,15 @@ TEST(HeapPages, WhatWasAllocatedIsOnLargePages) {
   EXPECT_GE(heap_on_large_pages_kib(), before_kib + pieces_kib / 2);
 }
 
+TEST(HeapPages, WhatIsAllocatedAfterGrowthIsOnLargePages) {
+  if (!system_collapses_pages()) GTEST_SKIP() << "the system has no large pages on request";
+  constexpr std::uint64_t pieces_kib = pieces_count * sizeof(Piece) / 1024;
+  grow_heap_on_large_pages(2 * pieces_kib * 1024);
+  const std::uint64_t before_kib = heap_on_large_pages_kib();
+  const auto pieces = allocated_pieces();
+  EXPECT_GE(heap_on_large_pages_kib(), before_kib + pieces_kib / 2);
+}
+
 TEST(HeapPages, WhatWasAllocatedStaysAsItWas) {
   const auto pieces = allocated_pieces();
   for (int times = 0; times < 2; ++times) put_heap_on_large_pages();
