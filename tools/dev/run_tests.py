@@ -84,6 +84,12 @@ def end_group(group):
         pass
 
 
+def heed_signals():
+    """In the new process: nohup, and a shell for its background jobs, leave some ignored."""
+    for each in signal.SIGINT, signal.SIGQUIT, signal.SIGHUP:
+        signal.signal(each, signal.SIG_DFL)
+
+
 def run(command, timeout_s, environment=None, folder=None):
     """Runs a command in a process group of its own; returns (exit status, None past the timeout; output)."""
     process = subprocess.Popen(
@@ -94,6 +100,7 @@ def run(command, timeout_s, environment=None, folder=None):
         env=environment,
         cwd=folder,
         start_new_session=True,
+        preexec_fn=heed_signals,
     )
     running_groups.add(process.pid)
     try:
