@@ -42,12 +42,6 @@ PLACE = r"""  at virtual time 0\.300000000 s, in task mortal\.main of doomed, at
 """
 
 
-def heed_signals():
-    """In the new process: nohup, and a shell for its background jobs, leave some ignored."""
-    for each in signal.SIGINT, signal.SIGQUIT, signal.SIGHUP:
-        signal.signal(each, signal.SIG_DFL)
-
-
 class OfMortalModules(Installed):
     def setUp(self):
         self.program = self.compile("deaths", *flags(self.prefix, "--cflags", "--libs", "waitpoint-robots"))
@@ -59,8 +53,7 @@ class OfMortalModules(Installed):
                 *options]
 
     def start(self, way, *options):
-        return subprocess.Popen(self.command(way, *options), stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True,
-                                preexec_fn=heed_signals)
+        return subprocess.Popen(self.command(way, *options), stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
 
     def run_to_its_death(self, way, *options):
         return subprocess.run(self.command(way, *options), capture_output=True, text=True, errors="replace", timeout=120)
