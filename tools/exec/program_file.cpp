@@ -10,6 +10,7 @@
 #include <cstring>
 #include <fstream>
 #include <sstream>
+#include <string_view>
 #include <vector>
 
 #include "core/program_path.hpp"
@@ -32,7 +33,18 @@ auto elf_of(std::ifstream& file) {
   });
 }
 
-// `is_wanted` is a function: bool (const Elf64_Sym& symbol, const std::string& name).
+// At once: a program may have many thousand symbols. Empty if the file does not have all these bytes.
+std::string contents_of(std::ifstream& file, const Elf64_Shdr& section) {
+  file.clear();
+  file.seekg(0, std::ios::end);
+  const auto size = static_cast<std::uint64_t>(file.tellg());
+  if (section.sh_offset > size || section.sh_size > size - section.sh_offset) return "";
+  std::string bytes(section.sh_size, '\0');
+  file.seekg(static_cast<std::streamoff>(section.sh_offset));
+  return file.read(bytes.data(), static_cast<std::streamsize>(bytes.size())) ? bytes : "";
+}
+
+// `is_wanted` is a function: bool (const Elf64_Sym& symbol, std::string_view name).
 template <class IsWanted>
 bool has_dynamic_symbol(std::ifstream& file, IsWanted is_wanted) {
   Elf64_Ehdr header;
@@ -42,13 +54,12 @@ bool has_dynamic_symbol(std::ifstream& file, IsWanted is_wanted) {
     if (!read(file, header.e_shoff + i * sizeof(Elf64_Shdr), sections[i])) return false;
   for (const Elf64_Shdr& section : sections) {
     if (section.sh_type != SHT_DYNSYM || section.sh_link >= sections.size()) continue;
-    for (std::uint64_t at = 0; at + sizeof(Elf64_Sym) <= section.sh_size; at += sizeof(Elf64_Sym)) {
+    const std::string symbols = contents_of(file, section), names = contents_of(file, sections[section.sh_link]);
+    for (std::size_t at = 0; at + sizeof(Elf64_Sym) <= symbols.size(); at += sizeof(Elf64_Sym)) {
       Elf64_Sym symbol;
-      if (!read(file, section.sh_offset + at, symbol)) return false;
-      file.seekg(static_cast<std::streamoff>(sections[section.sh_link].sh_offset + symbol.st_name));
-      std::string name;
-      std::getline(file, name, '\0');
-      if (is_wanted(symbol, name)) return true;
+      std::memcpy(&symbol, symbols.data() + at, sizeof symbol);
+      if (symbol.st_name < names.size() && is_wanted(symbol, std::string_view(names.c_str() + symbol.st_name)))
+        return true;
     }
   }
   return false;
@@ -59,7 +70,7 @@ bool has_dynamic_symbol(std::ifstream& file, IsWanted is_wanted) {
 std::string trouble_of_sanitizer(std::ifstream& file) {
   if (elf_of(file).needs_library("libasan.so.")) return "is compiled with -fsanitize=address, which must be left out";
   std::string option;
-  has_dynamic_symbol(file, [&](const Elf64_Sym& symbol, const std::string& name) {
+  has_dynamic_symbol(file, [&](const Elf64_Sym& symbol, std::string_view name) {
     if (symbol.st_shndx == SHN_UNDEF) return false;
     if (name == "__tsan_init") option = "thread";
     if (name == "__asan_init") option = "address";
@@ -116,7 +127,7 @@ std::string cannot_be_simulated(const std::filesystem::path& program) {
 // Looks in the dynamic symbol table; other symbol tables may be stripped.
 bool counts_blocks(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
-  return has_dynamic_symbol(file, [](const Elf64_Sym& symbol, const std::string& name) {
+  return has_dynamic_symbol(file, [](const Elf64_Sym& symbol, std::string_view name) {
     return symbol.st_shndx == SHN_UNDEF && name.starts_with("__sanitizer_cov_trace_pc");
   });
 }
