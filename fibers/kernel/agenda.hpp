@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // All pending events in their order: the event list, and at its head the events of the present instant.
 //
-//   fifo      present | events       an event placed at the present instant is the last of it: no search for its place
+//   fifo      present | events       an event placed at the present instant is its robot's last: no search for its place
 //   seeded              events       each tie is a hash
 //   explored  ready   | events       a strategy chooses among the ready tasks
 //
@@ -51,10 +51,15 @@ struct Agenda {
   void place(Task& task, Time time) {
     if (time <= now) {
       if (chooser.order() == Order::fifo && PresentQueue::is_for(task.phase))
-        return present.add(task, chooser.tie(task));
+        return place_present(task);
       if (is_explored() && task.phase == Phase::tasks) return ready.add(task);
     }
     events.insert(task.event, key(task, time));
+  }
+  /// Places it at the present instant; in the first-in-first-out order, for a phase of the present queue.
+  void place_present(Task& task) {
+    const std::uint64_t tie = chooser.tie_of_next(task);
+    if (__builtin_expect(!present.try_add(task, tie), 0)) events.insert(task.event, {now, make_order(task.phase, tie)});
   }
   /// Places the timeout of a blocked task, which is mostly removed before it is due.
   void place_timeout(Task& task, Time time) {
@@ -106,7 +111,7 @@ struct Agenda {
     // behind its ties, as an inserted event would: otherwise the order would depend on unrelated events in between.
     const std::uint64_t tie = chooser.order() == Order::seeded ? chooser.tie(task)
                               : task.local_time == now         ? 0
-                                                               : tie_mask;
+                                                               : Chooser::last_tie(task);
     return {task.local_time, make_order(task.phase, tie)};
   }
 };

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The single source of choices: every property of a schedule that virtual time does not determine is decided here.
 //
-//   fifo      Events of one instant run in the order of insertion; the first waiter is served first. A running task
+//   fifo      Events of one instant run robot by robot, as the robots were made, which keeps a robot's memory in the
+//             caches; those of a robot in the order of insertion. The first waiter is served first. A running task
 //             continues at the present instant although others tie with it, so that a debugger stays in one task.
 //             A computation of uncertain cost takes the greatest.
 //   seeded    Ties, waiters to serve and costs of computations are hashes of {seed, task, its sequence number}, never
@@ -14,6 +15,7 @@
 #include "core/digest.hpp"
 #include "core/time.hpp"
 #include "fibers/kernel/decisions.hpp"
+#include "fibers/kernel/limits.hpp"
 #include "fibers/kernel/task.hpp"
 
 namespace waitpoint::kernel {
@@ -38,14 +40,16 @@ class Chooser {
 
   /// The tie of an event of `task` that is inserted now.
   std::uint64_t tie(const Task& task) {
-    if (order_ != Order::seeded) return tie_of_next();
+    if (order_ != Order::seeded) return tie_of_next(task);
     return Digest::mix(seed_ ^ Digest::mix(task.id + task.sequence * 0x9E3779B97F4A7C15u));
   }
-  /// The same for the other orders than the seeded: behind all earlier insertions.
-  std::uint64_t tie_of_next() { return ++insertions_; }
-  /// The tie of a timer's event: by the hash of the robot's name, then by the timer's number in the robot.
+  /// The same for the other orders than the seeded: behind all earlier insertions of the task's robot.
+  std::uint64_t tie_of_next(const Task& task) { return first_tie(task) | ++insertions_; }
+  /// Behind all insertions of the task's robot.
+  static std::uint64_t last_tie(const Task& task) { return first_tie(task) | insertions_mask; }
+  /// The tie of a timer's event: by robot, then by the timer's number in the robot.
   static std::uint64_t tie(const Object& timer) {
-    return (timer.robot->id & 0x7FFFFFFF) << 28 | (timer.number & 0x0FFFFFFF);
+    return std::uint64_t{timer.robot->number} << 28 | (timer.number & 0x0FFFFFFF);
   }
   /// The tie of the arrival of the `message`-th message from `sender`: behind the timers, by sender and number.
   static std::uint64_t tie(const Robot& sender, std::uint64_t message) {
@@ -88,6 +92,12 @@ class Chooser {
   }
 
  private:
+  // A tie in the first-in-first-out order: place of the robot:17 | insertion:43, not all of which a run of days counts.
+  static constexpr std::uint32_t insertion_bits = 43;
+  static_assert(places_max >> (60 - insertion_bits) == 0);
+  static constexpr std::uint64_t insertions_mask = (std::uint64_t{1} << insertion_bits) - 1;
+  static std::uint64_t first_tie(const Task& task) { return std::uint64_t{task.robot->place} << insertion_bits; }
+
   Order order_;
   std::uint64_t seed_;
   std::uint64_t insertions_ = 0;

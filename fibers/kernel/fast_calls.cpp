@@ -109,7 +109,7 @@ Departure Scheduler::start_block(Object& object, Time deadline) {
   if (__builtin_expect(!can_dispatch_present(), 0)) return block_slow(object, deadline);
   if constexpr (is_finite) {
     if (__builtin_expect(deadline <= agenda_.now, 0)) return block_slow(object, deadline);
-    const EventKey key{deadline, make_order(task.phase, agenda_.chooser.tie_of_next())};
+    const EventKey key{deadline, make_order(task.phase, agenda_.chooser.tie_of_next(task))};
     if (__builtin_expect(!agenda_.events.try_insert_fast(task.event, key), 0))
       return block_with_far_timeout(object, key);
   } else if (!cannot_close_cycle(object)) {
@@ -131,7 +131,7 @@ template Departure Scheduler::start_block<false>(Object&, Time);
   first.wake = Wake::woken;
   first.state = TaskState::ready;
   set_local_time(first, agenda_.now);
-  agenda_.present.add(first, agenda_.chooser.tie_of_next());
+  agenda_.place_present(first);
   return &first;
 }
 

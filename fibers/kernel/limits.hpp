@@ -15,6 +15,10 @@ inline constexpr std::uint32_t waitpoints_max = 1000;
 /// has taken what another one gave (turn.hpp, note_transfer()). That is some tens of millions of waitpoints: tests
 /// whose computing has no cost may pass many at one instant.
 inline constexpr std::uint64_t idle_yields_max = 20'000;
+/// After this number of yields at one instant a robot's events go behind those of the others, for which it may wait.
+inline constexpr std::uint64_t idle_yields_of_robot = 512;
+/// Places of robots in the order of one instant; later ones share the last.
+inline constexpr std::uint32_t places_max = (1u << 17) - 1;
 /// After this number of waitpoints at one instant a run ends even so: half a minute of processor time. The default of
 /// Scheduler::set_instant_limit().
 inline constexpr std::uint64_t instant_limit = 2'000'000'000;

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The queue of events inserted at the present instant, at the head of the event list in the first-in-first-out order.
 //
-// Such an event sorts behind all earlier insertions of its instant and phase, so it needs no search for its place. Most
-// events are of this kind: a task is woken by another, or yields. Events of the world's phase come first in the queue,
-// then those of the tasks' phase. The event list may hold earlier events of this instant; compare with its least key.
+// Such an event sorts behind all earlier insertions of its robot, instant and phase. Most events are of this kind: a
+// task is woken by another of its robot, or yields. Since the robots run one after the other, its place is at the end
+// (one robot, or the last one), or near the head (the robot that runs): no search. An event with a far place goes to the
+// event list. Events of the world's phase come first in the queue, then those of the tasks' phase.
+//
+// The event list may hold earlier events of this instant; compare with its least key.
 #pragma once
 
 #include <cstdint>
@@ -24,25 +27,25 @@ class PresentQueue {
   /// The first event's place at its instant; the queue must not be empty.
   std::uint64_t order() const { return make_order(first_->phase, first_->queue_tie); }
 
-  /// `task` must be of such a phase, neither here nor in the event list, and sort behind all events of its phase here.
-  void add(Task& task, std::uint64_t tie) {
+  /// `task` must be of such a phase, and neither here nor in the event list. False, with nothing changed, if its place
+  /// is far from both ends.
+  [[nodiscard]] bool try_add(Task& task, std::uint64_t tie) {
     WAITPOINT_CHECK(!task.event.in_list(), "a task becomes ready twice");
-    task.event.place = EventNode::ready;
-    task.queue_tie = tie;
-    ++size_;
-    if (__builtin_expect(task.phase == Phase::world, 0)) return add_of_world(task);
-    task.next_waiter = nullptr;
     if (__builtin_expect(first_ == nullptr, 1))
       first_ = &task;
-    else
+    else if (__builtin_expect(last_->phase == task.phase && last_->queue_tie < tie, 1))
       last_->next_waiter = &task;
+    else
+      return try_add_near_head(task, tie);
+    task.next_waiter = nullptr;
     last_ = &task;
+    note_added(task, tie);
+    return true;
   }
   /// Takes out the first task; the queue must not be empty.
   Task& take() {
     Task& task = *first_;
     first_ = task.next_waiter;
-    if (__builtin_expect(last_of_world_ == &task, 0)) last_of_world_ = nullptr;
     task.event.place = EventNode::absent;
     --size_;
     return task;
@@ -53,7 +56,6 @@ class PresentQueue {
     for (Task* other = first_; other != &task; other = other->next_waiter) before = other;
     (before == nullptr ? first_ : before->next_waiter) = task.next_waiter;
     if (last_ == &task) last_ = before;
-    if (last_of_world_ == &task) last_of_world_ = before;
     task.event.place = EventNode::absent;
     --size_;
   }
@@ -62,17 +64,29 @@ class PresentQueue {
   }
 
  private:
-  void add_of_world(Task& task) {
-    Task*& link = last_of_world_ == nullptr ? first_ : last_of_world_->next_waiter;
-    task.next_waiter = link;
-    link = &task;
-    last_of_world_ = &task;
-    if (task.next_waiter == nullptr) last_ = &task;
+  static constexpr int reach = 16;  // greatest number of events that an insertion near the head passes
+
+  [[gnu::noinline]] bool try_add_near_head(Task& task, std::uint64_t tie) {
+    const std::uint64_t order = make_order(task.phase, tie);
+    Task** link = &first_;
+    for (int passed = 0; *link != nullptr && make_order((*link)->phase, (*link)->queue_tie) < order; ++passed) {
+      if (passed == reach) return false;
+      link = &(*link)->next_waiter;
+    }
+    if (*link == nullptr) last_ = &task;
+    task.next_waiter = *link;
+    *link = &task;
+    note_added(task, tie);
+    return true;
+  }
+  void note_added(Task& task, std::uint64_t tie) {
+    task.event.place = EventNode::ready;
+    task.queue_tie = tie;
+    ++size_;
   }
 
   Task* first_ = nullptr;
   Task* last_ = nullptr;  // valid unless the queue is empty
-  Task* last_of_world_ = nullptr;
   std::uint32_t size_ = 0;
 };
 

@@ -20,8 +20,15 @@ void Roster::add(Robot& robot, const char* name, Scheduler& scheduler) {
   Digest id;
   for (const char* c = name; *c != '\0'; ++c) id.add(static_cast<std::uint64_t>(static_cast<unsigned char>(*c)));
   robot.id = id.value();
+  if (last_robot_ != nullptr) robot.number = last_robot_->number + 1;
+  put_last(robot);
   (last_robot_ == nullptr ? first_robot_ : last_robot_->next) = &robot;
   last_robot_ = &robot;
+}
+
+void Roster::put_last(Robot& robot) {
+  robot.place = places_;
+  if (places_ < places_max) ++places_;
 }
 
 void Roster::add(Task& task) {

@@ -15,6 +15,8 @@ class Roster {
  public:
   /// Adds a robot; the record is initialised here and must outlive the run.
   void add(Robot& robot, const char* name, Scheduler& scheduler);
+  /// Puts the robot's events behind those of the others at each instant, in the first-in-first-out order.
+  void put_last(Robot& robot);
   /// Adds a task, which has not ended, and numbers it. The roster must not be full.
   void add(Task& task);
   /// Removes `task`: its state is `ended` from now on.
@@ -55,6 +57,7 @@ class Roster {
   std::uint32_t tasks_ = 0;
   std::uint32_t live_tasks_ = 0;
   std::uint32_t made_ = 0;
+  std::uint32_t places_ = 0;  // number of robots' places assigned, up to places_max
   std::uint32_t most_tasks_ = tasks_max;
   PairDigest ended_robots_digest_;  // takes in the events of services of robots whose own digest is frozen
 };

@@ -35,6 +35,8 @@ struct Robot {
   PairDigest digest;                    ///< of its own events and outputs, until its end
   PairDigest* digest_in_use = nullptr;  ///< the digest that takes in its tasks' events: `digest`, until its end
   std::uint64_t id = 0;                 ///< a hash of its name
+  std::uint32_t number = 0;             ///< counts the run's robots, from 0
+  std::uint32_t place = 0;              ///< among the robots at each instant, in the first-in-first-out order
   std::uint64_t messages = 0;           ///< number sent to other robots
   std::uint64_t outputs = 0;            ///< number of its tasks' outputs, hashed beside the events
   std::uint32_t objects = 0;            ///< number of objects numbered so far

@@ -193,7 +193,8 @@ void Scheduler::check_progress(Task& task, std::uint32_t waitpoints) {
   if (turn.transferred) idle_yields_ = 0;
   turn.transferred = false;
   waitpoints_at_instant_ += waitpoints;
-  const bool is_idle = ++idle_yields_ > idle_yields_max + std::uint64_t{waitpoints_max} * roster_.tasks();
+  if (++idle_yields_ % idle_yields_of_robot == 0) roster_.put_last(*task.robot);
+  const bool is_idle = idle_yields_ > idle_yields_max + std::uint64_t{waitpoints_max} * roster_.tasks();
   if (!is_idle && !is_beyond_instant_limit()) return;
   culprit_ = &task;
   stop(StopCause::no_progress);
