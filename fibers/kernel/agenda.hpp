@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // All pending events in their order: the event list, and at its head the events of the present instant.
 //
-//   fifo      present | events       an event placed at the present instant is its robot's last: no search for its place
-//   seeded              events       each tie is a hash
-//   explored  ready   | events       a strategy chooses among the ready tasks
+//   fifo      present | events       an event placed at the present instant is its robot's last: no search for its
+//   place seeded              events       each tie is a hash explored  ready   | events       a strategy chooses among
+//   the ready tasks
 //
 // In all orders, events of one instant are sorted by phase first.
 #pragma once
@@ -50,8 +50,7 @@ struct Agenda {
   /// Places the task's event at `time`.
   void place(Task& task, Time time) {
     if (time <= now) {
-      if (chooser.order() == Order::fifo && PresentQueue::is_for(task.phase))
-        return place_present(task);
+      if (chooser.order() == Order::fifo && PresentQueue::is_for(task.phase)) return place_present(task);
       if (is_explored() && task.phase == Phase::tasks) return ready.add(task);
     }
     events.insert(task.event, key(task, time));

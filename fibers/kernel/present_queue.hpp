@@ -3,8 +3,8 @@
 //
 // Such an event sorts behind all earlier insertions of its robot, instant and phase. Most events are of this kind: a
 // task is woken by another of its robot, or yields. Since the robots run one after the other, its place is at the end
-// (one robot, or the last one), or near the head (the robot that runs): no search. An event with a far place goes to the
-// event list. Events of the world's phase come first in the queue, then those of the tasks' phase.
+// (one robot, or the last one), or near the head (the robot that runs): no search. An event with a far place goes to
+// the event list. Events of the world's phase come first in the queue, then those of the tasks' phase.
 //
 // The event list may hold earlier events of this instant; compare with its least key.
 #pragma once

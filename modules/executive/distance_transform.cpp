@@ -2,6 +2,7 @@
 #include "modules/executive/distance_transform.hpp"
 
 #include <algorithm>
+#include <cstring>
 #include <limits>
 
 #include "core/error.hpp"
@@ -20,6 +21,40 @@ std::int64_t square_to_edge(std::int64_t cells) {
 
 std::int64_t floor_divide(std::int64_t a, std::int64_t b) {  // b > 0
   return a >= 0 ? a / b : -((-a + b - 1) / b);
+}
+
+// Eight cells of a row at a time, by vectors that every processor has; the rest one by one.
+typedef std::uint16_t EightSteps __attribute__((vector_size(16)));
+typedef std::uint8_t EightCells __attribute__((vector_size(8)));
+
+template <class Vector, class Element>
+Vector load(const Element* from) {
+  Vector vector;
+  std::memcpy(&vector, from, sizeof vector);
+  return vector;
+}
+template <class Vector>
+void store(Vector vector, std::uint16_t* to) {
+  std::memcpy(to, &vector, sizeof vector);
+}
+template <class Steps>
+Steps one_more(Steps steps) {
+  const auto more = static_cast<Steps>(steps + 1), most = static_cast<Steps>(Steps{} + no_cell);
+  return more < most ? more : most;
+}
+// All bits where a cell is occupied.
+EightSteps occupied(EightSteps, const Cell* cells) {
+  const auto eight = __builtin_convertvector(load<EightCells>(cells), EightSteps);
+  return reinterpret_cast<EightSteps>(eight == static_cast<std::uint16_t>(Cell::occupied));
+}
+std::uint16_t occupied(std::uint16_t, const Cell* cell) { return *cell == Cell::occupied ? 0xFFFF : 0; }
+
+// Calls act(zero of the cells' type, index of the first cell) for all cells of the row from `first` on.
+template <class Act>
+void for_each_of_row(std::size_t first, std::size_t width, const Act& act) {
+  std::size_t x = 0;
+  for (; x + 8 <= width; x += 8) act(EightSteps{}, first + x);
+  for (; x < width; ++x) act(std::uint16_t{0}, first + x);
 }
 
 }  // namespace
@@ -59,14 +94,18 @@ void DistanceTransform::divide(std::span<std::uint16_t> row) {
 // The steps to the nearest occupied cell of the same column, at most no_cell; in the memory of the result, for a map
 // may have a hundred million cells.
 void DistanceTransform::along_columns(std::span<const Cell> cells, std::size_t width, std::span<std::uint16_t> steps) {
-  const auto one_more = [](std::uint16_t cells) {
-    return cells < no_cell ? static_cast<std::uint16_t>(cells + 1) : no_cell;
+  const auto upwards = [&](auto at, std::size_t i) {
+    using Steps = decltype(at);
+    const Steps below = i >= width ? load<Steps>(&steps[i - width]) : static_cast<Steps>(at + no_cell);
+    store(static_cast<Steps>(one_more(below) & ~occupied(at, &cells[i])), &steps[i]);
   };
-  for (std::size_t i = 0; i < steps.size(); ++i) {
-    const std::uint16_t below = i >= width ? steps[i - width] : no_cell;
-    steps[i] = cells[i] == Cell::occupied ? 0 : one_more(below);
-  }
-  for (std::size_t i = steps.size(); i-- > width;) steps[i - width] = std::min(steps[i - width], one_more(steps[i]));
+  for (std::size_t first = 0; first < steps.size(); first += width) for_each_of_row(first, width, upwards);
+  const auto downwards = [&](auto at, std::size_t i) {
+    using Steps = decltype(at);
+    const Steps own = load<Steps>(&steps[i - width]), other = one_more(load<Steps>(&steps[i]));
+    store(own < other ? own : other, &steps[i - width]);
+  };
+  for (std::size_t end = steps.size(); end > width; end -= width) for_each_of_row(end - width, width, downwards);
 }
 
 // From steps along the columns to squared distances.
@@ -77,16 +116,19 @@ void DistanceTransform::along_row(std::span<std::uint16_t> part) {
   // The envelope: site k is the lowest parabola from starts_[k], a half-cell coordinate, to the next one's start.
   std::size_t count = 0;
   const auto add_site = [&](std::int32_t site, std::int64_t height) {
-    std::int64_t start = 0;
-    while (count > 0) {
-      const std::int64_t other = sites_[count - 1];
-      // First integer coordinate at which the new parabola is strictly lower.
-      const std::int64_t numerator =
-          height + static_cast<std::int64_t>(site) * site - heights_[count - 1] - other * other;
-      start = std::max<std::int64_t>(0, floor_divide(numerator, 2 * (site - other)) + 1);
-      if (start > starts_[count - 1]) break;
+    const auto height_at = [](std::int64_t x, std::int64_t site, std::int64_t height) {
+      return (x - site) * (x - site) + height;
+    };
+    // Parabolas differ by a linear function: one that is lower at the start of an earlier site is lower from there on.
+    while (count > 0 && height_at(starts_[count - 1], site, height) <
+                            height_at(starts_[count - 1], sites_[count - 1], heights_[count - 1]))
       --count;
-      start = 0;
+    std::int64_t start = 0;
+    if (count > 0) {
+      // First integer coordinate at which the new parabola is strictly lower; equal heights need no division.
+      const std::int64_t other = sites_[count - 1], rise = height - heights_[count - 1];
+      const std::int64_t twice_middle = site + other, twice_apart = 2 * (site - other);
+      start = (rise == 0 ? twice_middle / 2 : floor_divide(rise + twice_middle * (site - other), twice_apart)) + 1;
     }
     if (start > 2 * static_cast<std::int64_t>(width)) return;
     sites_[count] = site;

@@ -8,8 +8,8 @@
 #include <span>
 #include <vector>
 
+#include "core/large_pages.hpp"
 #include "world/planar/outline.hpp"
-#include "world/slice/large_pages.hpp"
 #include "world/slice/tree.hpp"
 
 namespace waitpoint::world {

@@ -9,7 +9,7 @@
 #include <cstdlib>
 #include <new>
 
-namespace waitpoint::world {
+namespace waitpoint {
 
 /// An allocator for std::vector.
 template <class T>
@@ -44,4 +44,4 @@ struct LargePages {
   static constexpr std::align_val_t alignment{alignof(T)};
 };
 
-}  // namespace waitpoint::world
+}  // namespace waitpoint
