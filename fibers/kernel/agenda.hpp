@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // All pending events in their order: the event list, and at its head the events of the present instant.
 //
-//   fifo      present | events       an event placed at the present instant is its robot's last: no search for its
-//   place seeded              events       each tie is a hash explored  ready   | events       a strategy chooses among
-//   the ready tasks
+//   fifo      present | events       at the present instant an event is its robot's last: no search for its place
+//   seeded              events       each tie is a hash
+//   explored  ready   | events       a strategy chooses among the ready tasks
 //
 // In all orders, events of one instant are sorted by phase first.
 #pragma once
