@@ -5,6 +5,8 @@
 
 #include "core/doing.hpp"
 #include "core/nearest_name.hpp"
+#include "modules/control/controller.hpp"
+#include "modules/control/parser.hpp"
 #include "modules/executive/executive.hpp"
 #include "modules/genom/module.hpp"
 
@@ -46,13 +48,15 @@ Robot::Robot(const scenario::RobotScenario& scenario, std::span<const genom::Mod
   make_modules(types, network);
   if (!scenario.goals.empty()) make_executive(std::move(known), seed);
   connect();
+  if (scenario.control) make_controller();
 }
 
 Robot::Robot(const scenario::RobotScenario& scenario, world::World& world, world::BodyId body)
     : scenario_(scenario), world_(world), body_(body) {}
 
-// The executive, a client of the modules, ends before them.
+// The executive, a client of the modules, and the controller between end before them.
 Robot::~Robot() {
+  controller_.reset();
   executive_.reset();
   while (!modules_.empty()) {
     const std::string doing = "destroying module " + module_scenarios_.back()->name + " of robot " + scenario_.name;
@@ -120,7 +124,18 @@ void Robot::connect() {
   evaluation_.connect(names_);
 }
 
+// Last: rules name the posters of modules and bridge.
+void Robot::make_controller() {
+  const scenario::ControlScenario& control = *scenario_.control;
+  genom::Settings settings(control.settings);
+  const genom::TaskComputing computing = genom::read_computing(settings, "", names_, {});
+  settings.check_all_used();
+  controller_ =
+      std::make_unique<control::Controller>(control::parse_rules(control.rules, control.file), names_, computing);
+}
+
 void Robot::run() {
+  if (controller_) controller_->start();
   for (const auto& module : modules_) module->start();
   if (executive_) executive_->run();
 }
@@ -142,6 +157,7 @@ void Robot::end_modules() {
     WAITPOINT_CHECK(ended, "an interrupted activity of a module does not end");
     module->join();
   }
+  if (controller_) controller_->stop();
 }
 
 void Robot::set_watch(genom::ModuleWatch* watch) {

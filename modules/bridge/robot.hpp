@@ -20,6 +20,9 @@
 #include "modules/scenario/scenario.hpp"
 #include "world/world.hpp"
 
+namespace waitpoint::control {
+class Controller;
+}  // namespace waitpoint::control
 namespace waitpoint::executive {
 class Executive;
 class KnownSpace;
@@ -58,6 +61,9 @@ class Robot {
   /// Reports the modules' activity to `watch`, which must outlive the robot's tasks. Before run(). Null: no watch.
   void set_watch(genom::ModuleWatch* watch);
 
+  /// The execution control; null without rules.
+  control::Controller* controller() const { return controller_.get(); }
+
   Presence presence() const { return bridge_ ? Presence::here : Presence::elsewhere; }
   /// Of a robot that is here.
   RobotBridge& bridge() { return *bridge_; }
@@ -94,6 +100,7 @@ class Robot {
   void make_modules(std::span<const genom::ModuleType> types, io::Network* network);
   void make_executive(std::shared_ptr<const executive::KnownSpace> known, std::uint64_t seed);
   void connect();
+  void make_controller();
 
   const scenario::RobotScenario& scenario_;
   world::World& world_;
@@ -104,6 +111,7 @@ class Robot {
   std::optional<RobotBridge> bridge_;                              // none: it is elsewhere
   genom::TaskComputing computing_;
   std::unique_ptr<executive::Executive> executive_;  // null without goals
+  std::unique_ptr<control::Controller> controller_;  // null without rules
   Evaluation evaluation_;
   std::optional<KeptPaths> kept_paths_;
   std::uint64_t goals_elsewhere_ = 0, reached_elsewhere_ = 0;

@@ -13,7 +13,9 @@ std::optional<std::uint32_t> Client::send(const std::string& module, const std::
   letter.send_id = ++sent_;
   letter.reply_to = &mailbox_;
   letter.payload = input;
-  if (!target->mailbox().post(letter)) return std::nullopt;
+  RequestGate* const gate = names_.gate();
+  const bool is_posted = gate != nullptr ? gate->post(*target, letter) : target->mailbox().post(letter);
+  if (!is_posted) return std::nullopt;
   return letter.send_id;
 }
 

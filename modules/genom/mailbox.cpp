@@ -21,7 +21,7 @@ Mailbox::Mailbox(std::string owner) : owner_(std::move(owner)), name_(text_hash(
 bool Mailbox::post(const Letter& letter) {
   {
     const std::lock_guard guard(mutex_);
-    const bool awaited = letter.kind != LetterKind::request && letter.send_id == awaited_;
+    const bool awaited = letter.kind != LetterKind::request && (letter.send_id == awaited_ || keeps_replies_);
     if (letters_.size() >= letters_max && !awaited) return false;
     letters_.push_back(letter);
   }

@@ -17,6 +17,7 @@
 namespace waitpoint::genom {
 
 class Mailbox;
+class Module;
 
 enum class LetterKind : std::uint8_t { request, intermediate_reply, final_reply };
 
@@ -27,6 +28,7 @@ struct Letter {
   std::int32_t activity = -1;  ///< in replies: the activity's number, -1 if there is none
   Report report = ok;
   Mailbox* reply_to = nullptr;
+  Module* module = nullptr;  ///< of a request in the mailbox of a gate: the module that it is for
   Payload payload;
 };
 
@@ -42,6 +44,9 @@ class Mailbox {
   /// From now on replies to the owner's request `send_id` alone are accepted beyond the bound: the owner waits for
   /// them, and a lost reply would block it forever.
   void keep_room_for(std::uint32_t send_id) { awaited_ = send_id; }
+  /// From now on all replies are accepted beyond the bound, for an owner that bounds its own requests and must not miss
+  /// the end of any.
+  void keep_room_for_replies() { keeps_replies_ = true; }
   /// Takes the oldest letter; false if there is none. Does not wait.
   bool take(Letter& letter);
 
@@ -56,6 +61,7 @@ class Mailbox {
   threads::counting_semaphore<> event_{0, "mailbox event"};
   std::deque<Letter> letters_;
   std::atomic<std::uint32_t> awaited_ = 0;  // send_id; 0: none
+  std::atomic<bool> keeps_replies_ = false;
 };
 
 }  // namespace waitpoint::genom

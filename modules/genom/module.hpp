@@ -145,6 +145,7 @@ RequestType& Module::add_control(const std::string& name,
   RequestType& type = add_request(name, RequestKind::control, std::move(interrupts));
   type.accepts = internal::accepts<In>;
   type.read_input = internal::read_input<In>;
+  type.has_input = internal::has_input<In>;
   type.control = [codel = std::move(codel)](const Payload& input, Payload& output) {
     Out out{};
     const Report report = codel(input.as<In>(), out);
@@ -161,6 +162,7 @@ RequestType& Module::add_activity(const std::string& name, ExecutionTask& task,
   type.task = &task;
   type.accepts = internal::accepts<In>;
   type.read_input = internal::read_input<In>;
+  type.has_input = internal::has_input<In>;
   type.control = [control = codels.control](const Payload& input, Payload&) {
     return control ? control(input.as<In>()) : ok;
   };

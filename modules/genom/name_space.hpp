@@ -7,10 +7,9 @@
 #include <string>
 
 #include "modules/genom/poster.hpp"
+#include "modules/genom/request_gate.hpp"
 
 namespace waitpoint::genom {
-
-class Module;
 
 class NameSpace {
  public:
@@ -32,6 +31,10 @@ class NameSpace {
   /// A duplicate name is BadInput.
   void add(const std::string& name, Module& module);
 
+  /// The gate through which clients' requests pass, which must outlive their tasks; null (the default): none.
+  RequestGate* gate() const { return gate_; }
+  void set_gate(RequestGate* gate) { gate_ = gate; }
+
   const std::map<std::string, std::unique_ptr<PosterBase>>& posters() const { return posters_; }
   const std::map<std::string, Module*>& modules() const { return modules_; }
 
@@ -41,6 +44,7 @@ class NameSpace {
   std::map<std::string, std::unique_ptr<PosterBase>> posters_;
   std::map<std::string, Module*> modules_;
   std::map<std::string, std::unique_ptr<threads::processor>> processors_;
+  RequestGate* gate_ = nullptr;
 };
 
 }  // namespace waitpoint::genom

@@ -6,6 +6,7 @@
 #include <new>
 #include <type_traits>
 
+#include "core/field_path.hpp"
 #include "core/fields.hpp"
 
 namespace waitpoint::genom {
@@ -45,6 +46,8 @@ class Payload {
     WAITPOINT_CHECK(holds<T>(), "a request's input or output is taken for another type");
     return held<T>();
   }
+  /// The number at a field's path of the value: core/field_path.hpp.
+  FieldOutcome read(std::string_view path, double& number) const { return type_->read(*this, path, number); }
   /// Adds the value to a digest by its declared fields.
   void add_to(Digest& digest) const { type_->add(digest, *this); }
 
@@ -54,6 +57,7 @@ class Payload {
   struct Type {
     void (*copy)(std::byte* to, const Payload& payload);
     void (*add)(Digest& digest, const Payload& payload);
+    FieldOutcome (*read)(const Payload& payload, std::string_view path, double& number);
   };
   template <class T>
   const T& held() const {
@@ -62,7 +66,10 @@ class Payload {
   template <class T>
   static const Type* type_of() {
     static constexpr Type type{[](std::byte* to, const Payload& payload) { new (to) T(payload.held<T>()); },
-                               [](Digest& digest, const Payload& payload) { add_value(digest, payload.held<T>()); }};
+                               [](Digest& digest, const Payload& payload) { add_value(digest, payload.held<T>()); },
+                               [](const Payload& payload, std::string_view path, double& number) {
+                                 return read_number(payload.held<T>(), path, number);
+                               }};
     return &type;
   }
 

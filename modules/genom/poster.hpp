@@ -8,12 +8,17 @@
 #include <algorithm>
 #include <mutex>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <typeinfo>
 
+#include "core/field_path.hpp"
 #include "fibers/sync/threads.hpp"
 
 namespace waitpoint::genom {
+
+enum class PosterStatus : std::uint8_t { ok, empty };
 
 /// The part of a poster that does not depend on its type.
 class PosterBase {
@@ -26,6 +31,11 @@ class PosterBase {
   /// The only writer: a module or the bridge.
   const std::string& writer() const { return writer_; }
   virtual const std::type_info& type() const = 0;
+
+  /// True if values have a number at this path: core/field_path.hpp.
+  virtual bool has_number(std::string_view path) const = 0;
+  /// Reads the numbers at the paths of all `readings` from one value, and its date.
+  virtual PosterStatus read_numbers(std::span<FieldReading> readings, Time& date) const = 0;
 
   /// Duration of a module's access to it, as to hardware: added to the local time of the task that reads or writes. A
   /// value read is older, and a value written is published later, by it.
@@ -48,14 +58,24 @@ class PosterBase {
   Duration latency_;
 };
 
-enum class PosterStatus : std::uint8_t { ok, empty };
-
 template <HasFields T>
 class Poster : public PosterBase {
  public:
   Poster(std::string name, std::string writer) : PosterBase(std::move(name), std::move(writer)) {}
   const std::type_info& type() const override { return typeid(T); }
   void add_to(WorkingSet& set) const override;
+
+  bool has_number(std::string_view path) const override {
+    double ignored = 0;
+    return read_number(T{}, path, ignored) != FieldOutcome::unknown;
+  }
+  PosterStatus read_numbers(std::span<FieldReading> readings, Time& date) const override {
+    const std::lock_guard guard(mutex_);
+    if (writes_ == 0) return PosterStatus::empty;
+    for (FieldReading& reading : readings) reading.outcome = read_number(value_, reading.path, reading.number);
+    date = date_;
+    return PosterStatus::ok;
+  }
 
   /// Publishes a new value. Only for the poster's writer.
   void write(const T& value) {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Reports: the outcome of a request. 32 bits: module number << 16 | code; 0 is success.
 //
-// Codes 1 to 99 are GenoM's standard codes, the same for every module; a module's own start at first_own_report.
+// Codes 1 to 99 are the standard codes, the same for every module, and up to 11 GenoM's; a module's own start at
+// first_own_report.
 #pragma once
 
 #include <cstdint>
@@ -24,6 +25,7 @@ enum class StandardReport : std::uint16_t {
   wait_init_request = 9,
   control_codel_error = 10,
   exec_task_suspended = 11,
+  rejected_by_control = 12,  ///< by the rules of the robot's execution control: modules/control
 };
 
 inline constexpr std::uint16_t first_own_report = 100;
@@ -51,7 +53,8 @@ constexpr const char* name(Report report) {
                                    "ACTIVITY_ALREADY_ENDED",
                                    "WAIT_INIT_RQST",
                                    "CONTROL_CODEL_ERROR",
-                                   "EXEC_TASK_SUSPENDED"};
+                                   "EXEC_TASK_SUSPENDED",
+                                   "REJECTED_BY_CONTROL"};
   const std::uint16_t code = code_of(report);
   return code < sizeof names / sizeof *names ? names[code] : "own report";
 }

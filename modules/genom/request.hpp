@@ -32,6 +32,8 @@ struct RequestType {
   /// Parses the input by its declared fields; unset fields keep their defaults. BadInput for unknown keys or bad
   /// values.
   Payload (*read_input)(Settings& arguments) = nullptr;
+  /// True if the input has a number at this path: core/field_path.hpp.
+  bool (*has_input)(std::string_view path) = nullptr;
   std::function<Report(const Payload& input, Payload& output)> control;
   /// Calls the codel of that state; nothing if there is none.
   std::function<std::optional<State>(State state, Activity& activity)> codel;
@@ -67,6 +69,12 @@ Payload read_input(Settings& arguments) {
   arguments.read(input);
   arguments.check_all_used();
   return Payload(input);
+}
+
+template <class In>
+bool has_input(std::string_view path) {
+  double ignored = 0;
+  return read_number(In{}, path, ignored) != FieldOutcome::unknown;
 }
 
 template <class In, class Out>

@@ -6,6 +6,7 @@
 #include "core/confinement.hpp"
 #include "core/nearest_name.hpp"
 #include "modules/scenario/body_reader.hpp"
+#include "modules/scenario/control_reader.hpp"
 #include "modules/scenario/shape_reader.hpp"
 #include "modules/scenario/yaml_override.hpp"
 
@@ -203,6 +204,7 @@ RobotScenario read_equipment(const YamlMap& map, const BodyReading* given = null
     }
     robot.executive = flattened(*executive);
   }
+  if (const YamlNode* control = map.find("control")) robot.control = read_control(*control);
   return robot;
 }
 
@@ -227,7 +229,7 @@ RobotScenario read_robot(const YamlNode& node, const YamlNode* types) {
                      std::string_view("bridge"),         std::string_view("executive"), std::string_view("processors"),
                      std::string_view("start_height_m"), std::string_view("bumpers"),   std::string_view("infrareds"),
                      std::string_view("urdf"),           std::string_view("imu"),       std::string_view("gps"),
-                     std::string_view("battery"),        std::string_view("programs")};
+                     std::string_view("battery"),        std::string_view("programs"),  std::string_view("control")};
   const YamlMap own(node, title, keys);
   const std::string name = read_name(own.require("name"), "the name of a robot");
   const YamlNode whole = own.has("type") ? laid_over(type_of(own, types), node) : node;
@@ -255,7 +257,8 @@ RobotScenario read_robot_of_map(const YamlNode& node, const YamlNode* types, con
                      std::string_view("lasers"),    std::string_view("sonars"),     std::string_view("bumpers"),
                      std::string_view("infrareds"), std::string_view("imu"),        std::string_view("gps"),
                      std::string_view("battery"),   std::string_view("modules"),    std::string_view("bridge"),
-                     std::string_view("executive"), std::string_view("processors"), std::string_view("programs")};
+                     std::string_view("executive"), std::string_view("processors"), std::string_view("programs"),
+                     std::string_view("control")};
   const YamlMap own(node, title, keys);
   const YamlNode whole = own.has("type") ? laid_over(type_of(own, types), node) : node;
   RobotScenario robot = read_equipment(YamlMap(whole, title, keys), &given);
@@ -277,27 +280,8 @@ void check_robot_type(const YamlEntry& type, bool for_map) {
   const BodyReading of_map;
   read_equipment(YamlMap(type.value, "robot type '" + type.key + "'",
                          {"shape", "urdf", "base", "lasers", "sonars", "bumpers", "infrareds", "imu", "gps", "battery",
-                          "modules", "bridge", "executive", "processors", "programs"}),
+                          "modules", "bridge", "executive", "processors", "programs", "control"}),
                  for_map ? &of_map : nullptr);
-}
-
-std::vector<Setting> flattened(const YamlNode& node, const std::string& prefix) {
-  std::vector<Setting> settings;
-  const auto append = [&](const YamlNode& value, const std::string& key) {
-    const std::string path = prefix.empty() ? key : prefix + "." + key;
-    for (Setting& setting : flattened(value, path)) settings.push_back(std::move(setting));
-  };
-  switch (node.kind) {
-    case YamlNode::Kind::null: break;
-    case YamlNode::Kind::scalar: settings.push_back({prefix, node.text, node.written.file, node.written.line}); break;
-    case YamlNode::Kind::list:
-      for (std::size_t i = 0; i < node.items.size(); ++i) append(node.items[i], std::to_string(i));
-      break;
-    case YamlNode::Kind::map:
-      for (const YamlEntry& entry : node.entries) append(entry.value, entry.key);
-      break;
-  }
-  return settings;
 }
 
 }  // namespace waitpoint::scenario

@@ -24,7 +24,4 @@ std::string fitting_name(const std::string& name);
 /// the shape.
 void check_robot_type(const YamlEntry& type, bool for_map);
 
-/// The values below `node`, keyed by `prefix` and the keys and list positions, joined by dots; nulls are omitted.
-std::vector<Setting> flattened(const YamlNode& node, const std::string& prefix = "");
-
 }  // namespace waitpoint::scenario

@@ -87,6 +87,13 @@ struct BridgeRow {
   Location written;
 };
 
+/// Execution control: rules between the clients of the modules and the modules (modules/control).
+struct ControlScenario {
+  std::string file;               ///< resolved
+  std::string rules;              ///< its contents
+  std::vector<Setting> settings;  ///< clock and processor of the controller's task
+};
+
 struct RobotScenario {
   std::string name;
   world::BodyDescription body;           ///< including the robot's name
@@ -98,6 +105,7 @@ struct RobotScenario {
   std::vector<ProgramScenario> programs;  ///< enabled ones
   std::vector<std::string> processors;    ///< that tasks of its modules can share
   std::vector<Setting> executive;
+  std::optional<ControlScenario> control;
   Location written, start_written;
 };
 

@@ -5,7 +5,9 @@
 #include <chrono>
 #include <map>
 
+#include "core/digest.hpp"
 #include "core/printable_line.hpp"
+#include "modules/scenario/control_reader.hpp"
 #include "modules/scenario/map_robots.hpp"
 #include "modules/scenario/medium_reader.hpp"
 #include "modules/scenario/robot_reader.hpp"
@@ -101,6 +103,22 @@ void read_robots(const YamlNode& list, const YamlNode* types, Scenario& scenario
   }
 }
 
+/// For all robots without one of their own.
+void read_common_control(const YamlNode& node, Scenario& scenario) {
+  const ControlScenario control = read_control(node);
+  for (RobotScenario& robot : scenario.robots)
+    if (!robot.control) robot.control = control;
+}
+
+void add_rules_to_fingerprint(Scenario& scenario) {
+  for (const RobotScenario& robot : scenario.robots) {
+    if (!robot.control) continue;
+    Digest digest(scenario.fingerprint);
+    digest.add(std::string_view(robot.control->rules));
+    scenario.fingerprint = digest.value();
+  }
+}
+
 /// The scenario's name, which stands in a line of every summary.
 std::string read_title(const YamlNode& node) {
   constexpr std::ptrdiff_t letters_max = 200;
@@ -135,7 +153,7 @@ Scenario read_scenario(const std::filesystem::path& file, const std::vector<std:
   const YamlNode document = scenario_document(file, assignments);
   const YamlMap map(document, "the scenario",
                     {"format", "name", "description", "expect", "until_s", "world", "medium", "robot_types", "robots",
-                     "robots_from_map"});
+                     "robots_from_map", "control"});
   Scenario scenario;
   scenario.file = file.string();
   scenario.fingerprint = fingerprint(document);
@@ -156,6 +174,8 @@ Scenario read_scenario(const std::filesystem::path& file, const std::vector<std:
   }
   if (from_map == nullptr || map.has("robots")) read_robots(map.require("robots"), types, scenario);
   if (from_map != nullptr) read_robots_from_map(*from_map, types, scenario);
+  if (const YamlNode* control = map.find("control")) read_common_control(*control, scenario);
+  add_rules_to_fingerprint(scenario);
   return scenario;
 }
 

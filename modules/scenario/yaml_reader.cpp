@@ -156,4 +156,23 @@ void YamlMap::read_degrees(std::string_view key, double& value_rad, const Number
 
 double radians(double degrees) { return degrees / 180 * exact::pi; }
 
+std::vector<Setting> flattened(const YamlNode& node, const std::string& prefix) {
+  std::vector<Setting> settings;
+  const auto append = [&](const YamlNode& value, const std::string& key) {
+    const std::string path = prefix.empty() ? key : prefix + "." + key;
+    for (Setting& setting : flattened(value, path)) settings.push_back(std::move(setting));
+  };
+  switch (node.kind) {
+    case YamlNode::Kind::null: break;
+    case YamlNode::Kind::scalar: settings.push_back({prefix, node.text, node.written.file, node.written.line}); break;
+    case YamlNode::Kind::list:
+      for (std::size_t i = 0; i < node.items.size(); ++i) append(node.items[i], std::to_string(i));
+      break;
+    case YamlNode::Kind::map:
+      for (const YamlEntry& entry : node.entries) append(entry.value, entry.key);
+      break;
+  }
+  return settings;
+}
+
 }  // namespace waitpoint::scenario

@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/setting.hpp"
 #include "core/time.hpp"
 #include "modules/scenario/yaml_tree.hpp"
 
@@ -61,6 +62,9 @@ std::vector<double> read_numbers(const YamlNode& node, std::string_view what, st
                                  std::size_t size_max, const NumberRange& range);
 /// The elements of a list.
 const std::vector<YamlNode>& read_list(const YamlNode& node, std::string_view what);
+
+/// The values below `node`, keyed by `prefix` and the keys and list positions, joined by dots; nulls are omitted.
+std::vector<Setting> flattened(const YamlNode& node, const std::string& prefix = "");
 
 /// A map with a list of valid keys. Must not outlive its node.
 class YamlMap {
