@@ -10,6 +10,36 @@ import subprocess
 from installed import BUILD, HERE, Installed, flags, main, run
 
 
+class Mast(Installed):
+    """A robot moves while its mast is deployed, in some schedules; rules of execution control keep it from that in all."""
+
+    def waitpoint(self, command, *options):
+        program = self.compile("mast", *flags(self.prefix, "--cflags", "--libs", "waitpoint-robots"))
+        done = subprocess.run([program, command, HERE / "mast/mast.yaml", *options], capture_output=True, text=True, timeout=300)
+        return done.returncode, done.stdout + done.stderr
+
+    def test_it_moves_in_some_schedules_without_rules(self):
+        without_rules = ["--set", "robots.rackham.control=~"]
+        status, output = self.waitpoint("run", *without_rules)
+        self.assertEqual(status, 0, output)
+        status, output = self.waitpoint("explore", "--no-minimize", "--jobs", "2", *without_rules)
+        self.assertEqual(status, 1, output)
+        self.assertIn("the robot moves while the mast is deployed", output)
+
+    def test_it_never_moves_with_rules(self):
+        decisions = self.folder / "decisions"
+        status, output = self.waitpoint("run", "--decisions", decisions)
+        self.assertEqual(status, 0, output)
+        self.assertRegex(decisions.read_text(), r"(?m)^[\d.]+ rackham mast\.Deploy #\d+ accepted$")
+        status, output = self.waitpoint("explore", "--iterations", "60", "--jobs", "2")
+        self.assertEqual(status, 0, output)
+
+    def test_the_digest_has_the_decisions(self):
+        digests = {re.search("wp1:[0-9a-f]+", self.waitpoint("run", *options)[1])[0]
+                   for options in [[], [], ["--set", "robots.rackham.control=~"]]}
+        self.assertEqual(len(digests), 2)
+
+
 class LatePom(Installed):
     """A module with a bug that the default order does not show; `waitpoint explore` finds it."""
 

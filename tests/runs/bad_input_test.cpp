@@ -191,7 +191,7 @@ TEST_F(BadInputTest, AModuleWhosePosterIsMissing) {
 }
 
 TEST_F(BadInputTest, AFileThatCannotBeWritten) {
-  for (const char* option : {"--summary", "--picture", "--trajectory", "--digests", "--events"})
+  for (const char* option : {"--summary", "--picture", "--trajectory", "--digests", "--events", "--decisions"})
     EXPECT_TRUE(says(complaint({"run", path("office.yaml"), "--until", "1", option, path("no/such/folder/file")}),
                      {"no/such/folder"}));
 }

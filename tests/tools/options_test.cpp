@@ -88,7 +88,8 @@ TEST_F(CommandLine, a_self_check_writes_no_files_and_is_of_one_run) {
   EXPECT_TRUE(options.check);
   EXPECT_EQ(options.seed, 3u);
   EXPECT_EQ(options.replay_durations, "d");
-  for (const char* option : {"--summary", "--picture", "--trajectory", "--digests", "--events", "--record-durations"})
+  for (const char* option :
+       {"--summary", "--picture", "--trajectory", "--digests", "--events", "--decisions", "--record-durations"})
     EXPECT_EQ(message({"run", "a", "--check", option, "f"}),
               std::string("--check: cannot be used together with ") + option);
   EXPECT_EQ(message({"run", "a", "--check", "--seeds", "1..2"}), "--check: cannot be used together with --seeds");
@@ -192,8 +193,8 @@ TEST_F(CommandLine, a_picture_has_no_name_of_another_format) {
 }
 
 TEST_F(CommandLine, standard_output_as_a_file_is_noticed) {
-  for (const char* option :
-       {"--summary", "--picture", "--record", "--digests", "--events", "--record-durations", "--journal"}) {
+  for (const char* option : {"--summary", "--picture", "--record", "--digests", "--events", "--decisions",
+                             "--record-durations", "--journal"}) {
     EXPECT_TRUE(run({"run", "a", option, "-"}).writes_standard_output()) << option;
     EXPECT_FALSE(run({"run", "a", option, "file"}).writes_standard_output()) << option;
   }

@@ -37,6 +37,7 @@ Outputs::Outputs(const RunOptions& options, const scenario::Scenario& scenario, 
   if (options.picture) picture_.emplace(*options.picture);
   if (options.digests) digests_.emplace(*options.digests);
   if (options.events) events_.emplace(*options.events);
+  if (options.decisions) decisions_.emplace(*options.decisions);
   if (options.record) recording_ = make_recording(*options.record, scenario);
   if (options.trajectory) trajectory_.emplace(*options.trajectory, names);
 }
@@ -57,6 +58,7 @@ void Outputs::watch() {
   kernel::set_post_mortem(complete_after_death);
   if (experiment_.ranks() > 1) return watch_ranks();
   if (events_) events_->watch(experiment_.simulation());
+  if (decisions_) decisions_->watch(experiment_.robots());
   for (std::size_t i = 0; i < experiment_.robots().size(); ++i) {
     if (picture_) experiment_.robots()[i]->keep_paths();
     if (trajectory_) experiment_.robots()[i]->add_path_sink(trajectory_->sink(i));
@@ -112,6 +114,7 @@ void Outputs::complete(const bridge::RunResult& result, const std::string& cut_o
   });
   attempt(digests_, [&](DigestRecorder& file) { is_cut ? file.cut_off(cut_off) : file.finish(); });
   attempt(events_, [&](EventRecorder& file) { is_cut ? file.cut_off(cut_off) : file.finish(); });
+  attempt(decisions_, [&](DecisionRecorder& file) { is_cut ? file.cut_off(cut_off) : file.finish(); });
 }
 
 void Outputs::write(const bridge::RunResult& result) {

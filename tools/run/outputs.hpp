@@ -14,6 +14,7 @@
 #include <string>
 
 #include "modules/run/experiment.hpp"
+#include "tools/output/decision_recorder.hpp"
 #include "tools/output/output_file.hpp"
 #include "tools/output/recorders.hpp"
 #include "tools/output/trajectory.hpp"
@@ -61,6 +62,7 @@ class Outputs {
   std::optional<TrajectoryFiles> trajectory_;
   std::optional<DigestRecorder> digests_;
   std::optional<EventRecorder> events_;
+  std::optional<DecisionRecorder> decisions_;
   std::unique_ptr<Recording> recording_;
   std::optional<NewsReader> reader_;  // for the recording of one process
   std::optional<RankOutputs> ranks_;  // of several

@@ -42,7 +42,7 @@ void check_picture(const std::string& name) {
 }  // namespace
 
 bool RunOptions::writes_standard_output() const {
-  for (const auto* file : {&summary, &picture, &record, &digests, &events, &record_durations, &journal})
+  for (const auto* file : {&summary, &picture, &record, &digests, &events, &decisions, &record_durations, &journal})
     if (*file && is_standard_output(**file)) return true;
   return false;
 }
@@ -56,6 +56,7 @@ void check_files(const RunOptions& options, std::span<const std::string> robots)
   files.insert(files.end(), {{"--record", name(options.record)},
                              {"--digests", name(options.digests)},
                              {"--events", name(options.events)},
+                             {"--decisions", name(options.decisions)},
                              {"--record-durations", name(options.record_durations)},
                              {"--journal", name(options.journal)},
                              {"--replay-journal", name(options.replay_journal), NamedFile::Use::read},
@@ -133,6 +134,9 @@ RunArguments::RunArguments(CommandLine& line)
                   "FILE.bag a ROS 1 bag, as FILE.log a log for CARMEN's tools");
   command_.option("--digests", digests_, "FILE", "write a digest per robot and simulated second");
   command_.option("--events", events_, "FILE", "write every event as a line of text");
+  command_.option("--decisions", decisions_, "FILE",
+                  "write every decision of the robots' execution control as a line of text\n"
+                  "(docs/laas-control.md)");
   command_.option("--record-durations", record_durations_, "FILE",
                   "write the durations that local clocks measured, counted or drew (docs/clocks.md)");
   command_.option(
@@ -156,6 +160,7 @@ void RunArguments::check_of_many(const char* option) const {
                               {"--record", record_},
                               {"--digests", digests_},
                               {"--events", events_},
+                              {"--decisions", decisions_},
                               {"--record-durations", record_durations_}});
 }
 
@@ -173,9 +178,10 @@ void RunArguments::check_alone() const {
 
 /// What is measured, compared or written per process is not there for several.
 void RunArguments::check_for_ranks() const {
-  check_not_together(
-      "--ranks",
-      {{"--seeds", seeds_}, {"--record-durations", record_durations_}, {"--replay-durations", replay_durations_}});
+  check_not_together("--ranks", {{"--seeds", seeds_},
+                                 {"--decisions", decisions_},
+                                 {"--record-durations", record_durations_},
+                                 {"--replay-durations", replay_durations_}});
   if (check_) throw BadInput("--ranks", "cannot be used together with --check");
 }
 
@@ -233,6 +239,7 @@ RunOptions RunArguments::options() const {
   options.trajectory = file(trajectory_);
   options.record = file(record_);
   options.digests = file(digests_);
+  options.decisions = file(decisions_);
   options.events = file(events_);
   options.record_durations = file(record_durations_);
   options.replay_durations = file(replay_durations_);

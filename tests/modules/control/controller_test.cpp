@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "core/random.hpp"
 #include "fibers/sync/simulation.hpp"
 #include "modules/control/controller.hpp"
 #include "modules/control/parser.hpp"
@@ -21,18 +22,25 @@ using genom::State;
 using this_thread::sleep_for;
 using Act = genom::Running<Number, genom::Nothing>;
 
-/// A robot whose module "m" has the activities A and B, which last as many periods of 10 ms as their input says, the
-/// control request Set, and the poster "m.level", which Set writes.
+/// A robot whose module "m" has the activities A and B, which last two periods of 10 ms, or without end for input 0,
+/// the control request Set, and the poster "m.level", which Set writes.
 class ControlledRobot : public DecisionWatch {
  public:
   explicit ControlledRobot(const std::string& checks, const std::string& settings = "")
       : setup{names, "m", genom::Settings()}, module(setup), task(module.add_task("main", {.period_ms = 10ms})) {
     module.add_poster<Number>("level", task, &level);
-    for (const char* name : {"A", "B"})
-      module.add_activity<Number>(name, task, {.exec = [](Act& act) {
-                                    static_assert(sizeof act.number == 4);
-                                    return act.input.value == 0 ? State::exec : State::ether;
-                                  }});
+    for (const std::size_t i : {0, 1}) {
+      const auto go_on = [this, i](Act& act) {
+        running[i] = act.input.value == 0 || running[i] == 0;
+        were_together = were_together || (running[0] > 0 && running[1] > 0);
+        return running[i] > 0 ? State::exec : State::ether;
+      };
+      const auto end = [this, i](Act&) {
+        running[i] = 0;
+        return State::ether;
+      };
+      module.add_activity<Number>(i == 0 ? "A" : "B", task, {.exec = go_on, .inter = end});
+    }
     module.add_control<Number>("Set", [this](const Number& number, genom::Nothing&) {
       level = number;
       return genom::ok;
@@ -64,7 +72,6 @@ class ControlledRobot : public DecisionWatch {
     return report;
   }
 
-  /// Sends a request that lasts one period, or without end for 0.
   std::uint32_t send(const std::string& request, std::int32_t value = 0) {
     return client.send("m", request, Number{value}).value_or(0);
   }
@@ -76,6 +83,8 @@ class ControlledRobot : public DecisionWatch {
   }
 
   Number level;
+  int running[2] = {};  // of A and B
+  bool were_together = false;
   genom::NameSpace names;
   genom::ModuleSetup setup;
   genom::ScriptedModule module;
@@ -255,6 +264,40 @@ TEST(Controller, AStepCostsItsDeclaredTime) {
     EXPECT_EQ(now() - sent, Duration(6ms));  // the request's step and the reply's
     EXPECT_EQ(robot.dates.front() - sent, Duration(3ms));
   });
+}
+
+/// True if A and B ran together in one of many orders of two clients that send them, and abort them, at random.
+bool run_together(const std::string& checks) {
+  bool did = false;
+  for (std::uint64_t seed = 0; seed < 50; ++seed) {
+    ControlledRobot robot(checks);
+    robot.run(
+        [&] {
+          const auto client = [&](genom::Client& own, const char* request, const char* name) {
+            const RandomStream random(seed, "test", name);
+            for (std::uint64_t i = 0; i < 20; ++i) {
+              own.send("m", request, Number{static_cast<std::int32_t>(random.uniform(2 * i) * 2)});
+              sleep_for(Duration::from_seconds(0.001 * static_cast<int>(random.uniform(2 * i + 1) * 40)));
+              if (i % 3 == 2) own.send("m", "Abort", genom::AbortInput{static_cast<std::int32_t>(i % 5)});
+              while (own.receive(Duration())) {
+              }
+            }
+          };
+          thread second([&] { client(robot.other, "B", "second"); });
+          client(robot.client, "A", "first");
+          second.join();
+        },
+        {kernel::Order::seeded, seed, ""});
+    did = did || robot.were_together;
+  }
+  return did;
+}
+
+TEST(Controller, KeepsActivitiesApartInEveryOrder) {
+  EXPECT_TRUE(run_together(""));
+  EXPECT_FALSE(run_together("check k { exclusive: m.A, m.B; }"));
+  EXPECT_FALSE(run_together("check k { exclusive: m.A, m.B; delay: m.B for 50 ms; }"));
+  EXPECT_FALSE(run_together("check k { exclusive: m.A, m.B; interrupt: m.A within 50 ms; }"));
 }
 
 TEST(Controller, DecidesTheSameInEachRun) {
