@@ -14,6 +14,7 @@ using Kind = Predicate::Kind;
 template <class Entries>
 std::string hint(const std::string& word, const Entries& entries) {
   std::vector<std::string_view> known;
+  known.reserve(entries.size());
   for (const auto& [name, entry] : entries) known.push_back(name);
   return did_you_mean(word, known);
 }

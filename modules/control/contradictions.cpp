@@ -36,6 +36,9 @@ bool implies(const Predicate& a, const Predicate& b, const Automaton& automaton)
   return false;
 }
 
+/// The conditions of all checks together need more nodes than there are.
+struct TooLarge {};
+
 class Search {
  public:
   Search(const Rules& rules, Automaton& automaton)
@@ -71,10 +74,9 @@ class Search {
     throw bad(rules_.file, rules_.checks[check].place, "check " + name(check) + ": " + message);
   }
 
+  /// Results are meaningless from then on: nothing is reported.
   void check_size() const {
-    if (diagrams_.is_full())
-      throw bad(rules_.file, Place(),
-                "expected rules of at most " + std::to_string(DecisionDiagrams::nodes_max) + " nodes when compiled");
+    if (diagrams_.is_full()) throw TooLarge();
   }
 
   /// What holds in every state, whatever the rules. An implication that follows from two others is left out.
@@ -243,6 +245,12 @@ class Search {
 
 }  // namespace
 
-void check_contradictions(const Rules& rules, Automaton& automaton) { Search(rules, automaton).run(); }
+void check_contradictions(const Rules& rules, Automaton automaton) {
+  try {
+    Search(rules, automaton).run();
+  } catch (const TooLarge&) {
+    return;
+  }
+}
 
 }  // namespace waitpoint::control

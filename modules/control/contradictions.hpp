@@ -12,7 +12,8 @@
 
 namespace waitpoint::control {
 
-/// BadInput for the first contradiction of the rules, from which `automaton` was compiled.
-void check_contradictions(const Rules& rules, Automaton& automaton);
+/// BadInput for the first contradiction of the rules, from which `automaton` was compiled. If all checks together need
+/// too many nodes, only contradictions of single checks are found.
+void check_contradictions(const Rules& rules, Automaton automaton);
 
 }  // namespace waitpoint::control

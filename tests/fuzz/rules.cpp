@@ -13,7 +13,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::string contents(reinterpret_cast<const char*>(data), size);
   waitpoint::fuzz::reads_or_refuses([&] {
     const Rules rules = parse_rules(contents, "rules");
-    Automaton automaton(rules);
+    const Automaton automaton(rules);
     check_contradictions(rules, automaton);
     std::vector<bool> values = automaton.initial_values();
     for (std::size_t step = 0; step < size && step < 4; ++step) {

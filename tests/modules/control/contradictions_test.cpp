@@ -15,8 +15,7 @@ namespace {
 std::string contradiction_of(const std::string& checks) {
   try {
     const Rules rules = parse_rules("context c {\n" + checks + "}", "r.ctl");
-    Automaton automaton(rules);
-    check_contradictions(rules, automaton);
+    check_contradictions(rules, Automaton(rules));
   } catch (const BadInput& bad) {
     return bad.what();
   }
@@ -60,6 +59,20 @@ TEST(Contradictions, AreToldInOneLine) {
        "r.ctl:3: column 7: check c.b: demands the opposite of c.a: with both, no m.A can ever be accepted"},
   };
   for (const auto& [checks, message] : cases) EXPECT_EQ(contradiction_of(checks), message) << checks;
+}
+
+// Together these conditions are too large for a diagram; what a single check says is still searched.
+TEST(Contradictions, OfSingleChecksAreFoundInLargeRules) {
+  std::string checks;
+  for (int i = 0; i < 45; ++i) {
+    const auto text = [](int n) { return std::to_string(n); };
+    checks += "check k" + text(i) + " { fail: running(m.A" + text(i) + ") && past(request(m.B" + text(i % 7) +
+              ") && m.p.f" + text(i) + " > 1) && since(!running(m.C" + text(i) + "), running(m.A" + text(i * 7 % 45) +
+              ")); }\n";
+  }
+  EXPECT_EQ(contradiction_of(checks), "");
+  EXPECT_EQ(contradiction_of(checks + "check z { fail: running(m.A1) && m.p.f1 > 2 && m.p.f1 < 1; }"),
+            "r.ctl:47: column 7: check c.z: the condition can never hold");
 }
 
 TEST(Contradictions, AreNotSeenWhereThereAreNone) {
