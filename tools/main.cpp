@@ -45,6 +45,8 @@ int check(const tools::CheckOptions& options, std::span<const genom::ModuleType>
   std::string text = fmt::format("{}: good: {} robots, {} modules, {} goals, {} obstacles\n",
                                  printable_line(options.scenario.string()), scenario.robots.size(), modules, goals,
                                  experiment.world().description().obstacles.size());
+  for (const auto& robot : experiment.robots())
+    if (const std::string plan = robot->plan_text(); !plan.empty()) text += plan + "\n";
   for (const std::string& warning : experiment.result().warnings) text += "warning: " + warning + "\n";
   tools::write_standard_output(text);
   return 0;
@@ -68,6 +70,7 @@ int carry_out(int argc, const char* const* argv, std::vector<genom::ModuleType> 
     if (const auto* run = std::get_if<tools::RunOptions>(&options))
       return run->check ? tools::self_check(*run, types) : tools::run(*run, types);
     if (const auto* checked = std::get_if<tools::CheckOptions>(&options)) return check(*checked, types);
+    if (const auto* plan = std::get_if<tools::PlanOptions>(&options)) return tools::show_plan(*plan);
     if (const auto* debug = std::get_if<tools::DebugOptions>(&options)) tools::debug(*debug);
     if (const auto* executed = std::get_if<tools::ExecOptions>(&options)) return tools::exec(*executed);
     if (const auto* explored = std::get_if<tools::ExploreOptions>(&options)) {

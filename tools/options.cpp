@@ -49,6 +49,10 @@ Options read_options(int argc, const char* const* argv, const std::string& versi
   ScenarioArguments checked;
   checked.add_file(check);
   checked.add_set(check);
+  Command plan = line.add_command("plan", "Checks a temporal plan, and prints the windows of its actions.");
+  std::string plan_file, plan_picture;
+  plan.argument("PLAN", plan_file, "YAML file (docs/laas-plans.md)", Command::Presence::required);
+  plan.option("--svg", plan_picture, "FILE", "writes a picture of the plan");
   line.add_command("gdb",
                    "Starts gdb with commands for simulated threads (docs/gdb.md):\n"
                    "  waitpoint gdb [OPTIONS OF GDB] -- run SCENARIO ...\n"
@@ -81,11 +85,12 @@ Options read_options(int argc, const char* const* argv, const std::string& versi
   }
   if (explore.parsed()) return explore.options(program);
   if (exec.parsed()) return exec.options(program);
+  if (plan.parsed()) return PlanOptions{plan_file, plan_picture};
   if (check.parsed()) {
     const std::filesystem::path scenario = find_scenario(checked.file);
     return CheckOptions{scenario, checked.confinement.folders(scenario), checked.assignments};
   }
-  throw BadInput("command line", "expected a command, run, check, explore or exec; see waitpoint --help");
+  throw BadInput("command line", "expected a command, run, check, plan, explore or exec; see waitpoint --help");
 }
 
 }  // namespace waitpoint::tools

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/papers_modules.hpp"
 
+#ifndef WAITPOINT_REAL_THREADS
+#include "modules/meeting/meeting.hpp"
+#endif
 #include "modules/ndd/ndd.hpp"
 #include "modules/pom/pom.hpp"
 #include "modules/rflex/rflex.hpp"
@@ -19,6 +22,9 @@ std::vector<genom::ModuleType> papers_modules() {
 std::vector<genom::ModuleType> shipped_modules() {
   std::vector<genom::ModuleType> types = papers_modules();
   types.push_back(genom::module_type<wander::Wander>("wander"));
+#ifndef WAITPOINT_REAL_THREADS
+  types.push_back(genom::module_type<meeting::MeetingModule>("meeting"));
+#endif
   return types;
 }
 

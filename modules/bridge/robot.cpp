@@ -9,6 +9,8 @@
 #include "modules/control/parser.hpp"
 #include "modules/executive/executive.hpp"
 #include "modules/genom/module.hpp"
+#include "modules/plan/executor.hpp"
+#include "modules/plan/plan_reader.hpp"
 
 namespace waitpoint::bridge {
 namespace {
@@ -47,6 +49,7 @@ Robot::Robot(const scenario::RobotScenario& scenario, std::span<const genom::Mod
   for (const std::string& name : scenario.processors) names_.add_processor(name);
   make_modules(types, network);
   if (!scenario.goals.empty()) make_executive(std::move(known), seed);
+  if (scenario.plan != nullptr) make_plan();
   connect();
   if (scenario.control) make_controller();
 }
@@ -58,6 +61,7 @@ Robot::Robot(const scenario::RobotScenario& scenario, world::World& world, world
 Robot::~Robot() {
   controller_.reset();
   executive_.reset();
+  plan_.reset();
   while (!modules_.empty()) {
     const std::string doing = "destroying module " + module_scenarios_.back()->name + " of robot " + scenario_.name;
     const Doing destruction(doing.c_str());
@@ -117,10 +121,20 @@ void Robot::make_executive(std::shared_ptr<const executive::KnownSpace> known, s
                                                       RandomStream(seed, scenario_.name, "executive"));
 }
 
+void Robot::make_plan() {
+  genom::Settings settings(scenario_.executive);
+  computing_ = genom::read_computing(settings, "", names_, {});
+  settings.check_all_used();
+  posters::KnownPose start;
+  start.pose = scenario_.body.start;
+  plan_ = std::make_unique<plan::Executor>(names_, plan::read_plan(*scenario_.plan), start);
+}
+
 void Robot::connect() {
   bridge_->connect();
   for (std::size_t i = 0; i < modules_.size(); ++i) at(module_scenarios_[i]->written, [&] { modules_[i]->connect(); });
   if (executive_) at(scenario_.written, [&] { executive_->connect(); });
+  if (plan_) plan_->connect();
   evaluation_.connect(names_);
 }
 
@@ -138,6 +152,7 @@ void Robot::run() {
   if (controller_) controller_->start();
   for (const auto& module : modules_) module->start();
   if (executive_) executive_->run();
+  if (plan_) plan_->run();
 }
 
 void Robot::add_step_to(WorkingSet& set) const {
@@ -148,6 +163,7 @@ void Robot::add_step_to(WorkingSet& set) const {
 
 void Robot::stop() {
   if (executive_) executive_->stop();
+  if (plan_) plan_->stop();
 }
 
 void Robot::end_modules() {
@@ -167,6 +183,11 @@ void Robot::set_watch(genom::ModuleWatch* watch) {
 void Robot::keep_paths() {
   WAITPOINT_CHECK(!kept_paths_, "a robot's paths are kept twice");
   add_path_sink(kept_paths_.emplace());
+}
+
+std::string Robot::plan_text() const {
+  if (plan_ == nullptr) return "";
+  return name() + ": plan '" + plan_->plan().name + "': " + to_string(plan_->checked());
 }
 
 std::uint64_t Robot::goals() const {
@@ -206,6 +227,7 @@ RobotResult Robot::result() const {
     result.goals.push_back({scenario_.goals[i].position, scenario_.goals[i].name, record.visits, record.times_reached,
                             record.date, report_text(record)});
   }
+  if (plan_) result.plan = PlanResult{plan_->plan().name, plan_->completed(), plan_->end(), plan_->log()};
   const world::BodyState& body = world_.body(body_);
   result.collisions = body.collisions;
   result.distance_m = body.travelled_m;

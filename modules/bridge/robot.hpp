@@ -27,6 +27,9 @@ namespace waitpoint::executive {
 class Executive;
 class KnownSpace;
 }  // namespace waitpoint::executive
+namespace waitpoint::plan {
+class Executor;
+}  // namespace waitpoint::plan
 namespace waitpoint::genom {
 class ModuleWatch;
 }  // namespace waitpoint::genom
@@ -51,7 +54,8 @@ class Robot {
   Robot(const scenario::RobotScenario& scenario, world::World& world, world::BodyId body);
   ~Robot();
 
-  /// The body of the robot's main task: starts the modules, then drives the rounds of goals, if any.
+  /// The body of the robot's main task: starts the modules, then drives the rounds of goals or executes the plan, if
+  /// any.
   void run();
   /// Called from another task: aborts the rounds and stops the robot.
   void stop();
@@ -83,7 +87,10 @@ class Robot {
   const std::string& name() const { return scenario_.name; }
   genom::NameSpace& names() { return names_; }
   const genom::NameSpace& names() const { return names_; }
-  bool has_goals() const { return !scenario_.goals.empty(); }
+  /// True if run() ends by itself: after the rounds of goals, or the plan.
+  bool has_mission() const { return !scenario_.goals.empty() || scenario_.plan != nullptr; }
+  /// "ada: plan 'round': 9 time points, 14 constraints: consistent, ..."; empty without a plan, or elsewhere.
+  std::string plan_text() const;
   /// Visits to goals: those of all rounds, or in rounds without end those that have ended.
   std::uint64_t goals() const;
   std::uint64_t goals_reached() const;
@@ -99,6 +106,7 @@ class Robot {
  private:
   void make_modules(std::span<const genom::ModuleType> types, io::Network* network);
   void make_executive(std::shared_ptr<const executive::KnownSpace> known, std::uint64_t seed);
+  void make_plan();
   void connect();
   void make_controller();
 
@@ -112,6 +120,7 @@ class Robot {
   genom::TaskComputing computing_;
   std::unique_ptr<executive::Executive> executive_;  // null without goals
   std::unique_ptr<control::Controller> controller_;  // null without rules
+  std::unique_ptr<plan::Executor> plan_;             // null without a plan
   Evaluation evaluation_;
   std::optional<KeptPaths> kept_paths_;
   std::uint64_t goals_elsewhere_ = 0, reached_elsewhere_ = 0;

@@ -12,6 +12,8 @@ RunTotals totals(const RunResult& result) {
   for (const RobotResult& robot : result.robots) {
     sum.goals += robot.goal_visits();
     sum.goals_reached += robot.goals_reached();
+    sum.plans += robot.plan ? 1 : 0;
+    sum.plans_completed += robot.plan && robot.plan->completed ? 1 : 0;
     sum.collisions += robot.collisions;
     sum.distance_m += robot.distance_m;
     sum.position_error_mean_m += robot.position_error_mean_m;

@@ -74,6 +74,14 @@ struct ProgramResult {
   std::optional<int> exit_status;  ///< none while it runs
 };
 
+/// A temporal plan, as far as it was executed.
+struct PlanResult {
+  std::string name;
+  bool completed = false;
+  std::string end;               ///< "completed", "under way", or the reason of its abort
+  std::vector<std::string> log;  ///< a line each, with the date
+};
+
 /// The figures that mean something: others are 0.
 struct FiguresPresent {
   bool motion = true;    ///< distance and collisions: of a robot with a base
@@ -98,6 +106,7 @@ struct RobotResult {
   std::vector<LateTask> late_tasks;                                 ///< in the order of the modules
   std::optional<BatteryResult> battery;                             ///< if the robot has one that is simulated
   std::vector<ProgramResult> programs;                              ///< in the order of the scenario
+  std::optional<PlanResult> plan;                                   ///< if the robot has one
   std::vector<Line> segments;                                       ///< the map built by localisation
 
   /// Visits to goals, and those that reached one.
@@ -149,6 +158,7 @@ struct RunTotals {
   double position_error_mean_m = 0, position_error_max_m = 0;
   double odometry_error_max_m = 0, odometry_error_end_m = 0;
   FiguresPresent present;
+  std::uint64_t plans = 0, plans_completed = 0;
 };
 RunTotals totals(const RunResult& result);
 

@@ -15,6 +15,7 @@
 
 #include "core/field_path.hpp"
 #include "fibers/sync/threads.hpp"
+#include "modules/genom/field_number.hpp"
 
 namespace waitpoint::genom {
 
@@ -44,6 +45,12 @@ class PosterBase {
 
   /// Adds the memory that every access touches; for a large value only its beginning.
   virtual void add_to(WorkingSet& set) const = 0;
+
+  /// True if values of the poster's type can have a number of this name: see field_number.hpp.
+  virtual bool has_number(std::string_view field) const = 0;
+  /// True if the poster has been written, as Poster::read finds out; then `number` is that of this name, or nothing if
+  /// the value does not have it, or the name is empty.
+  virtual bool read_number(std::string_view field, std::optional<double>& number) const = 0;
 
  protected:
   PosterBase(std::string name, std::string writer);
@@ -93,6 +100,13 @@ class Poster : public PosterBase {
     value = value_;
     if (date != nullptr) *date = date_;
     return PosterStatus::ok;
+  }
+
+  bool has_number(std::string_view field) const override { return has_field_number<T>(field); }
+  bool read_number(std::string_view field, std::optional<double>& number) const override {
+    const std::lock_guard guard(mutex_);
+    number = writes_ > 0 ? field_number(value_, field) : std::nullopt;
+    return writes_ > 0;
   }
 
   /// The value for an observer outside the robot's software; nothing if empty. No event in simulation.

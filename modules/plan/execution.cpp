@@ -104,9 +104,11 @@ void Execution::set(PointId point, Duration now) {
 }
 
 void Execution::started(std::size_t action, Duration now) {
-  set(start_of(action), now);
   running_[action] = plan_.actions[action].request || !plan_.actions[action].rendezvous.empty();
   note(now, EventKind::start, action);
+  // The conditions and the request may have taken time.
+  if (!dispatcher_->execute(start_of(action), now)) return fail(action, now, "it could not start in time");
+  situation_.times[start_of(action)] = now;
 }
 
 void Execution::ended(std::size_t action, Duration now, bool succeeded, const std::string& report) {
@@ -121,13 +123,15 @@ void Execution::end(std::size_t action, Duration now) {
   note(now, EventKind::end, action);
   situation_.times[end_of(action)] = now;
   if (dispatcher_->execute(end_of(action), now)) return;
-  const bool early = now - *situation_.times[start_of(action)] < plan_.actions[action].least;
-  note(now, early ? EventKind::early : EventKind::late, action);
+  const Duration took = now - *situation_.times[start_of(action)];
+  const bool early = took<plan_.actions[action].least, late = took> plan_.actions[action].most;
+  if (early || late) note(now, early ? EventKind::early : EventKind::late, action);
   situation_.loosened[action] = true;
-  if (rebuild(now))
-    note(now, EventKind::repaired, action);
-  else
-    fail(action, now, early ? "it ended too early" : "it ended too late");
+  if (rebuild(now)) return note(now, EventKind::repaired, action);
+  const char* const reason = early  ? "it ended too early"
+                             : late ? "it ended too late"
+                                    : "its end contradicts the constraints";
+  fail(action, now, reason);
 }
 
 void Execution::fail(std::size_t action, Duration now, const std::string& reason) {

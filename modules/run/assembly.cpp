@@ -10,6 +10,7 @@
 #include "core/number_text.hpp"
 #include "modules/executive/known_space.hpp"
 #include "modules/run/known_map.hpp"
+#include "modules/run/rendezvous.hpp"
 #include "modules/scenario/scenario_checks.hpp"
 #include "world/bullet/bullet_world.hpp"
 #include "world/kinematic/kinematic_world.hpp"
@@ -54,6 +55,7 @@ Assembly::Assembly(const scenario::Scenario& scenario, std::span<const genom::Mo
       scenario, [&](const scenario::RobotScenario& robot) -> const OccupancyGrid& { return maps.of(robot)->map(); },
       file != nullptr && file->grid);
   scenario::check_starts(scenario, world::start_overlaps(description));
+  check_rendezvous(scenario);
   make_world(description, seed);
   for (std::size_t i = 0; i < scenario.robots.size(); ++i)
     robots_.push_back(placement.is_here(i)

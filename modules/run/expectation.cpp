@@ -12,6 +12,13 @@ std::string goals_text(const bridge::RunTotals& sum) {
   return fmt::format("{} of {} goals reached", sum.goals_reached, sum.goals);
 }
 
+// ": robot ada: REASON".
+std::string first_abort(const bridge::RunResult& result) {
+  for (const bridge::RobotResult& robot : result.robots)
+    if (robot.plan && !robot.plan->completed) return ": robot " + robot.name + ": " + robot.plan->end;
+  return "";
+}
+
 // `value`, which exceeds `limit`, with at least three digits and enough to differ from it.
 std::string greater_text(double value, double limit) {
   for (int digits = 3; digits < std::numeric_limits<double>::max_digits10; ++digits)
@@ -45,6 +52,9 @@ std::vector<std::string> unmet(const scenario::Expectation& expect, const bridge
     lines.push_back(goals_text(sum) + ", expected " + std::to_string(*expect.goals_reached));
   if (expect.collisions && sum.collisions < *expect.collisions)
     lines.push_back(fmt::format("{} collisions, expected {}", sum.collisions, *expect.collisions));
+  if (expect.plans_completed && sum.plans_completed != sum.plans)
+    lines.push_back(
+        fmt::format("{} of {} plans completed, expected all{}", sum.plans_completed, sum.plans, first_abort(result)));
   for (std::string& line : broken(expect, sum)) lines.push_back(std::move(line));
   return lines;
 }

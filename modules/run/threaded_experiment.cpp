@@ -27,7 +27,7 @@ void ThreadedExperiment::run_for(Duration limit, const std::function<bool()>& in
     rounds.emplace_back(threads::thread_attributes{.name = "executive", .stack = kernel::StackSize::large},
                         [this, &robot] {
                           robot->run();
-                          if (robot->has_goals()) round_ended_.release();
+                          if (robot->has_mission()) round_ended_.release();
                         });
   outcome_ = wait_for_rounds(start + limit, interrupted);
   for (const auto& robot : robots()) robot->stop();
@@ -41,11 +41,11 @@ void ThreadedExperiment::run_for(Duration limit, const std::function<bool()>& in
   took_ = threads::now() - start;
 }
 
-// Robots without goals never end by themselves.
+// Robots without goals or a plan never end by themselves.
 bridge::Outcome ThreadedExperiment::wait_for_rounds(Time end, const std::function<bool()>& interrupted) {
-  const auto with_goals =
-      std::count_if(robots().begin(), robots().end(), [](auto& robot) { return robot->has_goals(); });
-  for (std::ptrdiff_t ended = 0; ended < with_goals || with_goals == 0;) {
+  const auto with_mission =
+      std::count_if(robots().begin(), robots().end(), [](auto& robot) { return robot->has_mission(); });
+  for (std::ptrdiff_t ended = 0; ended < with_mission || with_mission == 0;) {
     if (interrupted()) return bridge::Outcome::interrupted;
     const Duration left = end - threads::now();
     if (left <= Duration()) return bridge::Outcome::time_limit;

@@ -187,6 +187,16 @@ std::vector<Goal> read_goals(const YamlNode& node) {
   return goals;
 }
 
+/// The document of a plan's file.
+std::shared_ptr<const YamlNode> read_plan_document(const YamlNode& node) {
+  const std::filesystem::path file = node.written.resolve(read_text(node, "plan"));
+  if (!Confinement::allows(file))
+    throw node.written.bad("'" + file.string() + "' lies outside of the folders that --confined allows");
+  if (!std::filesystem::is_regular_file(file))
+    throw node.written.bad("expected the file of a plan, found '" + file.string() + "', which is no regular file");
+  return std::make_shared<const YamlNode>(load_yaml(file));
+}
+
 /// The keys of a robot type: all but name, start and goals.
 RobotScenario read_equipment(const YamlMap& map, const BodyReading* given = nullptr) {
   RobotScenario robot;
@@ -229,7 +239,8 @@ RobotScenario read_robot(const YamlNode& node, const YamlNode* types) {
                      std::string_view("bridge"),         std::string_view("executive"), std::string_view("processors"),
                      std::string_view("start_height_m"), std::string_view("bumpers"),   std::string_view("infrareds"),
                      std::string_view("urdf"),           std::string_view("imu"),       std::string_view("gps"),
-                     std::string_view("battery"),        std::string_view("programs"),  std::string_view("control")};
+                     std::string_view("battery"),        std::string_view("programs"),  std::string_view("control"),
+                     std::string_view("plan")};
   const YamlMap own(node, title, keys);
   const std::string name = read_name(own.require("name"), "the name of a robot");
   const YamlNode whole = own.has("type") ? laid_over(type_of(own, types), node) : node;
@@ -246,6 +257,10 @@ RobotScenario read_robot(const YamlNode& node, const YamlNode* types) {
     own.read("start_height_m", robot.body.start_height_m, height_number);
   }
   if (const YamlNode* goals = own.find("goals")) robot.goals = read_goals(*goals);
+  if (const YamlNode* plan = own.find("plan")) {
+    if (!robot.goals.empty()) throw plan->written.bad("expected goals or a plan, found both in " + title);
+    robot.plan = read_plan_document(*plan);
+  }
   return robot;
 }
 

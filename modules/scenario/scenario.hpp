@@ -20,6 +20,7 @@
 #include "core/time.hpp"
 #include "fibers/io/medium.hpp"
 #include "modules/scenario/location.hpp"
+#include "modules/scenario/yaml_tree.hpp"
 #include "world/description.hpp"
 #include "world/formats/world_file.hpp"
 
@@ -31,11 +32,13 @@ struct Expectation {
   std::optional<std::uint64_t> goals_reached;  ///< exact number, over all robots
   std::optional<std::uint64_t> collisions;     ///< exact number, over all robots
   std::optional<double> position_error_max_m;  ///< upper bound for every robot's fused position
+  bool plans_completed = false;                ///< every robot's temporal plan
 };
 
 /// The keys of `expect`.
 inline std::initializer_list<std::string_view> expectation_keys() {
-  static const std::initializer_list<std::string_view> keys = {"goals_reached", "collisions", "position_error_max_m"};
+  static const std::initializer_list<std::string_view> keys = {"goals_reached", "collisions", "position_error_max_m",
+                                                               "plans"};
   return keys;
 }
 
@@ -106,6 +109,7 @@ struct RobotScenario {
   std::vector<std::string> processors;    ///< that tasks of its modules can share
   std::vector<Setting> executive;
   std::optional<ControlScenario> control;
+  std::shared_ptr<const YamlNode> plan;  ///< the document of its temporal plan, in the place of goals; null: none
   Location written, start_written;
 };
 

@@ -38,6 +38,7 @@ Expectation read_expectation(const YamlNode& node) {
   }
   if (const YamlNode* collisions = map.find("collisions"))
     expect.collisions = read_count(*collisions, "collisions", 0, count_max);
+  expect.plans_completed = map.one_of("plans", {"any", "completed"}, 0) == 1;
   if (map.has("position_error_max_m"))
     expect.position_error_max_m = map.number("position_error_max_m", number_from_zero);
   return expect;
@@ -176,6 +177,8 @@ Scenario read_scenario(const std::filesystem::path& file, const std::vector<std:
   if (from_map != nullptr) read_robots_from_map(*from_map, types, scenario);
   if (const YamlNode* control = map.find("control")) read_common_control(*control, scenario);
   add_rules_to_fingerprint(scenario);
+  for (const RobotScenario& robot : scenario.robots)
+    if (robot.plan != nullptr) scenario.fingerprint = scenario.fingerprint * 31 + fingerprint(*robot.plan);
   return scenario;
 }
 

@@ -64,10 +64,25 @@ std::string programs(const RobotResult& robot) {
   return text;
 }
 
+std::string plan(const RobotResult& robot) {
+  if (!robot.plan) return "";
+  std::string text = fmt::format("  {}: plan '{}' {}\n", robot.name, robot.plan->name, robot.plan->end);
+  for (const std::string& line : robot.plan->log) text += "    " + line + "\n";
+  return text;
+}
+
 RunTotals figures_of(const RobotResult& robot) {
-  return {robot.goal_visits(),        robot.goals_reached(),       robot.collisions,
-          robot.distance_m,           robot.position_error_mean_m, robot.position_error_max_m,
-          robot.odometry_error_max_m, robot.odometry_error_end_m,  robot.present};
+  return {robot.goal_visits(),
+          robot.goals_reached(),
+          robot.collisions,
+          robot.distance_m,
+          robot.position_error_mean_m,
+          robot.position_error_max_m,
+          robot.odometry_error_max_m,
+          robot.odometry_error_end_m,
+          robot.present,
+          robot.plan ? 1U : 0U,
+          robot.plan && robot.plan->completed ? 1U : 0U};
 }
 
 const std::string absent = "-";
@@ -152,6 +167,12 @@ Json json_of(const RobotResult& robot) {
     if (program.exit_status) entry["exit_status"] = *program.exit_status;
     json["programs"].push_back(std::move(entry));
   }
+  if (robot.plan) {
+    json["plan"]["name"] = robot.plan->name;
+    json["plan"]["completed"] = robot.plan->completed;
+    json["plan"]["end"] = robot.plan->end;
+    json["plan"]["log"] = robot.plan->log;
+  }
   if (!robot.late_tasks.empty()) json["late_tasks"] = Json::array();
   for (const bridge::LateTask& task : robot.late_tasks) {
     Json entry;
@@ -233,7 +254,7 @@ std::string summary_text(const RunResult& result) {
   for (const RobotResult& robot : result.robots) unreached += unreached_goals(robot);
   if (!unreached.empty()) text += "\n" + unreached;
   std::string equipment;
-  for (const RobotResult& robot : result.robots) equipment += battery(robot) + programs(robot);
+  for (const RobotResult& robot : result.robots) equipment += battery(robot) + programs(robot) + plan(robot);
   if (!equipment.empty()) text += "\n" + equipment;
   std::string late;
   for (const RobotResult& robot : result.robots) late += late_tasks(robot);

@@ -157,6 +157,9 @@ int run_alone(const RunOptions& options, const scenario::Scenario& scenario, std
   std::optional<Outputs> outputs;
   try {
     experiment.emplace(scenario, types, run::ExperimentOptions{options.seed, options.order, replay, ranks});
+    for (const auto& robot : experiment->robots())
+      if (const std::string text = robot->plan_text(); !text.empty())
+        std::fprintf(stderr, "waitpoint: %s\n", text.c_str());
     return run_once(options, scenario, *experiment, outputs);
   } catch (const BadInput&) {
     throw;

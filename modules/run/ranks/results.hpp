@@ -55,6 +55,7 @@ void carry(auto& archive, bridge::LateTask& task) {
 }
 void carry(auto& archive, bridge::BatteryResult& battery) { archive(battery.charge, battery.volts, battery.empty_at); }
 void carry(auto& archive, bridge::ProgramResult& program) { archive(program.name, program.exit_status); }
+void carry(auto& archive, bridge::PlanResult& plan) { archive(plan.name, plan.completed, plan.end, plan.log); }
 void carry(auto& archive, bridge::FiguresPresent& present) {
   archive(present.motion, present.position, present.odometry);
 }
@@ -64,7 +65,7 @@ void carry(auto& archive, bridge::RobotResult& result) {
   archive(result.name, result.digest, result.goals, result.present, result.collisions, result.distance_m,
           result.position_error_mean_m, result.position_error_max_m, result.odometry_error_max_m,
           result.odometry_error_end_m, result.true_path, result.estimated_path, result.odometry_path, result.late_tasks,
-          result.battery, result.programs, result.segments);
+          result.battery, result.programs, result.segments, result.plan);
 }
 /// Of a run of one process, without warnings and the shapes of robots.
 void carry(auto& archive, bridge::RunResult& result) {

@@ -98,6 +98,17 @@ alternatives: [{name: the way, branches: [[by lift], [by stairs], [by ramp]]}]
   EXPECT_TRUE(execution.completed());
 }
 
+TEST(Execution, StartThatTookTooLongIsStopped) {
+  const Plan plan = test::plan_of(
+      "actions: [{name: look, duration_s: 1, request: sick.SegmentsOn}]\n"
+      "constraints: [{from: start, to: look.start, most_s: 0.3}]");
+  Execution execution(plan);
+  EXPECT_EQ(execution.next(300ms).kind, Kind::start);
+  execution.started(0, Duration(300ms) + Duration(1ns));
+  expect_order(execution, Duration(300ms) + Duration(1ns), Kind::stop, 0);
+  EXPECT_EQ(execution.failure(), "action 'look' failed: it could not start in time");
+}
+
 TEST(Execution, ViolatedConditionWithoutABranchAborts) {
   const Plan plan = test::plan_of(drive_and_look);
   Execution execution(plan);

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Temporal plans, from the scenario to the summary.
+#include <gtest/gtest.h>
+
+#include "tests/project.hpp"
+#include "tests/runs/program.hpp"
+#include "tests/tools/folder.hpp"
+
+namespace waitpoint::runs {
+namespace {
+
+Outcome waitpoint_with(const std::vector<std::string>& words) {
+  Command command{{program().string()}};
+  command.words.insert(command.words.end(), words.begin(), words.end());
+  command.folder = test::project_root();
+  return outcome_of(command);
+}
+
+bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+TEST(Plan, TwoRobotsKeepTheirPlansAndMeet) {
+  const Outcome first = outcome_of(run_command("office-plan.yaml", "300"));
+  EXPECT_EQ(first.status, 0) << first.errors << first.output;
+  EXPECT_TRUE(has(first.errors, "guide: plan 'the guide's round': ")) << first.errors;
+  EXPECT_TRUE(has(first.errors, "consistent, dynamically controllable")) << first.errors;
+  EXPECT_TRUE(has(first.output, "guide: plan 'the guide's round' completed")) << first.output;
+  EXPECT_TRUE(has(first.output, "helper: plan 'the helper's errand' completed")) << first.output;
+  // At the first tick of the door's window, 20 s after the plan's start.
+  EXPECT_TRUE(has(first.output, "20.200000000 s: start of pass the door")) << first.output;
+  const Outcome second = outcome_of(run_command("office-plan.yaml", "300"));
+  EXPECT_EQ(first.digest(), second.digest());
+}
+
+TEST(Plan, InconsistentPlanIsRefusedWithItsCycle) {
+  const tools::Folder folder;
+  folder.write("s.yaml",
+               "format: 1\nrobots: [{name: a, start: [0, 0, 0], shape: {radius_m: "
+               "0.2, height_m: 1}, base: {kind: synchro}, plan: p.yaml}]\n");
+  folder.write("p.yaml",
+               "format: 1\nname: p\nactions: [{name: wait, duration_s: 5}]\n"
+               "constraints: [{name: hurry, from: start, to: wait.end, most_s: 4}]\n");
+  const Outcome outcome = waitpoint_with({"run", folder / "s.yaml"});
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_TRUE(has(outcome.errors,
+                  "p.yaml:4: expected a consistent plan, found a cycle of constraints that contradict "
+                  "each other: 'hurry' (line 4), 'duration of wait' (line 3)"))
+      << outcome.errors;
+}
+
+TEST(Plan, ExploreFailsAPlanThatIsConsistentButNotControllable) {
+  const std::string scenario = "tests/runs/plans/unlucky_scenario.yaml";
+  const Outcome run = waitpoint_with({"run", scenario});
+  EXPECT_EQ(run.status, 0) << run.errors << run.output;
+  EXPECT_TRUE(has(run.errors, "NOT dynamically controllable, by ")) << run.errors;
+  EXPECT_TRUE(has(run.errors, "'just before' (line 9)")) << run.errors;
+  const Outcome explored = waitpoint_with({"explore", scenario, "--iterations", "50", "--no-minimize"});
+  EXPECT_EQ(explored.status, 1) << explored.output;
+  EXPECT_TRUE(has(explored.output, "0 of 1 plans completed, expected all: robot guide: aborted: action 'halt' failed"))
+      << explored.output;
+}
+
+}  // namespace
+}  // namespace waitpoint::runs

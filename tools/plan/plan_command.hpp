@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// `waitpoint plan FILE`: what is known of a temporal plan before it is executed.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "modules/plan/plan.hpp"
+
+namespace waitpoint::tools {
+
+struct PlanOptions {
+  std::filesystem::path file;
+  std::filesystem::path picture;  ///< empty: none
+};
+
+/// Prints the verdict and the windows of the actions of the first branches; returns the exit status. Throws BadInput
+/// for a plan that is not consistent.
+int show_plan(const PlanOptions& options);
+
+/// A row for each action: the times in which it can be, and within them its least duration from its earliest start.
+std::string plan_picture(const plan::Plan& plan);
+
+}  // namespace waitpoint::tools
