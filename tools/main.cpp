@@ -21,6 +21,7 @@
 #include "tools/exec/program_process.hpp"
 #include "tools/explore/explore.hpp"
 #include "tools/gdb/debug.hpp"
+#include "tools/genom/genom.hpp"
 #include "tools/options.hpp"
 #include "tools/output/output_file.hpp"
 #include "tools/papers_modules.hpp"
@@ -71,6 +72,7 @@ int carry_out(int argc, const char* const* argv, std::vector<genom::ModuleType> 
       return run->check ? tools::self_check(*run, types) : tools::run(*run, types);
     if (const auto* checked = std::get_if<tools::CheckOptions>(&options)) return check(*checked, types);
     if (const auto* plan = std::get_if<tools::PlanOptions>(&options)) return tools::show_plan(*plan);
+    if (const auto* generated = std::get_if<tools::GenomOptions>(&options)) return tools::genom(*generated);
     if (const auto* debug = std::get_if<tools::DebugOptions>(&options)) tools::debug(*debug);
     if (const auto* executed = std::get_if<tools::ExecOptions>(&options)) return tools::exec(*executed);
     if (const auto* explored = std::get_if<tools::ExploreOptions>(&options)) {

@@ -32,6 +32,17 @@ DebugOptions debug_options(const std::vector<std::string>& words, const std::vec
   return options;
 }
 
+void add_genom(CommandLine& line, GenomOptions& options, std::optional<Command>& command) {
+  command =
+      line.add_command("genom", "Generates a module from its description in GenoM's language (docs/laas-gen.md).");
+  command->argument("FILE", options.file, "the description: NAME.gen", Command::Presence::required);
+  command->option("--out", options.out, "FOLDER", "folder of the generated files (default: that of FILE)");
+  command->repeated("--include", options.folders, "FOLDER", "where included files are searched, beside FILE's folder");
+  command->flag("--check", options.check_only, "validate the description, and write nothing");
+  command->flag("--documentation", options.documentation_only,
+                "write its page of requests and posters to standard output");
+}
+
 /// A program with modules of its own is named as it was called.
 std::string name_in_replay_lines(const std::string& program) {
   const std::string name = std::filesystem::path(program).filename().string();
@@ -59,6 +70,9 @@ Options read_options(int argc, const char* const* argv, const std::string& versi
                    "  waitpoint gdb [OPTIONS OF GDB] -- PROGRAM ...");
   ExploreArguments explore(line);
   ExecArguments exec(line);
+  GenomOptions generated;
+  std::optional<Command> genom;
+  add_genom(line, generated, genom);
   line.footer(
       "See waitpoint COMMAND --help. Exit status: 0 success, 1 a failed expectation of the scenario or a deadlock,\n"
       "2 bad input, 130 stopped by a signal.");
@@ -86,11 +100,12 @@ Options read_options(int argc, const char* const* argv, const std::string& versi
   if (explore.parsed()) return explore.options(program);
   if (exec.parsed()) return exec.options(program);
   if (plan.parsed()) return PlanOptions{plan_file, plan_picture};
+  if (genom->parsed()) return generated;
   if (check.parsed()) {
     const std::filesystem::path scenario = find_scenario(checked.file);
     return CheckOptions{scenario, checked.confinement.folders(scenario), checked.assignments};
   }
-  throw BadInput("command line", "expected a command, run, check, plan, explore or exec; see waitpoint --help");
+  throw BadInput("command line", "expected a command, run, check, plan, explore, exec or genom; see waitpoint --help");
 }
 
 }  // namespace waitpoint::tools

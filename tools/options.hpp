@@ -10,6 +10,7 @@
 #include "tools/exec/exec_options.hpp"
 #include "tools/explore/runs/explore_options.hpp"
 #include "tools/gdb/debug.hpp"
+#include "tools/genom/genom.hpp"
 #include "tools/plan/plan_command.hpp"
 #include "tools/run/run_options.hpp"
 
@@ -27,7 +28,8 @@ struct ShownText {
   std::string text;
 };
 
-using Options = std::variant<RunOptions, CheckOptions, ExploreOptions, ExecOptions, DebugOptions, PlanOptions, ShownText>;
+using Options = std::variant<RunOptions, CheckOptions, ExploreOptions, ExecOptions, DebugOptions, PlanOptions,
+                             GenomOptions, ShownText>;
 
 /// Reads the arguments, and WAITPOINT_SEED unless --seed is given. Throws BadInput, one line, for invalid arguments.
 /// `version` is the text of --version.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
+#include <map>
 #include <set>
 
 #include "core/nearest_name.hpp"
@@ -55,6 +56,9 @@ class Resolution {
       }
     }
     parameter.type = type;
+    while (type->name.empty() && type->kind == TypeKind::array) type = type->element;
+    if (type->name.empty())
+      reject(parameter.place, "expected a member whose type has a name, found '" + path_text(parameter) + "'");
   }
   static void unknown_member(const Parameter& parameter, const Type& type, const std::string& step) {
     std::vector<std::string_view> known;
@@ -65,6 +69,9 @@ class Resolution {
   }
   void resolve_letter(std::optional<Parameter>& parameter) const {
     if (!parameter) return;
+    // Names of the other parameters of codels and client functions.
+    for (const char* taken : {"client", "rqstId", "replyTimeOut", "block", "activity", "report"})
+      if (parameter->name == taken) reject(parameter->place, "expected another name than '" + parameter->name + "'");
     resolve_member(*parameter);
     if (frame_size(*parameter->type) > payload_bytes_max)
       reject(parameter->place, "expected an input or output of at most 1024 bytes, found " +
@@ -83,6 +90,7 @@ class Resolution {
     resolve_letter(request.input);
     resolve_letter(request.output);
     check_codels(request);
+    add_signatures(request);
     resolve_interrupts(request);
     add_reports(request.fail_reports);
     if (request.kind == RequestKind::init && std::count_if(description_.requests.begin(), description_.requests.end(),
@@ -119,6 +127,21 @@ class Resolution {
     check_task(*request.exec_task);
     if (request.start.empty() && request.main.empty() && request.end.empty())
       reject(request.name.place, "expected codel_start, codel_main or codel_end of '" + name + "'");
+  }
+
+  // A codel may serve several requests whose inputs and outputs are alike.
+  void add_signatures(const Request& request) {
+    const std::string input = request.input ? structure(*request.input->type) + "*" : "";
+    const std::string output = request.output ? structure(*request.output->type) + "*" : "";
+    const auto add_signature = [&](const std::string& codel, const std::string& signature) {
+      if (!codel.empty() && signatures_.emplace(codel, signature).first->second != signature)
+        reject(request.name.place,
+               "expected other codels than another request's with another input or output, found '" + codel + "' in '" +
+                   request.name.text + "'");
+    };
+    add_signature(request.control, "control " + input);
+    for (const std::string* codel : {&request.start, &request.main, &request.end, &request.fail, &request.inter})
+      add_signature(*codel, "activity " + input + output);
   }
 
   void resolve_interrupts(Request& request) const {
@@ -173,6 +196,7 @@ class Resolution {
   }
 
   Description& description_;
+  std::map<std::string, std::string> signatures_;  // of codels
 };
 
 }  // namespace

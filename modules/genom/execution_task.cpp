@@ -47,7 +47,10 @@ void ExecutionTask::run(const AddModule& add_module) {
 // Waits for the next wake-up. Returns the number of periods since the last one.
 std::int64_t ExecutionTask::wait() {
   if (!periodic()) {
-    event_.acquire();
+    if (wait_)
+      wait_();
+    else
+      event_.acquire();
     return 1;
   }
   const Time done = threads::now();
@@ -69,6 +72,7 @@ bool ExecutionTask::wake_up(std::int64_t periods) {
   if (module_.ending) return false;
   if (suspended_) return true;
   call_permanent(permanent_);
+  if (suspended_) return true;
   bool state_changed = false;
   for (Activity& activity : module_.activities.used_of(*this)) state_changed |= step(activity);
   call_permanent(second_permanent_);

@@ -52,6 +52,9 @@ class ExecutionTask {
   void set_second_permanent(std::function<void()> codel) { second_permanent_ = std::move(codel); }
   /// True if the task has a codel that `cost_us` applies to.
   bool has_permanent() const { return permanent_ || second_permanent_ || start_ || end_; }
+  /// Of an aperiodic task: waits for its next wake-up in place of the frame, without the module's locks. Once it has
+  /// returned, the activities' codels are called.
+  void set_wait(std::function<void()> codel) { wait_ = std::move(codel); }
   /// Called once when the task starts and when it ends.
   void set_start(std::function<void()> codel) { start_ = std::move(codel); }
   void set_end(std::function<void()> codel) { end_ = std::move(codel); }
@@ -63,6 +66,8 @@ class ExecutionTask {
 
   bool periodic() const { return options_.period_ms > Duration(); }
   bool suspended() const { return suspended_; }
+  /// Until it is resumed, its codels are not called and execution requests are rejected.
+  void suspend() { suspended_ = true; }
   void resume() { suspended_ = false; }
   /// Periods missed because the task was still busy.
   std::int64_t missed_periods() const { return missed_periods_; }
@@ -98,7 +103,7 @@ class ExecutionTask {
   std::int64_t missed_deadlines_ = 0;
   Duration greatest_lateness_;
   threads::counting_semaphore<> event_{0, "task event"};
-  std::function<void()> start_, end_;
+  std::function<void()> start_, end_, wait_;
   std::string name_;
   TaskComputing computing_;
   WorkingSet working_set_;

@@ -99,6 +99,11 @@ class Module {
   template <HasFields T>
   OutputPoster<T>& add_poster(const std::string& name, ExecutionTask& task, const T* automatic = nullptr);
 
+  /// The same, with a value that `compute` makes at the end of every wake-up.
+  template <HasFields T>
+  OutputPoster<T>& add_computed_poster(const std::string& name, ExecutionTask& task,
+                                       std::type_identity_t<std::function<void(T& value)>> compute);
+
   /// Links the poster "<module>.<name>" or, if `name` has a dot, "<other module>.<name>". With `required` false it may
   /// be absent.
   template <HasFields T>
@@ -115,6 +120,8 @@ class Module {
   template <class M>
   friend ModuleType module_type(std::string name);
 
+  template <HasFields T>
+  OutputPoster<T>& add_output(ExecutionTask& task, std::unique_ptr<OutputPoster<T>> output);
   RequestType& add_request(const std::string& name, RequestKind kind, std::vector<std::string> interrupts);
   void add_to(WorkingSet& set) const;
 
@@ -182,12 +189,24 @@ RequestType& Module::add_init(const std::string& name, ExecutionTask& task,
 }
 
 template <HasFields T>
-OutputPoster<T>& Module::add_poster(const std::string& name, ExecutionTask& task, const T* automatic) {
-  auto output = std::make_unique<OutputPoster<T>>(names_.create_poster<T>(name_ + "." + name, name_), automatic);
+OutputPoster<T>& Module::add_output(ExecutionTask& task, std::unique_ptr<OutputPoster<T>> output) {
   OutputPoster<T>& reference = *output;
   task.add(reference);
   outputs_.push_back(std::move(output));
   return reference;
+}
+
+template <HasFields T>
+OutputPoster<T>& Module::add_poster(const std::string& name, ExecutionTask& task, const T* automatic) {
+  Poster<T>& poster = names_.create_poster<T>(name_ + "." + name, name_);
+  return add_output(task, std::make_unique<OutputPoster<T>>(poster, automatic));
+}
+
+template <HasFields T>
+OutputPoster<T>& Module::add_computed_poster(const std::string& name, ExecutionTask& task,
+                                             std::type_identity_t<std::function<void(T& value)>> compute) {
+  Poster<T>& poster = names_.create_poster<T>(name_ + "." + name, name_);
+  return add_output(task, std::make_unique<OutputPoster<T>>(poster, std::move(compute)));
 }
 
 template <HasFields T>

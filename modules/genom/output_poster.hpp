@@ -2,6 +2,8 @@
 // The writing side of a module's poster: a codel's write is published after the codel's cost has been added.
 #pragma once
 
+#include <functional>
+
 #include "modules/genom/poster.hpp"
 
 namespace waitpoint::genom {
@@ -34,6 +36,9 @@ class OutputPoster : public OutputPosterBase {
  public:
   /// `automatic`, if not null, is copied to the poster at the end of every wake-up of its task.
   OutputPoster(Poster<T>& poster, const T* automatic) : poster_(poster), automatic_(automatic) {}
+  /// `compute` makes its value at the end of every wake-up of its task.
+  OutputPoster(Poster<T>& poster, std::function<void(T& value)> compute)
+      : poster_(poster), compute_(std::move(compute)) {}
 
   /// Only from codels of the poster's task.
   void write(const T& value) {
@@ -42,6 +47,9 @@ class OutputPoster : public OutputPosterBase {
   }
   void update() override {
     if (automatic_ != nullptr) write(*automatic_);
+    if (!compute_) return;
+    compute_(staged_);
+    has_written();
   }
   void add_to(WorkingSet& set) const override {
     set.add(this, std::min(sizeof *this, small));
@@ -57,7 +65,8 @@ class OutputPoster : public OutputPosterBase {
   }
 
   Poster<T>& poster_;
-  const T* automatic_;
+  const T* automatic_ = nullptr;
+  std::function<void(T&)> compute_;
   T staged_{};
 };
 

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstring>
 #include <mutex>
 #include <optional>
 #include <span>
@@ -37,6 +38,9 @@ class PosterBase {
   virtual bool has_number(std::string_view path) const = 0;
   /// Reads the numbers at the paths of all `readings` from one value, and its date.
   virtual PosterStatus read_numbers(std::span<FieldReading> readings, Time& date) const = 0;
+  /// Copies the first `size` bytes of the value as C has it to `to`, as pocolibs' posterRead() does. False if the
+  /// poster is empty, or its value has no type of C.
+  virtual bool read_c(void* to, std::size_t size) const = 0;
 
   /// Duration of a module's access to it, as to hardware: added to the local time of the task that reads or writes. A
   /// value read is older, and a value written is published later, by it.
@@ -107,6 +111,19 @@ class Poster : public PosterBase {
     const std::lock_guard guard(mutex_);
     number = writes_ > 0 ? field_number(value_, field) : std::nullopt;
     return writes_ > 0;
+  }
+
+  bool read_c(void* to, std::size_t size) const override {
+    if constexpr (requires { typename T::CType; }) {
+      T value;
+      if (read(value) == PosterStatus::empty) return false;
+      threads::access_hardware(latency_);
+      typename T::CType c{};
+      value.to(c);
+      std::memcpy(to, &c, std::min(size, sizeof c));
+      return true;
+    }
+    return false;
   }
 
   /// The value for an observer outside the robot's software; nothing if empty. No event in simulation.

@@ -66,6 +66,16 @@ class Settings {
   void read_one(const std::string& key, std::array<T, N>& values) {
     for (std::size_t i = 0; i < N; ++i) read_one(element(key, i), values[i]);
   }
+  /// A text of C: the letters, and zeros behind them.
+  template <std::size_t N>
+  void read_one(const std::string& key, std::array<char, N>& text) {
+    std::string value;
+    read_one(key, value);
+    if (value.size() >= N && has(key)) reject(key, "at most " + std::to_string(N - 1) + " letters");
+    if (!has(key)) return;
+    text = {};
+    std::copy(value.begin(), value.end(), text.begin());
+  }
   /// If element 0 is set: the elements up to the first that is not; otherwise unchanged.
   template <class T, std::size_t N>
   void read_one(const std::string& key, Bounded<T, N>& values) {

@@ -34,7 +34,7 @@ def main():
     arguments = parser.parse_args()
     root, known = arguments.root.resolve(), {}
     to = pathlib.Path(os.environ.get("MESON_INSTALL_DESTDIR_PREFIX", "")) / arguments.to
-    found = sorted(path.relative_to(root) for folder in arguments.folders for path in (root / folder).rglob("*.hpp"))
+    found = sorted(path.relative_to(root) for folder in arguments.folders for path in (root / folder).rglob("*.h*"))
     headers = [header for header in found if not header.is_relative_to("tools/dev")]
     for header in headers:
         if not is_public(str(header), root, known):

@@ -56,6 +56,7 @@ OWN_CASES = {
     "faults": [sys.executable, str(ROOT / "tests/faults/faults_test.py"), BUILD],
     "gdb": [sys.executable, str(ROOT / "tests/programs/gdb_test.py"), BUILD],
     "deaths": [sys.executable, str(ROOT / "tests/programs/deaths_test.py"), BUILD],
+    "generated modules": [sys.executable, str(ROOT / "tests/programs/genom_test.py"), BUILD],
     "mistakes": [sys.executable, str(ROOT / "tests/programs/mistakes_test.py"), BUILD],
     "recordings": [sys.executable, str(ROOT / "tests/programs/recordings_test.py"), BUILD],
     "programs": [sys.executable, str(ROOT / "tests/programs/programs_test.py"), BUILD],

@@ -169,6 +169,14 @@ TEST(Description, IsRefusedAtLineAndColumn) {
       "posters)");
   EXPECT_EQ(refusal(module_with("int a;", "request Abort { type: control; };")),
             "demo.gen:3: column 9: expected requests of different names, found 'Abort' again");
+  EXPECT_EQ(refusal(module_with("struct { int b; } a;", "request Go { type: control; input: x::a; };")),
+            "demo.gen:3: column 36: expected a member whose type has a name, found 'a'");
+  EXPECT_EQ(
+      refusal(module_with("int a;",
+                          "request A { type: control; codel_control: f; };\n"
+                          "request B { type: control; input: x::a; codel_control: f; };")),
+      "demo.gen:4: column 9: expected other codels than another request's with another input or output, found 'f' in "
+      "'B'");
   EXPECT_EQ(refusal(module_with("int a;", "poster P { update: often; };")),
             "demo.gen:3: column 20: expected 'user' or 'auto', found 'often'");
   EXPECT_EQ(refusal(module_with("int a;", "request Go { type: control; type: control; };")),

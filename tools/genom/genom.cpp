@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/genom/genom.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <utility>
+
+#include "core/error.hpp"
+#include "modules/description/parser.hpp"
+#include "tools/genom/c_text.hpp"
+#include "tools/genom/generators.hpp"
+#include "tools/output/output_file.hpp"
+
+namespace waitpoint::tools {
+namespace {
+
+namespace fs = std::filesystem;
+using description::Description;
+
+struct Generated {
+  std::string name;
+  std::string text;
+};
+
+std::vector<Generated> server_files(const Description& module) {
+  const std::string server = "server/" + module.name.text;
+  return {{server + "Type.h", type_header(module)},       {server + "Error.h", error_header(module)},
+          {server + "Header.h", codel_header(module)},    {server + "MsgLib.h", client_header(module)},
+          {server + "MsgLib.cpp", client_source(module)}, {server + "Fields.hpp", fields_header(module)},
+          {server + "Module.hpp", module_header(module)}, {server + "Module.cpp", module_source(module)},
+          {server + "Main.cpp", main_source(module)},     {module.name.text + ".md", documentation(module)}};
+}
+
+std::vector<Generated> users_files(const Description& module, const std::vector<std::string>& include_folders) {
+  const std::string& name = module.name.text;
+  const char* suffix = module.cxx_codels ? "Codels.cc" : "Codels.c";
+  std::vector<Generated> files;
+  if (!control_codels(module).empty())
+    files.push_back({"codels/" + name + "CntrlTask" + suffix, control_stubs(module)});
+  for (std::size_t i = 0; i < module.tasks.size(); ++i)
+    files.push_back({"codels/" + name + module.tasks[i].name.text + suffix, task_stubs(module, i)});
+  files.push_back({name + ".yaml", scenario(module)});
+  files.push_back({"Makefile", makefile(module, include_folders)});
+  return files;
+}
+
+void write(const fs::path& path, const std::string& text) {
+  std::error_code error;
+  fs::create_directories(path.parent_path(), error);
+  if (error) throw BadInput(path.parent_path().string(), "cannot be made: " + error.message());
+  OutputFile file(path);
+  file.write(text);
+  file.commit();
+}
+
+}  // namespace
+
+int genom(const GenomOptions& options) {
+  const Description module = description::read_description(options.file, options.folders);
+  if (options.documentation_only) return write_standard_output(documentation(module)), 0;
+  if (options.check_only) {
+    write_standard_output(fmt::format("{}: good: module {}, {} requests, {} posters, {} tasks\n", options.file,
+                                      module.name.text, module.requests.size(), module.posters.size(),
+                                      module.tasks.size()));
+    return 0;
+  }
+  const fs::path beside = fs::path(options.file).parent_path();
+  const fs::path out = options.out.empty() ? (beside.empty() ? fs::path(".") : beside) : fs::path(options.out);
+  // As the compiler finds them from the folder of the Makefile.
+  std::vector<std::string> include_folders;
+  std::vector<fs::path> folders = {beside.empty() ? fs::path(".") : beside};
+  folders.insert(folders.end(), options.folders.begin(), options.folders.end());
+  for (const fs::path& folder : folders)
+    include_folders.push_back(
+        fs::absolute(folder).lexically_normal().lexically_relative(fs::absolute(out).lexically_normal()).string());
+  std::string told;
+  for (const Generated& file : server_files(module)) {
+    write(out / file.name, file.text);
+    told += fmt::format("  {}\n", file.name);
+  }
+  for (const Generated& file : users_files(module, include_folders)) {
+    const bool exists = fs::exists(out / file.name);
+    if (!exists) write(out / file.name, file.text);
+    told += fmt::format("  {}{}\n", file.name, exists ? " (kept)" : "");
+  }
+  write_standard_output(fmt::format("module {} in {}:\n{}build: make -C {}\nrun:   {} run {}\n", module.name.text,
+                                    out.string(), told, out.string(), (out / module.name.text).string(),
+                                    (out / (module.name.text + ".yaml")).string()));
+  return 0;
+}
+
+}  // namespace waitpoint::tools
