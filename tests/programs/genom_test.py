@@ -40,8 +40,8 @@ class Generated(Installed):
         """The output of an interactive run with these lines."""
         scenario = program.parent / f"{program.name}.yaml"
         done = subprocess.run([program, "run", scenario, "--interactive"], input="\n".join([*lines, "quit", ""]),
-                              capture_output=True, text=True, timeout=120)
-        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=120)
+        self.assertEqual(done.returncode, 0, done.stdout)
         return re.sub(r" +operator: ", " ", done.stdout)
 
     def test_a_module_runs_its_codels_in_c(self):
