@@ -5,13 +5,11 @@
 
 namespace waitpoint::executive {
 
-using genom::PosterStatus;
 using posters::GoToInput;
 using namespace std::chrono_literals;
 
 namespace {
 constexpr Duration look_period = 500ms;
-constexpr std::size_t looks_kept = 20;  // slightly longer than the patience of `ndd`
 }  // namespace
 
 Executive::Executive(genom::NameSpace& names, const Parameters& parameters, std::shared_ptr<const KnownSpace> known,
@@ -21,19 +19,14 @@ Executive::Executive(genom::NameSpace& names, const Parameters& parameters, std:
       client_(names, "executive"),
       planner_(std::move(known), parameters.planning),
       mission_(planner_, parameters.mission, goals, random),
-      start_(start) {}
+      start_(start),
+      looks_(parameters.mark_range_m) {}
 
 void Executive::connect() {
   for (const char* module : {"rflex", "sick", "pom", "ndd"})
     if (names_.find_module(module) == nullptr)
       throw BadInput("the executive", std::string("needs the module '") + module + "'");
-  for (genom::PosterLinkBase* link :
-       {static_cast<genom::PosterLinkBase*>(&position_), static_cast<genom::PosterLinkBase*>(&echoes_)}) {
-    genom::PosterBase* poster = names_.find_poster(link->name());
-    if (poster == nullptr || !link->connect(*poster))
-      throw BadInput("the executive",
-                     "reads poster '" + link->name() + "', which no module of this robot writes with that type");
-  }
+  looks_.connect(names_);
 }
 
 void Executive::run() {
@@ -53,7 +46,7 @@ void Executive::run() {
     if (!report) break;
     here = position();
     order = planned(*report == genom::ok ? mission_.arrived(threads::now(), here)
-                                         : mission_.blocked(threads::now(), here, seen()));
+                                         : mission_.blocked(threads::now(), here, looks_.seen()));
   }
   stop_modules();
 }
@@ -74,10 +67,7 @@ void Executive::start_modules() {
 }
 
 void Executive::wait_for_position() {
-  posters::FusedPosition position;
-  posters::Echoes echoes;
-  while ((position_.read(position) == PosterStatus::empty || echoes_.read(echoes) == PosterStatus::empty) && !stopping_)
-    threads::this_thread::sleep_for(50ms);
+  while (!looks_.have_begun() && !stopping_) threads::this_thread::sleep_for(50ms);
 }
 
 void Executive::stop_modules() {
@@ -86,11 +76,7 @@ void Executive::stop_modules() {
   client_.call("sick", "Stop");
 }
 
-Point Executive::position() const {
-  posters::FusedPosition position;
-  position_.read(position);
-  return position.position.pose.position();
-}
+Point Executive::position() const { return looks_.position(); }
 
 // Sends the via points and waits for the final report, recording echoes meanwhile; nothing if stopped. Via points
 // beyond one request's capacity follow in the next.
@@ -106,36 +92,12 @@ std::optional<genom::Report> Executive::drive(std::span<const Point> via_points)
     while (!reply || reply->send_id != *request || !reply->final) {
       if (stopping_) return std::nullopt;
       reply = client_.receive(look_period);
-      if (!reply) look();
+      if (!reply) looks_.look();
     }
     if (reply->report != genom::ok) return reply->report;
     via_points = via_points.subspan(count);
   }
   return genom::ok;
-}
-
-// Keeps the current echoes: when the way is reported as blocked, the robot may face away from the obstacle.
-void Executive::look() {
-  posters::FusedPosition position;
-  posters::Echoes echoes;
-  if (position_.read(position) == PosterStatus::empty || echoes_.read(echoes) == PosterStatus::empty) return;
-  std::vector<Point> points;
-  const Pose device = compose(position.position.pose, echoes.mount);
-  for (std::size_t i = 0; i < echoes.scan.range_m.size(); ++i) {
-    const double range = static_cast<double>(echoes.scan.range_m[i]);
-    if (range >= parameters_.mark_range_m || range >= echoes.scan.range_max_m) continue;
-    const auto [s, c] =
-        exact::sincos(echoes.scan.first_angle_rad + echoes.scan.angle_step_rad * static_cast<double>(i));
-    points.push_back(transform(device, {range * c, range * s}));
-  }
-  looks_.push_back(std::move(points));
-  if (looks_.size() > looks_kept) looks_.pop_front();
-}
-
-std::vector<Point> Executive::seen() const {
-  std::vector<Point> points;
-  for (const std::vector<Point>& look : looks_) points.insert(points.end(), look.begin(), look.end());
-  return points;
 }
 
 }  // namespace waitpoint::executive

@@ -7,16 +7,14 @@
 #pragma once
 
 #include <atomic>
-#include <deque>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "modules/executive/mission.hpp"
+#include "modules/executive/looks.hpp"
+#include "modules/executive/robot_executive.hpp"
 #include "modules/genom/client.hpp"
-#include "modules/posters/laser.hpp"
 #include "modules/posters/navigation.hpp"
-#include "modules/posters/position.hpp"
 
 namespace waitpoint::executive {
 
@@ -35,21 +33,20 @@ struct Parameters {
   }
 };
 
-class Executive {
+class Executive : public RobotExecutive {
  public:
   /// `start` is the robot's known pose in the map frame. `random` is the executive's own stream.
   Executive(genom::NameSpace& names, const Parameters& parameters, std::shared_ptr<const KnownSpace> known,
             const posters::KnownPose& start, const std::vector<Point>& goals, const RandomStream& random);
 
   /// Connects its posters. A missing module, or a missing poster or one of another type, is BadInput.
-  void connect();
+  void connect() override;
   /// The body of the task: starts the modules' activities, visits the goals, round by round, stops the robot.
-  void run();
+  void run() override;
   /// From another task: run() stops the robot and returns soon, even with goals left.
-  void stop() { stopping_ = true; }
+  void stop() override { stopping_ = true; }
 
-  /// The state of each goal. While run() is active, only from tasks that cannot run concurrently with it.
-  const std::vector<GoalRecord>& goals() const { return mission_.goals(); }
+  const std::vector<GoalRecord>& goals() const override { return mission_.goals(); }
 
  private:
   void start_modules();
@@ -58,8 +55,6 @@ class Executive {
   void stop_modules();
   std::optional<genom::Report> drive(std::span<const Point> via_points);
   Point position() const;
-  void look();
-  std::vector<Point> seen() const;
 
   genom::NameSpace& names_;
   Parameters parameters_;
@@ -68,9 +63,7 @@ class Executive {
   Mission mission_;
   posters::KnownPose start_;
   std::atomic<bool> stopping_ = false;
-  std::deque<std::vector<Point>> looks_;  // near echoes of the last seconds, map frame
-  genom::PosterLink<posters::FusedPosition> position_{"pom.position"};
-  genom::PosterLink<posters::Echoes> echoes_{"sick.echoes"};
+  Looks looks_;
 };
 
 }  // namespace waitpoint::executive

@@ -153,6 +153,7 @@ RequestType& Module::add_control(const std::string& name,
   type.accepts = internal::accepts<In>;
   type.read_input = internal::read_input<In>;
   type.has_input = internal::has_input<In>;
+  type.input_shape = internal::input_shape<In>;
   type.control = [codel = std::move(codel)](const Payload& input, Payload& output) {
     Out out{};
     const Report report = codel(input.as<In>(), out);
@@ -170,6 +171,7 @@ RequestType& Module::add_activity(const std::string& name, ExecutionTask& task,
   type.accepts = internal::accepts<In>;
   type.read_input = internal::read_input<In>;
   type.has_input = internal::has_input<In>;
+  type.input_shape = internal::input_shape<In>;
   type.control = [control = codels.control](const Payload& input, Payload&) {
     return control ? control(input.as<In>()) : ok;
   };

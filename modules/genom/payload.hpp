@@ -4,9 +4,11 @@
 
 #include <cstddef>
 #include <new>
+#include <string>
 #include <type_traits>
 
 #include "core/field_path.hpp"
+#include "core/field_text.hpp"
 #include "core/fields.hpp"
 
 namespace waitpoint::genom {
@@ -50,6 +52,8 @@ class Payload {
   FieldOutcome read(std::string_view path, double& number) const { return type_->read(*this, path, number); }
   /// Adds the value to a digest by its declared fields.
   void add_to(Digest& digest) const { type_->add(digest, *this); }
+  /// The value as text by its declared fields: see core/field_text.hpp.
+  std::string text() const { return type_->text(*this); }
 
  private:
   static constexpr std::size_t alignment = 8;
@@ -58,6 +62,7 @@ class Payload {
     void (*copy)(std::byte* to, const Payload& payload);
     void (*add)(Digest& digest, const Payload& payload);
     FieldOutcome (*read)(const Payload& payload, std::string_view path, double& number);
+    std::string (*text)(const Payload& payload);
   };
   template <class T>
   const T& held() const {
@@ -69,7 +74,8 @@ class Payload {
                                [](Digest& digest, const Payload& payload) { add_value(digest, payload.held<T>()); },
                                [](const Payload& payload, std::string_view path, double& number) {
                                  return read_number(payload.held<T>(), path, number);
-                               }};
+                               },
+                               [](const Payload& payload) { return text_of(payload.held<T>()); }};
     return &type;
   }
 

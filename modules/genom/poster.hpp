@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <span>
@@ -15,8 +16,8 @@
 #include <typeinfo>
 
 #include "core/field_path.hpp"
+#include "core/field_text.hpp"
 #include "fibers/sync/threads.hpp"
-#include "modules/genom/field_number.hpp"
 
 namespace waitpoint::genom {
 
@@ -50,11 +51,9 @@ class PosterBase {
   /// Adds the memory that every access touches; for a large value only its beginning.
   virtual void add_to(WorkingSet& set) const = 0;
 
-  /// True if values of the poster's type can have a number of this name: see field_number.hpp.
-  virtual bool has_number(std::string_view field) const = 0;
-  /// True if the poster has been written, as Poster::read finds out; then `number` is that of this name, or nothing if
-  /// the value does not have it, or the name is empty.
-  virtual bool read_number(std::string_view field, std::optional<double>& number) const = 0;
+  /// Reads the value as text by its declared fields (core/field_text.hpp), with the cost of a module's access; nothing
+  /// if empty.
+  virtual std::optional<std::string> read_text() const = 0;
 
  protected:
   PosterBase(std::string name, std::string writer);
@@ -106,13 +105,6 @@ class Poster : public PosterBase {
     return PosterStatus::ok;
   }
 
-  bool has_number(std::string_view field) const override { return has_field_number<T>(field); }
-  bool read_number(std::string_view field, std::optional<double>& number) const override {
-    const std::lock_guard guard(mutex_);
-    number = writes_ > 0 ? field_number(value_, field) : std::nullopt;
-    return writes_ > 0;
-  }
-
   bool read_c(void* to, std::size_t size) const override {
     if constexpr (requires { typename T::CType; }) {
       T value;
@@ -124,6 +116,13 @@ class Poster : public PosterBase {
       return true;
     }
     return false;
+  }
+
+  std::optional<std::string> read_text() const override {
+    const auto value = std::make_unique<T>();  // may be larger than a stack
+    const PosterStatus status = read(*value);
+    threads::access_hardware(latency());
+    return status == PosterStatus::ok ? std::optional(text_of(*value)) : std::nullopt;
   }
 
   /// The value for an observer outside the robot's software; nothing if empty. No event in simulation.

@@ -34,6 +34,7 @@ struct RequestType {
   Payload (*read_input)(Settings& arguments) = nullptr;
   /// True if the input has a number at this path: core/field_path.hpp.
   bool (*has_input)(std::string_view path) = nullptr;
+  FieldShape (*input_shape)() = nullptr;
   std::function<Report(const Payload& input, Payload& output)> control;
   /// Calls the codel of that state; nothing if there is none.
   std::function<std::optional<State>(State state, Activity& activity)> codel;
@@ -75,6 +76,11 @@ template <class In>
 bool has_input(std::string_view path) {
   double ignored = 0;
   return read_number(In{}, path, ignored) != FieldOutcome::unknown;
+}
+
+template <class In>
+FieldShape input_shape() {
+  return shape_of<In>();
 }
 
 template <class In, class Out>

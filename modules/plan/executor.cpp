@@ -197,9 +197,12 @@ void Executor::take(const genom::Reply& reply) {
 
 const Condition* Executor::first_false(const std::vector<Condition>& conditions) const {
   for (const Condition& condition : conditions) {
-    std::optional<double> number;
-    const bool is_written = names_.find_poster(condition.poster)->read_number(condition.field, number);
-    if (!is_written || (!condition.field.empty() && !(number && holds(condition, *number)))) return &condition;
+    FieldReading reading{.path = condition.field};
+    Time date;
+    if (names_.find_poster(condition.poster)->read_numbers({&reading, 1}, date) == genom::PosterStatus::empty)
+      return &condition;
+    const bool is_number = reading.outcome == FieldOutcome::number;
+    if (!condition.field.empty() && !(is_number && holds(condition, reading.number))) return &condition;
   }
   return nullptr;
 }
