@@ -11,6 +11,7 @@
 #include "modules/genom/module.hpp"
 #include "modules/plan/executor.hpp"
 #include "modules/plan/plan_reader.hpp"
+#include "modules/tcl/tcl_executive.hpp"
 
 namespace waitpoint::bridge {
 namespace {
@@ -48,7 +49,7 @@ Robot::Robot(const scenario::RobotScenario& scenario, std::span<const genom::Mod
     : scenario_(scenario), world_(world), body_(body), bridge_(std::in_place, scenario, world, body, names_) {
   for (const std::string& name : scenario.processors) names_.add_processor(name);
   make_modules(types, network);
-  if (!scenario.goals.empty()) make_executive(std::move(known), seed);
+  if (!scenario.goals.empty() || scenario.script) make_executive(std::move(known), seed);
   if (scenario.plan != nullptr) make_plan();
   connect();
   if (scenario.control) make_controller();
@@ -117,6 +118,7 @@ void Robot::make_executive(std::shared_ptr<const executive::KnownSpace> known, s
   for (const scenario::Goal& goal : scenario_.goals) goals.push_back(goal.position);
   posters::KnownPose start;
   start.pose = scenario_.body.start;
+  if (scenario_.script) return make_scripted_executive(parameters, start, std::move(goals), std::move(known), seed);
   executive_ = std::make_unique<executive::Executive>(names_, parameters, std::move(known), start, goals,
                                                       RandomStream(seed, scenario_.name, "executive"));
 }
@@ -128,6 +130,24 @@ void Robot::make_plan() {
   posters::KnownPose start;
   start.pose = scenario_.body.start;
   plan_ = std::make_unique<plan::Executor>(names_, plan::read_plan(*scenario_.plan), start);
+}
+
+void Robot::make_scripted_executive(const executive::Parameters& parameters, const posters::KnownPose& start,
+                                    std::vector<Point> goals, std::shared_ptr<const executive::KnownSpace> known,
+                                    std::uint64_t seed) {
+  const scenario::ScriptScenario& script = *scenario_.script;
+  const tcl::Library& library = tcl::library(script.written.file, script.written.line);
+  if (const auto error = library.check(script.text)) throw BadInput(script.file, error->line, error->text);
+  tcl::MissionSetup setup;
+  setup.script = {script.file, script.text};
+  setup.robot = scenario_.name;
+  setup.planning = parameters.planning;
+  setup.mark_range_m = parameters.mark_range_m;
+  setup.plan_cost_us = parameters.plan_cost_us;
+  setup.start = start;
+  setup.goals = std::move(goals);
+  setup.seed = static_cast<std::uint32_t>(RandomStream(seed, scenario_.name, "executive").block(0)[0]);
+  executive_ = std::make_unique<tcl::TclExecutive>(names_, library, std::move(setup), std::move(known));
 }
 
 void Robot::connect() {

@@ -17,6 +17,7 @@
 #include "modules/bridge/run_result.hpp"
 #include "modules/genom/module_type.hpp"
 #include "modules/genom/task_computing.hpp"
+#include "modules/posters/navigation.hpp"
 #include "modules/scenario/scenario.hpp"
 #include "world/world.hpp"
 
@@ -24,8 +25,9 @@ namespace waitpoint::control {
 class Controller;
 }  // namespace waitpoint::control
 namespace waitpoint::executive {
-class Executive;
+struct Parameters;
 class KnownSpace;
+class RobotExecutive;
 }  // namespace waitpoint::executive
 namespace waitpoint::plan {
 class Executor;
@@ -87,8 +89,9 @@ class Robot {
   const std::string& name() const { return scenario_.name; }
   genom::NameSpace& names() { return names_; }
   const genom::NameSpace& names() const { return names_; }
-  /// True if run() ends by itself: after the rounds of goals, or the plan.
-  bool has_mission() const { return !scenario_.goals.empty() || scenario_.plan != nullptr; }
+  /// True if run() ends by itself: after the rounds of goals, the script or the plan.
+  bool has_mission() const { return !scenario_.goals.empty() || scenario_.script || scenario_.plan != nullptr; }
+  bool has_script() const { return scenario_.script.has_value(); }
   /// "ada: plan 'round': 9 time points, 14 constraints: consistent, ..."; empty without a plan, or elsewhere.
   std::string plan_text() const;
   /// Visits to goals: those of all rounds, or in rounds without end those that have ended.
@@ -107,6 +110,9 @@ class Robot {
   void make_modules(std::span<const genom::ModuleType> types, io::Network* network);
   void make_executive(std::shared_ptr<const executive::KnownSpace> known, std::uint64_t seed);
   void make_plan();
+  void make_scripted_executive(const executive::Parameters& parameters, const posters::KnownPose& start,
+                               std::vector<Point> goals, std::shared_ptr<const executive::KnownSpace> known,
+                               std::uint64_t seed);
   void connect();
   void make_controller();
 
@@ -118,9 +124,9 @@ class Robot {
   std::vector<const scenario::ModuleScenario*> module_scenarios_;  // by module
   std::optional<RobotBridge> bridge_;                              // none: it is elsewhere
   genom::TaskComputing computing_;
-  std::unique_ptr<executive::Executive> executive_;  // null without goals
-  std::unique_ptr<control::Controller> controller_;  // null without rules
-  std::unique_ptr<plan::Executor> plan_;             // null without a plan
+  std::unique_ptr<executive::RobotExecutive> executive_;  // null without goals or a script
+  std::unique_ptr<control::Controller> controller_;       // null without rules
+  std::unique_ptr<plan::Executor> plan_;                  // null without a plan
   Evaluation evaluation_;
   std::optional<KeptPaths> kept_paths_;
   std::uint64_t goals_elsewhere_ = 0, reached_elsewhere_ = 0;

@@ -167,7 +167,7 @@ void Experiment::spawn_robots(const scenario::Scenario& scenario) {
   }
 }
 
-// A robot with goals or a plan keeps the run alive until its executive ends; one without does not.
+// A robot with a mission keeps the run alive until its executive or plan ends; one without does not.
 void Experiment::spawn(bridge::Robot& robot) {
   kernel::Robot& lane = simulation_.add_robot(robot.name());
   lanes_.push_back(&lane);
@@ -177,8 +177,11 @@ void Experiment::spawn(bridge::Robot& robot) {
                     [&robot] { robot.bridge().run(); });
   bridges_.back() = simulation_.scheduler().roster().last_task();
   const genom::TaskComputing& computing = robot.computing();
-  // Planning needs a large stack, of which there are 16 384; crowds of more have no mission.
-  const kernel::StackSize stack = robot.has_mission() ? kernel::StackSize::large : kernel::StackSize::medium;
+  // Planning needs a large stack, of which there are 16 384; crowds of more have no mission. A script that recurses to
+  // Tcl's bound on its levels needs more.
+  const kernel::StackSize stack = robot.has_script()    ? kernel::StackSize::program
+                                  : robot.has_mission() ? kernel::StackSize::large
+                                                        : kernel::StackSize::medium;
   sync::start_thread(simulation_.scheduler(), lane,
                      {.name = "executive", .stack = stack, .service = !robot.has_mission()},
                      sync::make_call([&robot] { robot.run(); }), {computing.clock, computing.on, computing.priority});

@@ -94,6 +94,15 @@ What parse_push(std::string_view text, const scenario::Location& written) {
   return push;
 }
 
+What parse_shell_command(std::string_view text, const scenario::Location& written) {
+  ShellCommand command{require(text, "a robot", written), std::string(scenario::trimmed(text))};
+  if (command.command.empty()) throw written.bad("expected a command in Tcl");
+  constexpr std::string_view newline = ShellCommand::newline;
+  for (std::size_t at = 0; (at = command.command.find(newline, at)) != std::string::npos; ++at)
+    command.command.replace(at, newline.size(), "\n");
+  return command;
+}
+
 struct Verb {
   std::string_view name;
   What (*parse)(std::string_view text, const scenario::Location& written);
@@ -101,7 +110,8 @@ struct Verb {
 
 constexpr Verb verbs[] = {{"request", parse_request},         {"move", parse_move},
                           {"obstacle", parse_obstacle},       {"move-obstacle", parse_obstacle_move},
-                          {"remove-obstacle", parse_removal}, {"push", parse_push}};
+                          {"remove-obstacle", parse_removal}, {"push", parse_push},
+                          {"tcl", parse_shell_command}};
 
 }  // namespace
 
@@ -121,7 +131,7 @@ Intervention parse_intervention(std::string_view text, const scenario::Location&
   const std::string hint = did_you_mean(word, intervention_verbs());
   throw written.bad(
       "unknown intervention '" + word + "'" +
-      (hint.empty() ? ", expected request, move, obstacle, move-obstacle, remove-obstacle or push" : hint));
+      (hint.empty() ? ", expected request, move, obstacle, move-obstacle, remove-obstacle, push or tcl" : hint));
 }
 
 }  // namespace waitpoint::run

@@ -7,6 +7,7 @@
 //   move-obstacle NAME X Y [HEADING_DEG]
 //   remove-obstacle NAME
 //   push NAME FX_N FY_N SECONDS                       a force on a robot or a loose obstacle; dynamic worlds only
+//   tcl ROBOT COMMAND                                 evaluated by the robot's shell (modules/tcl); U+2424 is a newline
 //
 // One line of text each, the same at the prompt, in a journal and in the programming interface; the digest hashes it.
 // Words with spaces are in double quotes. operator.hpp describes when and how interventions are executed.
@@ -54,10 +55,18 @@ struct Push {
   Duration time;
 };
 
+struct ShellCommand {
+  /// Stands for a newline in an intervention's text: SYMBOL FOR NEWLINE.
+  static constexpr std::string_view newline = "\xE2\x90\xA4";
+
+  std::string robot;
+  std::string command;
+};
+
 struct Intervention {
   std::string text;
   scenario::Location written;
-  std::variant<ModuleRequest, RobotMove, ObstacleMove, ObstaclePut, ObstacleRemoval, Push> what;
+  std::variant<ModuleRequest, RobotMove, ObstacleMove, ObstaclePut, ObstacleRemoval, Push, ShellCommand> what;
 };
 
 /// The first words of all kinds of interventions: "request", "move", ...

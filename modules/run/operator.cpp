@@ -18,11 +18,6 @@ std::string placed(const std::optional<std::string>& in_the_way) {
 
 std::string no_obstacle(const std::string& name) { return "refused, there is no obstacle '" + name + "'"; }
 
-std::string text_of(genom::Report report) {
-  const std::string text = genom::name(report);
-  return text == "own report" ? text + " " + std::to_string(genom::code_of(report)) : text;
-}
-
 [[noreturn]] void unknown(const scenario::Location& written, const std::string& what, const std::string& name,
                           const std::vector<std::string_view>& known) {
   throw written.bad("there is no " + what + " '" + name + "'" + did_you_mean(name, known));
@@ -70,6 +65,14 @@ void Operator::check(const Intervention& intervention) const {
   if (const auto* request = std::get_if<ModuleRequest>(&intervention.what)) check(*request, intervention.written);
   if (const auto* move = std::get_if<RobotMove>(&intervention.what))
     (void)bridge::index_of(move->robot, robots_, intervention.written);
+  if (const auto* command = std::get_if<ShellCommand>(&intervention.what)) check(*command, intervention.written);
+}
+
+void Operator::check(const ShellCommand& command, const scenario::Location& written) const {
+  const bridge::Robot& owner = *robots_[bridge::index_of(command.robot, robots_, written)];
+  if (owner.presence() == bridge::Presence::elsewhere)
+    throw written.bad("expected a robot of this process: '" + command.robot + "' is of another rank");
+  (void)tcl::library(written.file, written.line);
 }
 
 void Operator::check(const ModuleRequest& request, const scenario::Location& written) const {
@@ -107,10 +110,27 @@ std::string Operator::carry_out(const ModuleRequest& request, const Intervention
   auto ask = [this, &owner, request, input, text = whole.text] {
     genom::Client client(owner.names(), "operator");
     const genom::Reply reply = client.call(request.module, request.request, input);
-    outcomes_.push_back({now(), text + ": " + text_of(reply.report), true});
+    outcomes_.push_back({now(), text + ": " + tcl::text_of(reply.report), true});
   };
   kernel::Robot& lane = *lanes_[index];
   sync::start_thread(*lane.scheduler, lane, {.name = "operator", .service = true}, sync::make_call(std::move(ask)));
+  return "sent";
+}
+
+std::string Operator::carry_out(const ShellCommand& command, const Intervention& whole) {
+  const std::size_t index = bridge::index_of(command.robot, robots_, whole.written);
+  std::unique_ptr<tcl::Shell>& shell = shells_[index];
+  if (shell == nullptr) {
+    shell = std::make_unique<tcl::Shell>(
+        robots_[index]->names(), tcl::library(whole.written.file, whole.written.line), command.robot,
+        [this, robot = command.robot](Time date, const std::string& text, bool is_result) {
+          outcomes_.push_back({date, "tcl " + robot + ": " + text, is_result});
+        });
+    kernel::Robot& lane = *lanes_[index];
+    sync::start_thread(*lane.scheduler, lane, {.name = "tcl", .stack = kernel::StackSize::program, .service = true},
+                       sync::make_call([&shell = *shell] { shell.run(); }));
+  }
+  shell->submit(command.command);
   return "sent";
 }
 

@@ -9,6 +9,7 @@
 #pragma once
 
 #include <deque>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -18,6 +19,7 @@
 #include "fibers/kernel/scheduler.hpp"
 #include "modules/bridge/robot.hpp"
 #include "modules/run/intervention.hpp"
+#include "modules/tcl/shell.hpp"
 #include "world/world.hpp"
 
 namespace waitpoint::run {
@@ -61,6 +63,7 @@ class Operator {
   Time step_for(const Intervention& intervention, std::optional<Time> date) const;
   void check(const Intervention& intervention) const;
   void check(const ModuleRequest& request, const scenario::Location& written) const;
+  void check(const ShellCommand& command, const scenario::Location& written) const;
   std::string carry_out(const Intervention& intervention);
   std::string carry_out(const ModuleRequest& request, const Intervention& whole);
   std::string carry_out(const RobotMove& move, const Intervention& whole);
@@ -68,6 +71,7 @@ class Operator {
   std::string carry_out(const ObstaclePut& put, const Intervention& whole);
   std::string carry_out(const ObstacleRemoval& removal, const Intervention& whole);
   std::string carry_out(const Push& push, const Intervention& whole);
+  std::string carry_out(const ShellCommand& command, const Intervention& whole);
 
   world::World& world_;
   const std::vector<std::unique_ptr<bridge::Robot>>& robots_;
@@ -75,6 +79,7 @@ class Operator {
   std::deque<Planned> planned_;  // by date
   std::size_t added_ = 0;
   std::vector<InterventionOutcome> outcomes_;
+  std::map<std::size_t, std::unique_ptr<tcl::Shell>> shells_;  // by robot, since their first commands
 };
 
 }  // namespace waitpoint::run

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "core/confinement.hpp"
+#include "core/file_contents.hpp"
 #include "core/nearest_name.hpp"
 #include "modules/scenario/body_reader.hpp"
 #include "modules/scenario/control_reader.hpp"
@@ -169,6 +170,16 @@ std::vector<ProgramScenario> read_programs(const YamlNode& node) {
   return programs;
 }
 
+ScriptScenario read_script(const YamlNode& node) {
+  constexpr std::size_t bytes_max = 1 << 20;
+  if (Confinement::exists()) throw node.written.bad("scripts are not executed with --confined");
+  ScriptScenario script;
+  script.file = node.written.resolve(read_text(node, "tcl")).string();
+  script.text = file_contents(script.file, "a script in Tcl", bytes_max);
+  script.written = node.written;
+  return script;
+}
+
 std::vector<Goal> read_goals(const YamlNode& node) {
   std::vector<Goal> goals;
   for (const YamlNode& item : read_list(node, "goals")) {
@@ -212,7 +223,9 @@ RobotScenario read_equipment(const YamlMap& map, const BodyReading* given = null
     if (executive->kind != YamlNode::Kind::map) {
       throw executive->written.bad("expected executive to be a map of keys, found " + described(*executive));
     }
-    robot.executive = flattened(*executive);
+    for (Setting& setting : flattened(*executive))
+      if (setting.key != "tcl") robot.executive.push_back(std::move(setting));
+    if (const YamlNode* script = executive->find("tcl")) robot.script = read_script(*script);
   }
   if (const YamlNode* control = map.find("control")) robot.control = read_control(*control);
   return robot;

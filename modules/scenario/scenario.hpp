@@ -97,6 +97,13 @@ struct ControlScenario {
   std::vector<Setting> settings;  ///< clock and processor of the controller's task
 };
 
+/// A script of Tcl in place of the executive.
+struct ScriptScenario {
+  std::string file;  ///< resolved
+  std::string text;
+  Location written;
+};
+
 struct RobotScenario {
   std::string name;
   world::BodyDescription body;           ///< including the robot's name
@@ -110,6 +117,7 @@ struct RobotScenario {
   std::vector<Setting> executive;
   std::optional<ControlScenario> control;
   std::shared_ptr<const YamlNode> plan;  ///< the document of its temporal plan, in the place of goals; null: none
+  std::optional<ScriptScenario> script;
   Location written, start_written;
 };
 

@@ -8,7 +8,7 @@ declare -A debian=(
          nlohmann-json3-dev libpng-dev libtinyxml2-dev zlib1g-dev libassimp-dev libbullet-dev libzydis-dev librosbag-storage-dev
          libsensor-msgs-dev libnav-msgs-dev libtf2-msgs-dev libros-rosgraph-msgs-dev libvisualization-msgs-dev'
   [test]='libgtest-dev liboctomap-dev clang gdb libz3-dev python3-rosbag zstd xz-utils pigz pbzip2 perl libtbb-dev
-         libuv1-dev cmake libopenmpi-dev openmpi-bin'
+         libuv1-dev cmake libopenmpi-dev openmpi-bin tcl8.6-dev'
   [ros]='python3-rosmaster libroscpp-dev libstd-msgs-dev'
   [builds]='clang libc++-dev libc++abi-dev'
   [wraps]=''
@@ -25,7 +25,7 @@ declare -A upstream=(
          wanted, Assimp 5.2; for the dynamic world, if wanted, Bullet 3.24 in double precision; for
          accesses as switch points of explored programs, if wanted, Zydis 4; for ROS bags, if wanted,
          rosbag_storage and its messages'
-  [test]='GoogleTest, OctoMap, g++ and clang++, gdb, Z3; if available: zstd, xz, pigz, pbzip2, Perl, TBB, libuv, CMake, Open MPI 4'
+  [test]='GoogleTest, OctoMap, g++ and clang++, gdb, Z3; if available: zstd, xz, pigz, pbzip2, Perl, TBB, libuv, CMake, Open MPI 4, Tcl 8.6'
   [ros]='the master of ROS 1, roscpp and std_msgs'
   [builds]='clang++ with libc++; Debian'"'"'s source packages'
   [wraps]='Debian'"'"'s source packages'

@@ -36,6 +36,7 @@ constexpr const char* help_text = R"(  step [N]                     execute the 
     move-obstacle NAME X Y [HEADING_DEG]
     remove-obstacle NAME
     push NAME FX_N FY_N SECONDS  apply a force to a robot or a loose body of a dynamic world
+    tcl ROBOT COMMAND            evaluate a command of Tcl in the robot's shell
   quit                         end the run here, with summary and digest
 )";
 

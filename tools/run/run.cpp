@@ -28,6 +28,7 @@
 #include "tools/run/run_watchdog.hpp"
 #include "tools/run/seed_runs.hpp"
 #include "tools/run/session.hpp"
+#include "tools/run/tcl_shell.hpp"
 
 namespace waitpoint::tools {
 namespace {
@@ -50,7 +51,9 @@ bridge::RunResult carry_out(const RunOptions& options, const scenario::Scenario&
   JournalFile* const journal = outputs.journal();
   if (journal != nullptr) session.keep(*journal);
   bool interrupted = false;
-  if (options.interactive)
+  if (options.tcl)
+    interrupted = !TclShell(session, STDIN_FILENO, isatty(STDIN_FILENO) != 0).run();
+  else if (options.interactive)
     interrupted = !Prompt(session, STDIN_FILENO, isatty(STDIN_FILENO) != 0).run();
   else
     interrupted = session.carry_on(session.until()) == Session::Stop::interrupted;

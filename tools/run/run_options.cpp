@@ -76,7 +76,8 @@ std::string replay_line(const RunOptions& options, std::uint64_t seed) {
   for (std::size_t i = 1; i < options.confined_to.size(); ++i)
     line += " --allow " + quoted(options.confined_to[i].string());
   for (const std::string& assignment : options.assignments) line += " --set " + in_quotation_marks(assignment);
-  if (options.interactive && !options.journal) line += "  # without the prompt's commands: --journal FILE records them";
+  if ((options.interactive || options.tcl) && !options.journal)
+    line += "  # without the prompt's commands: --journal FILE records them";
   return line;
 }
 
@@ -120,7 +121,10 @@ RunArguments::RunArguments(CommandLine& line)
   command_.flag("--interactive", interactive_,
                 "read commands from standard input: step, stop at a time or a condition, change\n"
                 "the speed, send requests, move robots and obstacles; help lists them");
-  command_.option("--journal", journal_, "FILE", "write the interventions of the prompt with their virtual times");
+  command_.flag("--tcl", tcl_,
+                "read commands in Tcl from standard input, for the first robot's modules\n(docs/laas-tcl.md)");
+  command_.option("--journal", journal_, "FILE",
+                  "write the interventions of the prompt or shell with their virtual times");
   command_.option("--replay-journal", replay_journal_, "FILE",
                   "repeat the interventions of a journal and verify that the run ends with its\ndigest");
   command_.option("--summary", summary_, "FILE.json",
@@ -153,6 +157,7 @@ RunArguments::RunArguments(CommandLine& line)
 /// Options that concern a single run are not allowed for many runs.
 void RunArguments::check_of_many(const char* option) const {
   if (interactive_) throw BadInput(option, "cannot be used together with --interactive");
+  if (tcl_) throw BadInput(option, "cannot be used together with --tcl");
   check_not_together(option, {{"--journal", journal_},
                               {"--replay-journal", replay_journal_},
                               {"--picture", picture_},
@@ -227,10 +232,13 @@ RunOptions RunArguments::options() const {
     return name.empty() ? std::nullopt : std::optional<std::filesystem::path>(name);
   };
   options.interactive = interactive_;
+  options.tcl = tcl_;
+  if (tcl_ && interactive_) throw BadInput("--tcl", "cannot be used together with --interactive");
   options.journal = file(journal_);
   options.replay_journal = file(replay_journal_);
-  if (options.interactive && options.replay_journal)
-    throw BadInput("--replay-journal", "cannot be used together with --interactive");
+  if ((options.interactive || options.tcl) && options.replay_journal)
+    throw BadInput("--replay-journal",
+                   std::string("cannot be used together with --") + (options.tcl ? "tcl" : "interactive"));
   check_picture(picture_);
   if (is_standard_output(trajectory_))
     refuse("--trajectory", "a name that ends in .tum: it writes three files", trajectory_);

@@ -36,6 +36,7 @@ struct RunOptions {
   Duration idle = std::chrono::seconds(60);  ///< of a wait without a timeout, to be listed at the end; 0: none are
   double watchdog_s = RunWatchdog::usual_limit_s;  ///< of the wall clock, without an event; 0: unlimited
   bool interactive = false;
+  bool tcl = false;                                     ///< commands in Tcl from standard input
   std::optional<std::filesystem::path> journal;         ///< to write
   std::optional<std::filesystem::path> replay_journal;  ///< to repeat
   bool check = false;                                   ///< self-check: compare runs instead of reporting a result
@@ -88,7 +89,7 @@ class RunArguments {
   std::string summary_, picture_, trajectory_, record_, digests_, events_, decisions_;
   std::string record_durations_, replay_durations_;
   std::vector<std::string> places_;
-  bool interactive_ = false, check_ = false;
+  bool interactive_ = false, tcl_ = false, check_ = false;
 };
 
 }  // namespace waitpoint::tools

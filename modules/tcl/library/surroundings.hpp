@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What an interpreter sees of the machine: virtual time in place of the clock, this project's mathematical functions
+// in place of the C library's, rand() from the run's seed; no environment, processes, sockets or events of files.
+#pragma once
+
+#include <tcl.h>
+
+#include <cstdint>
+
+#include "core/time.hpp"
+
+namespace waitpoint::tcl {
+
+/// Before the first interpreter: a notifier without events and threads, and a clock that calls `now`.
+void set_up_process(Time (*now)());
+/// In a new interpreter.
+void set_up_interpreter(Tcl_Interp* tcl, std::uint32_t seed);
+
+}  // namespace waitpoint::tcl

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "modules/tcl/library/syntax.hpp"
+
+#include <tcl.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <sstream>
+#include <string_view>
+#include <vector>
+
+namespace waitpoint::tcl {
+namespace {
+
+constexpr int depth_max = 100;  // of bodies in bodies; deeper ones are left to Tcl
+
+const char* message_of(int error) {
+  switch (error) {
+    case TCL_PARSE_QUOTE_EXTRA: return "expected white space after a closing quote";
+    case TCL_PARSE_BRACE_EXTRA: return "expected white space after a closing brace";
+    case TCL_PARSE_MISSING_BRACE: return "expected a closing brace for this one";
+    case TCL_PARSE_MISSING_BRACKET: return "expected a closing bracket for this one";
+    case TCL_PARSE_MISSING_PAREN: return "expected a closing parenthesis for this one";
+    case TCL_PARSE_MISSING_QUOTE: return "expected a closing quote for this one";
+    case TCL_PARSE_MISSING_VAR_BRACE: return "expected a closing brace of a variable's name";
+    default: return "expected a command";
+  }
+}
+
+class Parser {
+ public:
+  Parser(const std::string& script, std::map<std::string, int>* procedures)
+      : begin_(script.data()), procedures_(procedures) {}
+
+  bool parse(std::string_view text, int depth) {
+    while (!text.empty()) {
+      Tcl_Parse command;
+      if (Tcl_ParseCommand(nullptr, text.data(), static_cast<int>(text.size()), 0, &command) != TCL_OK) {
+        error_ = {line_at(command.term != nullptr ? command.term : text.data()), message_of(command.errorType)};
+        return false;
+      }
+      std::vector<std::string_view> words;
+      const Tcl_Token* token = command.tokenPtr;
+      for (int i = 0; i < command.numWords; ++i, token += token->numComponents + 1)
+        words.emplace_back(token->start, static_cast<std::size_t>(token->size));
+      const char* const next = command.commandStart + command.commandSize;
+      const char* const end = text.data() + text.size();
+      Tcl_FreeParse(&command);
+      if (!parse_bodies(words, depth)) return false;
+      text = next >= end ? std::string_view() : std::string_view(next, static_cast<std::size_t>(end - next));
+    }
+    return true;
+  }
+  const SyntaxError& error() const { return error_; }
+
+ private:
+  int line_at(const char* place) const { return 1 + static_cast<int>(std::count(begin_, place, '\n')); }
+
+  static bool is_braced(std::string_view word) { return word.size() >= 2 && word.front() == '{'; }
+
+  bool parse_body(std::string_view word, int depth) {
+    return !is_braced(word) || depth >= depth_max || parse(word.substr(1, word.size() - 2), depth + 1);
+  }
+
+  bool parse_bodies(const std::vector<std::string_view>& words, int depth) {
+    if (words.empty()) return true;
+    const std::string_view name = words.front();
+    const auto body = [&](std::size_t i) { return i >= words.size() || parse_body(words[i], depth); };
+    if (name == "proc" && words.size() == 4) {
+      if (procedures_ != nullptr) (*procedures_)[std::string(words[1])] = line_at(words[3].data());
+      return body(3);
+    }
+    if (name == "while" || name == "foreach" || name == "lmap" || name == "catch")
+      return name == "catch" ? body(1) : body(words.size() - 1);
+    if (name == "for") return body(1) && body(3) && body(4);
+    if (name == "namespace" && words.size() == 4 && words[1] == "eval") return body(3);
+    if (name != "if") return true;
+    for (std::size_t i = 2; i < words.size(); ++i) {
+      if (words[i] == "then" || words[i] == "else") continue;
+      if (words[i] == "elseif")
+        ++i;  // skips the condition, which follows
+      else if (!body(i))
+        return false;
+    }
+    return true;
+  }
+
+  const char* begin_;
+  std::map<std::string, int>* procedures_;
+  SyntaxError error_;
+};
+
+// The number in "(procedure "NAME" line 3)" or "("foreach" body line 2)"; 0 if there is none.
+int line_in(std::string_view level) {
+  constexpr std::string_view before = " line ";
+  const std::size_t at = level.rfind(before);
+  if (at == std::string_view::npos || !level.ends_with(')')) return 0;
+  return std::atoi(std::string(level.substr(at + before.size())).c_str());
+}
+
+}  // namespace
+
+std::optional<SyntaxError> check_syntax(const std::string& script, std::map<std::string, int>* procedures) {
+  Parser parser(script, procedures);
+  if (parser.parse(script, 0)) return std::nullopt;
+  return parser.error();
+}
+
+int line_of_error(const std::string& trace, int line, const std::map<std::string, int>& procedures) {
+  std::istringstream levels(trace);
+  int beyond = 0;
+  for (std::string level; std::getline(levels, level);) {
+    const std::size_t start = level.find_first_not_of(' ');
+    if (start == 0 || start == std::string::npos || level[start] != '(') continue;
+    const int in_body = line_in(level);
+    if (in_body == 0) continue;
+    constexpr std::string_view procedure = "(procedure \"";
+    if (!std::string_view(level).substr(start).starts_with(procedure)) {
+      beyond += in_body - 1;
+      continue;
+    }
+    const std::size_t from = start + procedure.size();
+    const auto found = procedures.find(level.substr(from, level.find('"', from) - from));
+    if (found != procedures.end()) return found->second + in_body - 1 + beyond;
+    beyond = 0;  // a procedure of another file
+  }
+  return line + beyond;
+}
+
+}  // namespace waitpoint::tcl

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <dlfcn.h>
+
+#include <filesystem>
+
+#include "modules/tcl/interpreter.hpp"
+
+namespace waitpoint::tcl {
+namespace {
+
+std::string& library_path() {
+  static std::string path;
+  return path;
+}
+
+}  // namespace
+
+void set_library_path(const std::string& path) { library_path() = path; }
+
+const Library& library(const std::string& where, int line) {
+  static const Library* loaded = nullptr;
+  if (loaded != nullptr) return *loaded;
+  const std::filesystem::path path =
+      library_path().empty()
+          ? std::filesystem::read_symlink("/proc/self/exe").parent_path().parent_path() / Library::file
+          : std::filesystem::path(library_path());
+  if (!std::filesystem::exists(path))
+    throw BadInput(where, line, "scripts in Tcl are not in this program: install tcl8.6-dev and build it again");
+  void* const object = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
+  if (object == nullptr) throw BadInput(where, line, std::string("the library for Tcl cannot be loaded: ") + dlerror());
+  loaded = static_cast<const Library*>(dlsym(object, Library::symbol));
+  if (loaded == nullptr) throw BadInput(where, line, "the library for Tcl is of another version");
+  return *loaded;
+}
+
+}  // namespace waitpoint::tcl

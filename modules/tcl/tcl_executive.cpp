@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "modules/tcl/tcl_executive.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <stdexcept>
+#include <utility>
+
+#include "core/field_text.hpp"
+#include "core/number_text.hpp"
+
+namespace waitpoint::tcl {
+namespace {
+
+constexpr Duration look_period = std::chrono::milliseconds(500);  // of polling stop()
+
+void write_line(const std::string& robot, Time date, const std::string& line) {
+  std::fprintf(stderr, "%10.3f s  %s: %s\n", date.seconds(), robot.c_str(), line.c_str());
+}
+
+bool read_point(const std::vector<std::string>& words, Point& point) {
+  return words.size() == 2 && parse_number(words[0], point.x) && parse_number(words[1], point.y);
+}
+
+std::string list_of(const std::vector<Point>& points) { return waitpoint::text_of(points); }
+
+}  // namespace
+
+TclExecutive::TclExecutive(genom::NameSpace& names, const Library& library, MissionSetup setup,
+                           std::shared_ptr<const executive::KnownSpace> known)
+    : ModuleLink(names, setup.robot, "executive",
+                 [robot = setup.robot](Time date, const std::string& line) { write_line(robot, date, line); }),
+      library_(library),
+      setup_(std::move(setup)),
+      planner_(std::move(known), setup_.planning),
+      looks_(setup_.mark_range_m) {
+  for (const Point goal : setup_.goals) {
+    goals_.emplace_back();
+    goals_.back().goal = goal;
+    goals_.back().visits = 1;
+  }
+}
+
+// A script may do without position and laser.
+void TclExecutive::connect() {
+  can_look_ = names().find_poster("pom.position") != nullptr && names().find_poster("sick.echoes") != nullptr;
+  if (can_look_) looks_.connect(names());
+}
+
+void TclExecutive::run() {
+  const std::unique_ptr<Interpreter> interpreter = library_.make(*this, setup_.seed, &threads::now);
+  try {
+    const Outcome outcome = interpreter->run(setup_.script.file, setup_.script.text);
+    if (!outcome.ok)
+      throw std::runtime_error(setup_.script.file + ":" + std::to_string(outcome.line) + ": " + outcome.text + "\n" +
+                               outcome.trace);
+  } catch (const Stopped&) {
+    stop_modules();
+  }
+}
+
+void TclExecutive::stop_modules() {
+  for (const auto& [name, module] : names().modules())
+    if (const genom::RequestType* type = module->find_request("Stop");
+        type != nullptr && type->accepts(genom::Payload()))
+      client().call(name, "Stop");
+}
+
+std::optional<ReplyText> TclExecutive::receive(Duration timeout) {
+  if (timeout == Duration()) return ModuleLink::receive(timeout);
+  const Time now = threads::now(), end = timeout == Duration::max() ? Time::max() : now + timeout;
+  for (;;) {
+    if (stopping_) throw Stopped();
+    const Duration left = end - threads::now();
+    if (left <= Duration()) return std::nullopt;
+    if (auto reply = ModuleLink::receive(std::min(left, look_period))) return reply;
+  }
+}
+
+void TclExecutive::sleep_until(Time time) {
+  while (threads::now() < time) {
+    if (stopping_) throw Stopped();
+    ModuleLink::sleep_until(std::min(time, threads::now() + look_period));
+  }
+}
+
+std::vector<std::string> TclExecutive::commands() const {
+  return {"goals", "reached", "missed", "start", "position", "plan", "look", "mark", "forget", "compute"};
+}
+
+Answer TclExecutive::carry_out(const std::string& command, const std::vector<std::string>& words) {
+  if (command == "goals") return {true, list_of(setup_.goals)};
+  if (command == "reached") return end_goal(words, executive::GoalState::reached);
+  if (command == "missed") return end_goal(words, executive::GoalState::given_up);
+  if (command == "start") return {true, waitpoint::text_of(setup_.start.pose)};
+  if (command == "compute") {
+    std::int64_t us = 0;
+    constexpr std::int64_t us_max = 1'000'000'000'000;
+    if (words.size() != 1 || !parse_number(words[0], us) || us < 0 || us > us_max)
+      return {false, "expected a number of microseconds"};
+    threads::compute(std::chrono::microseconds(us));
+    return {};
+  }
+  if (command == "forget") {
+    planner_.space().forget();
+    looks_.clear();
+    return {};
+  }
+  if (!can_look_) return {false, "waitpoint::" + command + " needs the posters pom.position and sick.echoes"};
+  if (command == "plan") return plan(words);
+  if (!looks_.have_begun()) return {false, "the posters pom.position and sick.echoes are still empty"};
+  if (command == "position") return {true, waitpoint::text_of(looks_.position())};
+  if (command == "look")
+    looks_.look();
+  else
+    planner_.space().mark(looks_.seen());
+  return {};
+}
+
+Answer TclExecutive::end_goal(const std::vector<std::string>& words, executive::GoalState state) {
+  std::size_t number = 0;
+  if (words.size() != 1 || !parse_number(words[0], number) || number >= goals_.size())
+    return {false, "expected the number of a goal, less than " + std::to_string(goals_.size())};
+  executive::GoalRecord& goal = goals_[number];
+  goal.state = state;
+  goal.date = threads::now();
+  goal.times_reached = state == executive::GoalState::reached ? 1 : 0;
+  return {};
+}
+
+Answer TclExecutive::plan(const std::vector<std::string>& words) {
+  Point goal;
+  if (!read_point(words, goal)) return {false, "expected a point, X Y"};
+  executive::Plan plan;
+  planner_.plan(looks_.position(), goal, plan);
+  threads::compute(setup_.plan_cost_us);
+  if (plan.outcome != executive::PlanOutcome::found) return {false, executive::to_string(plan.outcome)};
+  return {true, list_of(plan.via_points)};
+}
+
+}  // namespace waitpoint::tcl

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// An executive that is a script in Tcl. Beside the commands of a client of modules it has those of its mission:
+//
+//   waitpoint::goals                 the robot's goals: {{x 2.4 y 4.6} ...}
+//   waitpoint::reached I             the goal with this number, from 0, has been reached
+//   waitpoint::missed I              it is given up
+//   waitpoint::start                 the robot's known pose: {x 20 y 4 heading 1.57}
+//   waitpoint::position              by pom.position
+//   waitpoint::plan X Y              a route on the known map from the present position, as points; fails if there is
+//   none waitpoint::look, ::mark          keeps the present echoes; marks the kept ones on the map waitpoint::forget
+//   deletes the marks waitpoint::compute US            the cost of the script's code before it
+//
+// An error of the script ends the run, like one of a module's code.
+#pragma once
+
+#include <atomic>
+
+#include "modules/executive/looks.hpp"
+#include "modules/executive/robot_executive.hpp"
+#include "modules/posters/navigation.hpp"
+#include "modules/tcl/module_link.hpp"
+
+namespace waitpoint::tcl {
+
+struct Script {
+  std::string file, text;
+};
+
+/// What a scenario says of a scripted mission.
+struct MissionSetup {
+  Script script;
+  std::string robot;
+  executive::PlanningParameters planning;
+  double mark_range_m = 3;
+  Duration plan_cost_us;
+  posters::KnownPose start;
+  std::vector<Point> goals;
+  std::uint32_t seed = 0;  ///< of the script's rand()
+};
+
+class TclExecutive : public executive::RobotExecutive, private ModuleLink {
+ public:
+  /// `library` is Tcl's, loaded.
+  TclExecutive(genom::NameSpace& names, const Library& library, MissionSetup setup,
+               std::shared_ptr<const executive::KnownSpace> known);
+
+  void connect() override;
+  void run() override;
+  void stop() override { stopping_ = true; }
+  const std::vector<executive::GoalRecord>& goals() const override { return goals_; }
+
+ private:
+  /// Thrown by blocking commands after stop().
+  struct Stopped {};
+
+  std::optional<ReplyText> receive(Duration timeout) override;
+  void sleep_until(Time time) override;
+  std::vector<std::string> commands() const override;
+  Answer carry_out(const std::string& command, const std::vector<std::string>& words) override;
+  Answer end_goal(const std::vector<std::string>& words, executive::GoalState state);
+  Answer plan(const std::vector<std::string>& words);
+  void stop_modules();
+
+  const Library& library_;
+  MissionSetup setup_;
+  executive::RoutePlanner planner_;
+  executive::Looks looks_;
+  bool can_look_ = false;
+  std::vector<executive::GoalRecord> goals_;
+  std::atomic<bool> stopping_ = false;
+};
+
+}  // namespace waitpoint::tcl
