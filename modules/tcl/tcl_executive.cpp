@@ -22,6 +22,20 @@ bool read_point(const std::vector<std::string>& words, Point& point) {
   return words.size() == 2 && parse_number(words[0], point.x) && parse_number(words[1], point.y);
 }
 
+// The trace without the message, with which it begins: its lines behind one another.
+std::string levels_of(const Outcome& outcome) {
+  std::string_view rest = outcome.trace;
+  rest.remove_prefix(std::min(rest.size(), outcome.text.size()));
+  std::string levels;
+  while (!rest.empty()) {
+    const std::string_view line = rest.substr(0, rest.find('\n'));
+    rest.remove_prefix(std::min(rest.size(), line.size() + 1));
+    if (const std::size_t start = line.find_first_not_of(' '); start != std::string_view::npos)
+      levels.append(" ").append(line.substr(start));
+  }
+  return levels;
+}
+
 std::string list_of(const std::vector<Point>& points) { return waitpoint::text_of(points); }
 
 }  // namespace
@@ -52,8 +66,8 @@ void TclExecutive::run() {
   try {
     const Outcome outcome = interpreter->run(setup_.script.file, setup_.script.text);
     if (!outcome.ok)
-      throw std::runtime_error(setup_.script.file + ":" + std::to_string(outcome.line) + ": " + outcome.text + "\n" +
-                               outcome.trace);
+      throw std::runtime_error(setup_.script.file + ":" + std::to_string(outcome.line) + ": " + outcome.text +
+                               levels_of(outcome));
   } catch (const Stopped&) {
     stop_modules();
   }
