@@ -246,13 +246,27 @@ const YamlNode& type_of(const YamlMap& robot, const YamlNode* types) {
 
 RobotScenario read_robot(const YamlNode& node, const YamlNode* types) {
   const std::string title = name_of(node).empty() ? "a robot" : "robot '" + std::string(name_of(node)) + "'";
-  const auto keys = {std::string_view("name"),           std::string_view("type"),      std::string_view("start"),
-                     std::string_view("goals"),          std::string_view("shape"),     std::string_view("base"),
-                     std::string_view("lasers"),         std::string_view("sonars"),    std::string_view("modules"),
-                     std::string_view("bridge"),         std::string_view("executive"), std::string_view("processors"),
-                     std::string_view("start_height_m"), std::string_view("bumpers"),   std::string_view("infrareds"),
-                     std::string_view("urdf"),           std::string_view("imu"),       std::string_view("gps"),
-                     std::string_view("battery"),        std::string_view("programs"),  std::string_view("control"),
+  const auto keys = {std::string_view("name"),
+                     std::string_view("type"),
+                     std::string_view("start"),
+                     std::string_view("goals"),
+                     std::string_view("shape"),
+                     std::string_view("base"),
+                     std::string_view("lasers"),
+                     std::string_view("sonars"),
+                     std::string_view("modules"),
+                     std::string_view("bridge"),
+                     std::string_view("executive"),
+                     std::string_view("processors"),
+                     std::string_view("start_height_m"),
+                     std::string_view("bumpers"),
+                     std::string_view("infrareds"),
+                     std::string_view("urdf"),
+                     std::string_view("imu"),
+                     std::string_view("gps"),
+                     std::string_view("battery"),
+                     std::string_view("programs"),
+                     std::string_view("control"),
                      std::string_view("plan")};
   const YamlMap own(node, title, keys);
   const std::string name = read_name(own.require("name"), "the name of a robot");
@@ -272,6 +286,7 @@ RobotScenario read_robot(const YamlNode& node, const YamlNode* types) {
   if (const YamlNode* goals = own.find("goals")) robot.goals = read_goals(*goals);
   if (const YamlNode* plan = own.find("plan")) {
     if (!robot.goals.empty()) throw plan->written.bad("expected goals or a plan, found both in " + title);
+    if (robot.script) throw plan->written.bad("expected a script or a plan, found both in " + title);
     robot.plan = read_plan_document(*plan);
   }
   return robot;
