@@ -1,19 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fibers/laas/h2evnLib.hpp"
 
-#include "fibers/laas/h2semLib.hpp"
 #include "fibers/laas/tasks.hpp"
 
 namespace waitpoint::laas {
 
-BOOL h2evnSusp(int timeout) {
+H2SEM_ID h2evnSemaphore() {
   TaskControlBlock& self = Tasks::here().self();
   if (self.events == 0) {
     const H2SEM_ID made = h2semAlloc(H2SEM_SYNC);
-    if (made == ERROR) return FALSE;
+    if (made == ERROR) return ERROR;
     self.events = made;
   }
-  return h2semTake(self.events, timeout);
+  return self.events;
+}
+
+BOOL h2evnSusp(int timeout) {
+  const H2SEM_ID events = h2evnSemaphore();
+  return events == ERROR ? FALSE : h2semTake(events, timeout);
 }
 
 STATUS h2evnSignal(long taskId) {

@@ -2,12 +2,13 @@
 // comLib's events: each task has an h2 semaphore that counts its signals, from its first h2evnSusp() on.
 #pragma once
 
-#include "fibers/laas/portLib.hpp"
+#include "fibers/laas/h2semLib.hpp"
+#include "fibers/laas/include/h2evnLib.h"
 
 namespace waitpoint::laas {
 
-inline constexpr int S_h2evnLib_BAD_TASK_ID = H2_ENCODE_ERR(507, 0);
-
+/// The semaphore of the caller's events, made at the first use; or ERROR.
+H2SEM_ID h2evnSemaphore();
 /// Waits for an event and consumes it: TRUE. A time-out of 0 waits for ever; n ticks end at the n+1st: FALSE, with
 /// S_h2semLib_TIMEOUT.
 BOOL h2evnSusp(int timeout);

@@ -4,22 +4,13 @@
 // Failures return FALSE or ERROR, and set the caller's error code.
 #pragma once
 
+#include "fibers/laas/include/h2semLib.h"
 #include "fibers/laas/portLib.hpp"
 
 namespace waitpoint::laas {
 
-inline constexpr int S_h2semLib_TOO_MANY_SEM = H2_ENCODE_ERR(503, 1);
-inline constexpr int S_h2semLib_NOT_A_SEM = H2_ENCODE_ERR(503, 3);
-inline constexpr int S_h2semLib_TIMEOUT = H2_ENCODE_ERR(503, 4);
-inline constexpr int S_h2semLib_BAD_SEM_TYPE = H2_ENCODE_ERR(503, 5);
-
 /// The greatest number per robot: pocolibs has at most 120 devices of 20 semaphores, the first of which is its own.
-inline constexpr int h2_semaphores_max = 120 * 20 - 1;
-
-inline constexpr int H2SEM_SYNC = 0;  ///< starts empty
-inline constexpr int H2SEM_EXCL = 1;  ///< starts with one unit
-
-using H2SEM_ID = int;
+inline constexpr int h2_semaphores_max = 120 * MAX_SEM - 1;
 
 /// The id of a new semaphore, the least free; or ERROR.
 H2SEM_ID h2semAlloc(int type);

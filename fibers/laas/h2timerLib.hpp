@@ -11,19 +11,10 @@
 // STATUS calls return ERROR with an error code of the list below.
 #pragma once
 
+#include "fibers/laas/include/h2timerLib.h"
 #include "fibers/laas/portLib.hpp"
 
 namespace waitpoint::laas {
-
-inline constexpr int S_h2timerLib_TIMER_NOT_INIT = H2_ENCODE_ERR(504, 0);
-inline constexpr int S_h2timerLib_BAD_DELAY = H2_ENCODE_ERR(504, 1);
-inline constexpr int S_h2timerLib_TOO_MUCH_TIMERS = H2_ENCODE_ERR(504, 2);
-inline constexpr int S_h2timerLib_STOPPED_TIMER = H2_ENCODE_ERR(504, 3);
-inline constexpr int S_h2timerLib_NOT_STOPPED_TIMER = H2_ENCODE_ERR(504, 4);
-inline constexpr int S_h2timerLib_BAD_PERIOD = H2_ENCODE_ERR(504, 5);
-
-inline constexpr int NMAX_TIMERS = 20;
-inline constexpr int MAX_DELAY = 20;
 
 struct H2TIMER;
 using H2TIMER_ID = H2TIMER*;

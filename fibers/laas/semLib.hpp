@@ -7,17 +7,15 @@
 
 #include <cstddef>
 
+#include "fibers/laas/include/semLib.h"
 #include "fibers/laas/portLib.hpp"
 
 namespace waitpoint::laas {
 
-inline constexpr int S_semLib_TOO_MANY_SEM = H2_ENCODE_ERR(22, 1);
-inline constexpr int S_semLib_NOT_A_SEM = H2_ENCODE_ERR(22, 3);
-inline constexpr int S_semLib_TIMEOUT = H2_ENCODE_ERR(22, 4);
-
 /// The greatest number per robot at a time: more are S_semLib_TOO_MANY_SEM.
 inline constexpr std::size_t semaphores_max = 65536;
 
+// Enumerations of this namespace: those of pocolibs' header would make its functions candidates of each call.
 enum SEM_B_STATE { SEM_EMPTY = 0, SEM_FULL = 1 };
 enum { SEM_Q_FIFO, SEM_Q_PRIORITY };
 

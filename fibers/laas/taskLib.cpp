@@ -25,6 +25,9 @@ struct Spawned {
   ~Spawned() { Tasks::here().end(); }
 };
 
+// Thrown by taskDelete() through the task's frames.
+struct TaskDeleted {};
+
 }  // namespace
 
 long spawn_task(const char* name, int priority, int options, int stackSize, std::function<void()> body) {
@@ -34,12 +37,23 @@ long spawn_task(const char* name, int priority, int options, int stackSize, std:
   block.name = name != nullptr ? name : "t" + std::to_string(block.id);
   block.priority = priority;
   block.options = options;
+  block.spawned = true;
   const thread_attributes attributes{block.name.c_str(), stack_for(stackSize), (options & TASK_SERVICE) != 0};
   thread(attributes, [&block, body = std::move(body)] {
     const Spawned spawned(block);
-    body();
+    try {
+      body();
+    } catch (const TaskDeleted&) {
+    }
   }).detach();
   return block.id;
+}
+
+STATUS taskDelete(long tid) {
+  const TaskControlBlock& self = Tasks::here().self();
+  if (Tasks::here().find(tid) == nullptr) return fail(S_portLib_INVALID_TASKID);
+  if ((tid != 0 && tid != self.id) || !self.spawned) return fail(S_portLib_NOT_IMPLEMENTED);
+  throw TaskDeleted();
 }
 
 long taskIdSelf() { return Tasks::here().self().id; }

@@ -10,12 +10,12 @@
 #include <type_traits>
 #include <utility>
 
+#include "fibers/laas/include/taskLib.h"
 #include "fibers/laas/portLib.hpp"
 
 namespace waitpoint::laas {
 
-/// Options of taskSpawn: the coprocessor (ignored), and an extension: the task does not keep the run alive.
-inline constexpr int VX_FP_TASK = 0x0008;
+/// An option of taskSpawn beyond VxWorks': the task does not keep the run alive.
 inline constexpr int TASK_SERVICE = 0x10000;
 
 /// The greatest stack size in bytes; a larger one is S_portLib_NO_MEMORY.
@@ -35,6 +35,9 @@ long taskSpawn(const char* name, int priority, int options, int stackSize, Funct
                       std::apply(entry, std::move(parts));
                     });
 }
+
+/// Ends the caller, a task of taskSpawn() given by 0 or its id. Deleting another task is not implemented.
+STATUS taskDelete(long tid);
 
 /// The caller's id.
 long taskIdSelf();

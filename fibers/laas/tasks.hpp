@@ -23,6 +23,7 @@ struct TaskControlBlock {
   int options = 0;
   int error = 0;
   unsigned long user_data = 0;
+  bool spawned = false;                        ///< by taskSpawn
   int events = 0;                              ///< the h2 semaphore that counts its events; 0 until it first waits for
                                                ///< one
   kernel::Object suspended{"suspended task"};  ///< it blocks on this between taskSuspend and taskResume

@@ -8,12 +8,10 @@
 
 #include <functional>
 
+#include "fibers/laas/include/wdLib.h"
 #include "fibers/laas/portLib.hpp"
 
 namespace waitpoint::laas {
-
-inline constexpr int S_wdLib_ID_ERROR = H2_ENCODE_ERR(34, 1);
-inline constexpr int S_wdLib_NOT_ENOUGH_MEMORY = H2_ENCODE_ERR(34, 2);
 
 /// The greatest number of watchdogs per robot at a time.
 inline constexpr std::size_t watchdogs_max = 65536;
