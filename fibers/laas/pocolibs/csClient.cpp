@@ -48,17 +48,15 @@ SentRequest* find(CLIENT_ID client, int id) {
   return nullptr;
 }
 
-// A request's state, after waiting as `block` says; ERROR for another `block`.
+// A request's state, after waiting as `block` says.
 int await(const SentRequest& request, int block) {
+  if (block < NO_BLOCK || block > BLOCK_ON_FINAL_REPLY) return fail(S_csLib_BAD_BLOCK_TYPE);
   const int state = gcomReplyStatus(request.send_id);
-  const bool waits = state == WAITING_INTERMED_REPLY || state == WAITING_FINAL_REPLY;
-  switch (block) {
-    case NO_BLOCK: return state;
-    case BLOCK_ON_INTERMED_REPLY:
-      return state == WAITING_INTERMED_REPLY ? gcomReplyWait(request.send_id, INTERMED_REPLY) : state;
-    case BLOCK_ON_FINAL_REPLY: return waits ? gcomReplyWait(request.send_id, FINAL_REPLY) : state;
-    default: return fail(S_csLib_BAD_BLOCK_TYPE);
-  }
+  const bool waits_for_first = state == WAITING_INTERMED_REPLY, waits_for_last = state == WAITING_FINAL_REPLY;
+  if (block == BLOCK_ON_INTERMED_REPLY && waits_for_first) return gcomReplyWait(request.send_id, INTERMED_REPLY);
+  if (block == BLOCK_ON_FINAL_REPLY && (waits_for_first || waits_for_last))
+    return gcomReplyWait(request.send_id, FINAL_REPLY);
+  return state;
 }
 
 }  // namespace
