@@ -61,6 +61,7 @@ OWN_CASES = {
     "recordings": [sys.executable, str(ROOT / "tests/programs/recordings_test.py"), BUILD],
     "programs": [sys.executable, str(ROOT / "tests/programs/programs_test.py"), BUILD],
     "ranks": [sys.executable, str(ROOT / "tests/programs/ranks_test.py"), BUILD],
+    "pocolibs in C": [sys.executable, str(ROOT / "tests/programs/laas_test.py"), BUILD],
 }
 
 
