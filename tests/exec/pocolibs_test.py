@@ -5,7 +5,8 @@ pocolibs_test.py BUILD SOURCES.
 SOURCES is its source folder, with its libraries and regression tests compiled as its README says. Each test passes, as
 natively, with one digest for a seed. Two threads of a test pass a turn in a strict order only if both are scheduled
 fairly: `--strategy fifo`. Two tests wait in loops without calls for a signal's handler: they are left out unless all of
-it was compiled with -fsanitize=thread, so that the loops are seen.
+it was compiled with -fsanitize=thread, so that the loops are seen. And tests/programs/crane, compiled with these
+libraries, prints by `exec` what it prints with those of fibers/laas.
 """
 
 import pathlib
@@ -18,6 +19,8 @@ SOURCES = pathlib.Path(sys.argv.pop()).resolve()
 
 from exec_case import ExecCase, Summary, WAITPOINT  # noqa: E402  takes the first argument
 
+CRANE = pathlib.Path(__file__).resolve().parents[1] / "programs/crane"
+LIBRARIES = [SOURCES / "src" / name / ".libs" for name in ("posterLib", "comLib", "portLib")]
 SECONDS_MAX = 60
 LOOPS_WITHOUT_CALLS = {"tick", "h2timefromts"}
 
@@ -57,6 +60,18 @@ class Regression(ExecCase):
                 tested += 1
         self.assertGreater(tested, 0, f"there are no compiled tests in {SOURCES}/src/regress")
         print(f"{tested} tests of pocolibs pass, with one digest for a seed", file=sys.stderr)
+
+    def test_a_program_prints_what_it_does_with_our_libraries(self):
+        with tempfile.TemporaryDirectory() as folder:
+            crane = pathlib.Path(folder) / "crane"
+            paths = [word for path in LIBRARIES for word in (f"-L{path}", f"-Wl,-rpath,{path}")]
+            subprocess.run(["gcc", "-O1", f"-I{SOURCES}/include", CRANE / "crane.c", "-o", crane, "-rdynamic", *paths,
+                            "-lposterLib", "-lcomLib", "-lportLib"], check=True)
+            expected = (CRANE / "crane.out").read_text()
+            self.assertEqual(self.run_test(crane).stdout, expected)
+            for seed in range(5):
+                done = self.run_test(crane, WAITPOINT, "exec", "--seed", seed, "--")
+                self.assertEqual((done.returncode, done.stdout), (0, expected), done.stderr)
 
 
 if __name__ == "__main__":
