@@ -29,7 +29,7 @@ std::string send_function(const Request& request, const std::string& name) {
                        value_of(*request.input));
   return fmt::format(
       "STATUS {}RqstSend(CLIENT_ID client, int *rqstId, {}int) {{\n{}"
-      "  return static_cast<CClient*>(client)->send(\"{}\", Payload(in_), rqstId);\n}}\n",
+      "  return reinterpret_cast<CClient*>(client)->send(\"{}\", Payload(in_), rqstId);\n}}\n",
       name, input_parameter(request), pack, request.name.text);
 }
 
@@ -42,7 +42,7 @@ std::string receive_function(const Request& request, std::int64_t ticks_per_s) {
       "static int receive_{0}(CLIENT_ID client, int rqstId, int block, int ticks_, {1}int *activity, int *report) {{\n"
       "  {2} out_;\n  const auto timeout_ = ticks_ > 0 ? Duration(std::chrono::nanoseconds({3}LL * ticks_)) : "
       "Duration::max();\n"
-      "  const int status_ = static_cast<CClient*>(client)->receive(rqstId, block, &out_, activity, report, "
+      "  const int status_ = reinterpret_cast<CClient*>(client)->receive(rqstId, block, &out_, activity, report, "
       "timeout_);\n"
       "{4}  return status_;\n}}\n",
       request.name.text, output_parameter(request), type, 1'000'000'000 / ticks_per_s,
@@ -85,11 +85,12 @@ std::string client_source(const Description& description) {
       "using waitpoint::genom::CClient;\nusing waitpoint::genom::CModule;\nusing waitpoint::genom::from_c;\n"
       "using waitpoint::genom::Nothing;\nusing waitpoint::genom::Payload;\nusing waitpoint::genom::PosterBase;\n"
       "using waitpoint::genom::to_c;\n\n"
-      "STATUS {0}ClientInit(CLIENT_ID *client) {{\n  *client = CModule::running().client(\"{0}\");\n"
+      "STATUS {0}ClientInit(CLIENT_ID *client) {{\n  *client = "
+      "reinterpret_cast<CLIENT_ID>(CModule::running().client(\"{0}\"));\n"
       "  return *client != nullptr ? OK : ERROR;\n}}\n"
       "STATUS {0}ClientEnd(CLIENT_ID) {{ return OK; }}\n\n"
       "int {0}AbortRqstAndRcv(CLIENT_ID client, int *activity, int *report) {{\n  int rqstId = -1, none = -1;\n"
-      "  CClient& of = *static_cast<CClient*>(client);\n"
+      "  CClient& of = *reinterpret_cast<CClient*>(client);\n"
       "  if (of.send(\"Abort\", Payload(AbortInput{{*activity}}), &rqstId) != OK) return ERROR;\n"
       "  return of.receive<Nothing>(rqstId, BLOCK_ON_FINAL_REPLY, nullptr, &none, report);\n}}\n",
       module);
