@@ -30,6 +30,13 @@ std::optional<Reply> Client::receive(Duration timeout) {
   return Reply{letter.send_id, letter.kind == LetterKind::final_reply, letter.activity, letter.report, letter.payload};
 }
 
+// A full mailbox has letters to wake for.
+void Client::wake() {
+  Letter letter;
+  letter.kind = LetterKind::intermediate_reply;
+  (void)mailbox_.post(letter);
+}
+
 Reply Client::call(const std::string& module, const std::string& request, const Payload& input) {
   const auto try_to_send = [&] {
     mailbox_.keep_room_for(sent_ + 1);

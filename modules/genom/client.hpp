@@ -30,8 +30,12 @@ class Client {
     return send(module, request, Payload(input));
   }
 
-  /// The next reply to any request; nothing after `timeout` (Duration::max(): no timeout; zero: does not block).
+  /// The next reply to any request, or one without a number (send_id 0) after wake(); nothing after `timeout`
+  /// (Duration::max(): no timeout; zero: does not block).
   std::optional<Reply> receive(Duration timeout = Duration::max());
+
+  /// From any task: ends receive(), of the task that waits in it or of the next call.
+  void wake();
 
   /// Sends a request and waits without limit for its final reply, which arrives even if the mailbox is full; other
   /// replies are dropped. For a limited wait, use send() and receive().

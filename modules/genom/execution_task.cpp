@@ -14,6 +14,11 @@ void ExecutionTask::signal() {
   event_.release();
 }
 
+void ExecutionTask::wake() {
+  const std::lock_guard guard(module_.control_lock);
+  signal();
+}
+
 // The task's own members, its posters, and the module's shared data.
 void ExecutionTask::find_working_set(const AddModule& add_module) {
   constexpr std::size_t of_stack = 192;

@@ -62,6 +62,8 @@ class ExecutionTask {
   /// Wakes an aperiodic task once, however often it is called before the task runs. No effect on a periodic task. Call
   /// with the lock on the control data.
   void signal();
+  /// The same from a task that is not the module's, and has no lock of it.
+  void wake();
   void add(OutputPosterBase& poster) { posters_.push_back(&poster); }
 
   bool periodic() const { return options_.period_ms > Duration(); }

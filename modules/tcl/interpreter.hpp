@@ -93,6 +93,13 @@ struct SyntaxError {
   std::string text;
 };
 
+/// A procedure that a script defines.
+struct Procedure {
+  std::string name;
+  std::string parameters;  ///< a list of Tcl
+  int line = 0;            ///< of its body
+};
+
 /// The library, loaded.
 struct Library {
   static constexpr const char* file = "libwaitpoint-tcl.so";
@@ -103,6 +110,10 @@ struct Library {
   std::unique_ptr<Interpreter> (*make)(RobotLink& link, std::uint32_t seed, Time (*now)());
   /// The first syntax error of a script, without executing it.
   std::optional<SyntaxError> (*check)(const std::string& script);
+  /// The procedures of a script without syntax errors, by name, without executing it.
+  std::vector<Procedure> (*procedures)(const std::string& script);
+  /// What is wrong with a call of a procedure with the words of `arguments`; empty: nothing.
+  std::string (*check_call)(const Procedure& procedure, const std::string& arguments);
   /// False: the text continues on further lines.
   bool (*is_complete)(const std::string& text);
 };

@@ -12,7 +12,7 @@
 namespace waitpoint::tcl {
 namespace {
 
-constexpr Duration look_period = std::chrono::milliseconds(500);  // of polling stop()
+constexpr Duration full_mailbox_period = std::chrono::milliseconds(1);
 
 void write_line(const std::string& robot, Time date, const std::string& line) {
   std::fprintf(stderr, "%10.3f s  %s: %s\n", date.seconds(), robot.c_str(), line.c_str());
@@ -36,18 +36,25 @@ std::string levels_of(const Outcome& outcome) {
   return levels;
 }
 
+// The place, the message and the levels of an error.
+std::string error_of(const std::string& file, const Outcome& outcome) {
+  return file + ":" + std::to_string(outcome.line) + ": " + outcome.text + levels_of(outcome);
+}
+
 std::string list_of(const std::vector<Point>& points) { return waitpoint::text_of(points); }
 
 }  // namespace
 
 TclExecutive::TclExecutive(genom::NameSpace& names, const Library& library, MissionSetup setup,
-                           std::shared_ptr<const executive::KnownSpace> known)
+                           std::shared_ptr<const executive::KnownSpace> known, Procedures* procedures)
     : ModuleLink(names, setup.robot, "executive",
                  [robot = setup.robot](Time date, const std::string& line) { write_line(robot, date, line); }),
       library_(library),
       setup_(std::move(setup)),
       planner_(std::move(known), setup_.planning),
-      looks_(setup_.mark_range_m) {
+      looks_(setup_.mark_range_m),
+      procedures_(procedures) {
+  if (procedures_ != nullptr) procedures_->set_wake([this] { client().wake(); });
   for (const Point goal : setup_.goals) {
     goals_.emplace_back();
     goals_.back().goal = goal;
@@ -65,11 +72,57 @@ void TclExecutive::run() {
   const std::unique_ptr<Interpreter> interpreter = library_.make(*this, setup_.seed, &threads::now);
   try {
     const Outcome outcome = interpreter->run(setup_.script.file, setup_.script.text);
-    if (!outcome.ok)
-      throw std::runtime_error(setup_.script.file + ":" + std::to_string(outcome.line) + ": " + outcome.text +
-                               levels_of(outcome));
+    if (!outcome.ok) throw std::runtime_error(error_of(setup_.script.file, outcome));
+    if (procedures_ != nullptr) serve(*interpreter);
   } catch (const Stopped&) {
-    stop_modules();
+    if (procedures_ == nullptr) stop_modules();
+  }
+}
+
+// The calls of procedures, until stop().
+void TclExecutive::serve(Interpreter& interpreter) {
+  for (;;) {
+    check_stop();
+    const std::optional<std::string> command = procedures_->begin();
+    if (!command) {
+      take(Duration::max());
+      continue;
+    }
+    running_.clear();
+    try {
+      const Outcome outcome = interpreter.evaluate(*command);
+      if (!outcome.ok) say(error_of(setup_.script.file, outcome));
+      procedures_->end(outcome.ok);
+    } catch (const Interrupted&) {
+      abort_requests();
+      procedures_->end(false);
+    } catch (const Stopped&) {
+      abort_requests();
+      throw;
+    }
+  }
+}
+
+void TclExecutive::stop() {
+  stopping_ = true;
+  client().wake();
+}
+
+void TclExecutive::check_stop() const {
+  if (stopping_) throw Stopped();
+  if (procedures_ != nullptr && procedures_->is_interrupted()) throw Interrupted();
+}
+
+// Ends the activities of running_, and waits for their ends.
+void TclExecutive::abort_requests() {
+  while (!running_.empty()) {
+    bool is_full = false;
+    for (auto& [number, request] : running_) {
+      if (request.is_aborted || request.activity < 0) continue;
+      request.is_aborted = client().send(request.module, "Abort", genom::AbortInput{request.activity}).has_value();
+      is_full = is_full || !request.is_aborted;
+    }
+    take(is_full ? full_mailbox_period : Duration::max());
   }
 }
 
@@ -80,21 +133,49 @@ void TclExecutive::stop_modules() {
       client().call(name, "Stop");
 }
 
+// All but the one that this task serves.
+std::vector<std::string> TclExecutive::modules() const {
+  std::vector<std::string> all = ModuleLink::modules();
+  if (procedures_ != nullptr) std::erase(all, procedures_->name());
+  return all;
+}
+
+Answer TclExecutive::send(const std::string& module, const std::string& request, const std::vector<Setting>& input) {
+  Answer answer = ModuleLink::send(module, request, input);
+  if (answer.ok) running_[answer.id].module = module;
+  return answer;
+}
+
+// Waits for a reply, a call, an interruption or stop(); false after the timeout.
+bool TclExecutive::take(Duration timeout) {
+  const std::optional<ReplyText> reply = ModuleLink::receive(timeout);
+  if (!reply) return false;
+  if (reply->id == 0) return true;
+  replies_.push_back(*reply);
+  const auto request = running_.find(reply->id);
+  if (request == running_.end()) return true;
+  request->second.activity = reply->activity;
+  if (reply->final) running_.erase(request);
+  return true;
+}
+
 std::optional<ReplyText> TclExecutive::receive(Duration timeout) {
-  if (timeout == Duration()) return ModuleLink::receive(timeout);
   const Time now = threads::now(), end = timeout == Duration::max() ? Time::max() : now + timeout;
-  for (;;) {
-    if (stopping_) throw Stopped();
-    const Duration left = end - threads::now();
-    if (left <= Duration()) return std::nullopt;
-    if (auto reply = ModuleLink::receive(std::min(left, look_period))) return reply;
+  if (timeout > Duration()) check_stop();
+  while (replies_.empty()) {
+    if (!take(end == Time::max() ? timeout : end - threads::now())) return std::nullopt;
+    if (timeout > Duration()) check_stop();
   }
+  ReplyText reply = std::move(replies_.front());
+  replies_.pop_front();
+  return reply;
 }
 
 void TclExecutive::sleep_until(Time time) {
+  check_stop();
   while (threads::now() < time) {
-    if (stopping_) throw Stopped();
-    ModuleLink::sleep_until(std::min(time, threads::now() + look_period));
+    take(time - threads::now());
+    check_stop();
   }
 }
 

@@ -11,14 +11,21 @@
 //   deletes the marks waitpoint::compute US            the cost of the script's code before it
 //
 // An error of the script ends the run, like one of a module's code.
+//
+// Below a temporal plan the script defines procedures; at its end the task evaluates the calls of the module
+// Procedures, until stop(). An error of a procedure is the failure of its call. An interrupted procedure ends where it
+// waits, and the requests that it has sent are aborted.
 #pragma once
 
 #include <atomic>
+#include <deque>
+#include <map>
 
 #include "modules/executive/looks.hpp"
 #include "modules/executive/robot_executive.hpp"
 #include "modules/posters/navigation.hpp"
 #include "modules/tcl/module_link.hpp"
+#include "modules/tcl/procedures.hpp"
 
 namespace waitpoint::tcl {
 
@@ -40,25 +47,39 @@ struct MissionSetup {
 
 class TclExecutive : public executive::RobotExecutive, private ModuleLink {
  public:
-  /// `library` is Tcl's, loaded.
+  /// `library` is Tcl's, loaded. `procedures` is the module whose calls are evaluated after the script; null: none.
   TclExecutive(genom::NameSpace& names, const Library& library, MissionSetup setup,
-               std::shared_ptr<const executive::KnownSpace> known);
+               std::shared_ptr<const executive::KnownSpace> known, Procedures* procedures = nullptr);
 
   void connect() override;
   void run() override;
-  void stop() override { stopping_ = true; }
+  void stop() override;
   const std::vector<executive::GoalRecord>& goals() const override { return goals_; }
 
  private:
   /// Thrown by blocking commands after stop().
   struct Stopped {};
+  /// Thrown by blocking commands of an interrupted procedure.
+  struct Interrupted {};
+  /// A request of the script that has not ended.
+  struct Running {
+    std::string module;
+    std::int32_t activity = -1;
+    bool is_aborted = false;
+  };
 
+  std::vector<std::string> modules() const override;
+  Answer send(const std::string& module, const std::string& request, const std::vector<Setting>& input) override;
   std::optional<ReplyText> receive(Duration timeout) override;
   void sleep_until(Time time) override;
   std::vector<std::string> commands() const override;
   Answer carry_out(const std::string& command, const std::vector<std::string>& words) override;
   Answer end_goal(const std::vector<std::string>& words, executive::GoalState state);
   Answer plan(const std::vector<std::string>& words);
+  void serve(Interpreter& interpreter);
+  void check_stop() const;
+  bool take(Duration timeout);
+  void abort_requests();
   void stop_modules();
 
   const Library& library_;
@@ -67,6 +88,9 @@ class TclExecutive : public executive::RobotExecutive, private ModuleLink {
   executive::Looks looks_;
   bool can_look_ = false;
   std::vector<executive::GoalRecord> goals_;
+  Procedures* procedures_;
+  std::map<std::uint32_t, Running> running_;  // by number
+  std::deque<ReplyText> replies_;             // received, and not yet the script's
   std::atomic<bool> stopping_ = false;
 };
 

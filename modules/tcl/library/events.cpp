@@ -167,8 +167,7 @@ int TaskInterpreter::puts(Words words) {
 int TaskInterpreter::exit(Words words) {
   if (words.size() > 2) return usage(words, "?status?");
   exited_ = true;
-  Tcl_CancelEval(tcl_, nullptr, nullptr, TCL_CANCEL_UNWIND);
-  return TCL_ERROR;
+  return unwind();
 }
 
 }  // namespace waitpoint::tcl

@@ -19,6 +19,14 @@ std::unique_ptr<Interpreter> make(RobotLink& link, std::uint32_t seed, Time (*no
 
 std::optional<SyntaxError> check(const std::string& script) { return check_syntax(script); }
 
+std::vector<Procedure> procedures_of(const std::string& script) {
+  ProceduresByName by_name;
+  (void)check_syntax(script, &by_name);
+  std::vector<Procedure> all;
+  for (auto& [name, procedure] : by_name) all.push_back(std::move(procedure));
+  return all;
+}
+
 bool is_complete(const std::string& text) { return Tcl_CommandComplete(text.c_str()) != 0; }
 
 }  // namespace
@@ -56,8 +64,15 @@ int TaskInterpreter::guarded(const std::function<int()>& function) {
   } catch (...) {
     thrown_ = std::current_exception();
   }
-  Tcl_CancelEval(tcl_, nullptr, nullptr, TCL_CANCEL_UNWIND);
-  return TCL_ERROR;
+  return unwind();
+}
+
+// Ends all levels of the script up to run() or evaluate(), past `catch` and `finally`: an exceeded limit is the only
+// means by which the interpreter can be used again.
+int TaskInterpreter::unwind() {
+  Tcl_LimitTypeSet(tcl_, TCL_LIMIT_COMMANDS);
+  Tcl_LimitSetCommands(tcl_, 0);
+  return Tcl_LimitCheck(tcl_);
 }
 
 int TaskInterpreter::call(ClientData data, Tcl_Interp*, int count, Tcl_Obj* const* words) {
@@ -115,11 +130,13 @@ Outcome TaskInterpreter::evaluate(const std::string& command) {
 }
 
 Outcome TaskInterpreter::outcome(int result) {
+  Tcl_LimitTypeReset(tcl_, TCL_LIMIT_COMMANDS);
   if (thrown_ != nullptr) std::rethrow_exception(std::exchange(thrown_, nullptr));
   if (!line_.empty()) link_.say(std::exchange(line_, {}));
   Outcome outcome;
-  if (exited_ || result == TCL_OK || result == TCL_RETURN) {
-    outcome.text = exited_ ? "" : Tcl_GetStringResult(tcl_);
+  const bool has_exited = std::exchange(exited_, false);
+  if (has_exited || result == TCL_OK || result == TCL_RETURN) {
+    outcome.text = has_exited ? "" : Tcl_GetStringResult(tcl_);
     return outcome;
   }
   outcome.ok = false;
@@ -133,4 +150,5 @@ Outcome TaskInterpreter::outcome(int result) {
 }  // namespace waitpoint::tcl
 
 extern "C" [[gnu::visibility("default")]] const waitpoint::tcl::Library waitpoint_tcl_library = {
-    waitpoint::tcl::make, waitpoint::tcl::check, waitpoint::tcl::is_complete};
+    waitpoint::tcl::make, waitpoint::tcl::check, waitpoint::tcl::procedures_of, waitpoint::tcl::check_call,
+    waitpoint::tcl::is_complete};

@@ -72,6 +72,7 @@ class TaskInterpreter : public Interpreter {
   static int call_link(ClientData data, Tcl_Interp*, int count, Tcl_Obj* const* words);
   /// Keeps an exception of `function` for run(), and ends the script.
   int guarded(const std::function<int()>& function);
+  int unwind();
   int fail(const std::string& message, const char* kind = "ERROR");
   int succeed(const std::string& text);
   int usage(Words words, const char* arguments);
@@ -113,7 +114,7 @@ class TaskInterpreter : public Interpreter {
   std::deque<Timer> timers_;                // by date, then number
   std::uint64_t timers_made_ = 0;
   std::string line_;  // the beginning of one that the script writes
-  std::map<std::string, int> procedures_;
+  ProceduresByName procedures_;
   std::exception_ptr thrown_;
   bool exited_ = false;
 };
