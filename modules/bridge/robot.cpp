@@ -112,7 +112,8 @@ void Robot::make_executive(std::shared_ptr<const executive::KnownSpace> known, s
   settings.check_least("planning.leg_m_max", parameters.planning.leg_m_max, leg_least_m);
   constexpr double escape_most_m = 100;  // it is searched cell by cell
   settings.check_most("planning.escape_m_max", parameters.planning.escape_m_max, escape_most_m);
-  computing_ = genom::read_computing(settings, "", names_, {});
+  genom::TaskComputing& computing = scenario_.plan != nullptr ? script_computing_ : computing_;
+  computing = genom::read_computing(settings, "", names_, {});
   settings.check_all_used();
   std::vector<Point> goals;
   for (const scenario::Goal& goal : scenario_.goals) goals.push_back(goal.position);
@@ -123,13 +124,26 @@ void Robot::make_executive(std::shared_ptr<const executive::KnownSpace> known, s
                                                       RandomStream(seed, scenario_.name, "executive"));
 }
 
+// With a script, the keys of `executive` are the script's.
 void Robot::make_plan() {
-  genom::Settings settings(scenario_.executive);
-  computing_ = genom::read_computing(settings, "", names_, {});
-  settings.check_all_used();
+  if (!scenario_.script) {
+    genom::Settings settings(scenario_.executive);
+    computing_ = genom::read_computing(settings, "", names_, {});
+    settings.check_all_used();
+  }
   posters::KnownPose start;
   start.pose = scenario_.body.start;
   plan_ = std::make_unique<plan::Executor>(names_, plan::read_plan(*scenario_.plan), start);
+}
+
+// The words of calls of procedures.
+void Robot::check_calls() const {
+  for (const plan::Action& action : plan_->plan().actions) {
+    if (!action.request || !action.request->is_to_script()) continue;
+    const std::vector<Setting>& input = action.request->input;
+    const std::string wrong = procedures_->check(action.request->name, input.empty() ? "" : input.front().text);
+    if (!wrong.empty()) throw action.request->written.bad(wrong);
+  }
 }
 
 void Robot::make_scripted_executive(const executive::Parameters& parameters, const posters::KnownPose& start,
@@ -147,7 +161,21 @@ void Robot::make_scripted_executive(const executive::Parameters& parameters, con
   setup.start = start;
   setup.goals = std::move(goals);
   setup.seed = static_cast<std::uint32_t>(RandomStream(seed, scenario_.name, "executive").block(0)[0]);
-  executive_ = std::make_unique<tcl::TclExecutive>(names_, library, std::move(setup), std::move(known));
+  if (scenario_.plan != nullptr) make_procedures(library);
+  executive_ = std::make_unique<tcl::TclExecutive>(names_, library, std::move(setup), std::move(known), procedures_);
+}
+
+// The script below a plan as a module among the others.
+void Robot::make_procedures(const tcl::Library& library) {
+  procedures_scenario_.name = plan::script_module;
+  procedures_scenario_.written = scenario_.script->written;
+  genom::ModuleSetup setup{names_, procedures_scenario_.name, genom::Settings()};
+  at(procedures_scenario_.written, [&] {
+    auto procedures = std::make_unique<tcl::Procedures>(setup, library, scenario_.script->text);
+    procedures_ = procedures.get();
+    modules_.push_back(std::move(procedures));
+  });
+  module_scenarios_.push_back(&procedures_scenario_);
 }
 
 void Robot::connect() {
@@ -155,6 +183,7 @@ void Robot::connect() {
   for (std::size_t i = 0; i < modules_.size(); ++i) at(module_scenarios_[i]->written, [&] { modules_[i]->connect(); });
   if (executive_) at(scenario_.written, [&] { executive_->connect(); });
   if (plan_) plan_->connect();
+  if (procedures_ != nullptr) check_calls();
   evaluation_.connect(names_);
 }
 
@@ -171,8 +200,21 @@ void Robot::make_controller() {
 void Robot::run() {
   if (controller_) controller_->start();
   for (const auto& module : modules_) module->start();
+  if (has_script_below_plan()) return run_script_below_plan();
   if (executive_) executive_->run();
   if (plan_) plan_->run();
+}
+
+void Robot::run_script_below_plan() {
+  threads::thread script({.name = "script",
+                          .stack = kernel::StackSize::program,
+                          .clock = script_computing_.clock,
+                          .on = script_computing_.on,
+                          .priority = script_computing_.priority},
+                         [this] { executive_->run(); });
+  plan_->run();
+  executive_->stop();
+  script.join();
 }
 
 void Robot::add_step_to(WorkingSet& set) const {
@@ -181,9 +223,12 @@ void Robot::add_step_to(WorkingSet& set) const {
   bridge_->add_step_to(set);
 }
 
+// A script below a plan goes on until the plan has ended.
 void Robot::stop() {
-  if (executive_) executive_->stop();
-  if (plan_) plan_->stop();
+  if (plan_)
+    plan_->stop();
+  else if (executive_)
+    executive_->stop();
 }
 
 void Robot::end_modules() {

@@ -35,6 +35,10 @@ class Executor;
 namespace waitpoint::genom {
 class ModuleWatch;
 }  // namespace waitpoint::genom
+namespace waitpoint::tcl {
+class Procedures;
+struct Library;
+}  // namespace waitpoint::tcl
 
 namespace waitpoint::io {
 class Network;
@@ -99,7 +103,8 @@ class Robot {
   std::uint64_t goals_reached() const;
   /// Of a robot that is elsewhere.
   void set_goals(std::uint64_t goals, std::uint64_t reached);
-  /// Clock and processor of the task of run(), from the scenario.
+  /// Name, clock and processor of the task of run().
+  const char* task_name() const { return plan_ != nullptr ? "plan" : "executive"; }
   const genom::TaskComputing& computing() const { return computing_; }
   /// The shortest period of all execution tasks; nothing if all are aperiodic.
   std::optional<Duration> least_period() const;
@@ -109,7 +114,11 @@ class Robot {
  private:
   void make_modules(std::span<const genom::ModuleType> types, io::Network* network);
   void make_executive(std::shared_ptr<const executive::KnownSpace> known, std::uint64_t seed);
+  bool has_script_below_plan() const { return plan_ != nullptr && executive_ != nullptr; }
+  void make_procedures(const tcl::Library& library);
   void make_plan();
+  void check_calls() const;
+  void run_script_below_plan();
   void make_scripted_executive(const executive::Parameters& parameters, const posters::KnownPose& start,
                                std::vector<Point> goals, std::shared_ptr<const executive::KnownSpace> known,
                                std::uint64_t seed);
@@ -123,7 +132,10 @@ class Robot {
   std::vector<std::unique_ptr<genom::Module>> modules_;
   std::vector<const scenario::ModuleScenario*> module_scenarios_;  // by module
   std::optional<RobotBridge> bridge_;                              // none: it is elsewhere
+  scenario::ModuleScenario procedures_scenario_;                   // of the module that the script is below a plan
   genom::TaskComputing computing_;
+  genom::TaskComputing script_computing_;                 // of a script below a plan
+  tcl::Procedures* procedures_ = nullptr;                 // of a script below a plan
   std::unique_ptr<executive::RobotExecutive> executive_;  // null without goals or a script
   std::unique_ptr<control::Controller> controller_;       // null without rules
   std::unique_ptr<plan::Executor> plan_;                  // null without a plan

@@ -65,13 +65,17 @@ void Executor::connect(Request& request) {
   std::vector<std::string_view> known;
   if (module == nullptr) {
     for (const auto& [name, each] : names_.modules()) known.emplace_back(name);
+    if (request.is_to_script())
+      throw request.written.bad("expected executive: {tcl: FILE} at this robot, with the procedure '" + request.name +
+                                "'");
     throw request.written.bad("expected a request to a module of this robot, which has none called '" + request.module +
                               "'" + did_you_mean(request.module, known));
   }
   for (const genom::RequestType& type : module->requests()) known.emplace_back(type.name);
   if (module->find_request(request.name) == nullptr)
-    throw request.written.bad("module '" + request.module + "' has no request '" + request.name + "'" +
-                              did_you_mean(request.name, known));
+    throw request.written.bad((request.is_to_script() ? "the script has no procedure '"
+                                                      : "module '" + request.module + "' has no request '") +
+                              request.name + "'" + did_you_mean(request.name, known));
   if (request.module == "meeting") return;  // its input is made here
   if (!module->find_request(request.name)->accepts(input(request)))
     throw request.written.bad("expected no input 'start' for " + request.module + "." + request.name);

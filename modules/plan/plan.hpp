@@ -6,6 +6,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/setting.hpp"
@@ -24,12 +25,17 @@ struct Condition {
   scenario::Location written;
 };
 
+/// The module whose requests are the procedures of the robot's script.
+inline constexpr std::string_view script_module = "tcl";
+
 /// A request to a module.
 struct Request {
   std::string module, name;
   std::vector<Setting> input;
   bool takes_start = false;  ///< its input is the robot's known start
   scenario::Location written;
+
+  bool is_to_script() const { return module == script_module; }
 };
 
 struct Resource {

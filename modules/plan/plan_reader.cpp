@@ -47,13 +47,29 @@ Request read_request(const YamlNode& name, const YamlNode* input) {
   return request;
 }
 
-/// A list of "MODULE.NAME" and of {request: MODULE.NAME, input: ...}.
+/// "PROCEDURE ARGUMENT ...": a procedure of the robot's script.
+Request read_call(const YamlNode& node) {
+  const std::string text = read_text(node, "tcl");
+  const std::size_t end = std::min(text.find(' '), text.size());
+  if (end == 0) throw node.written.bad("expected tcl to be PROCEDURE ARGUMENT ..., found " + described(node));
+  Request request;
+  request.module = script_module;
+  request.name = text.substr(0, end);
+  request.written = node.written;
+  if (end < text.size())
+    request.input.push_back({"arguments", text.substr(end + 1), node.written.file, node.written.line});
+  return request;
+}
+
+/// A list of "MODULE.NAME", of {request: MODULE.NAME, input: ...}, and of {tcl: PROCEDURE ARGUMENT ...}.
 std::vector<Request> read_requests(const YamlMap& map, std::string_view key) {
   std::vector<Request> requests;
   const YamlNode* list = map.find(key);
   if (list == nullptr) return requests;
   for (const YamlNode& item : read_list(*list, key)) {
-    if (item.kind == YamlNode::Kind::map) {
+    if (item.kind == YamlNode::Kind::map && item.find("tcl") != nullptr) {
+      requests.push_back(read_call(YamlMap(item, "a request", {"tcl"}).require("tcl")));
+    } else if (item.kind == YamlNode::Kind::map) {
       const YamlMap request(item, "a request", {"request", "input"});
       requests.push_back(read_request(request.require("request"), request.find("input")));
     } else {
@@ -162,27 +178,28 @@ void read_uses(const YamlMap& row, const Plan& plan, Action& action) {
 
 void read_action(const YamlNode& item, Plan& plan) {
   const std::string title = name_of(item).empty() ? "an action" : "action '" + std::string(name_of(item)) + "'";
-  const YamlMap row(
-      item, title,
-      {"name", "kind", "duration_s", "request", "input", "stop", "rendezvous", "when", "during", "uses", "after"});
+  const YamlMap row(item, title,
+                    {"name", "kind", "duration_s", "request", "input", "tcl", "stop", "rendezvous", "when", "during",
+                     "uses", "after"});
   Action action;
   action.name = read_name(row, "an action");
   action.written = item.written;
   check_new(plan.actions, action.name, "action", item.written);
-  const bool waits = row.has("request") || row.has("rendezvous");
+  const int ends = row.has("request") + row.has("tcl") + row.has("rendezvous");
   action.contingent = row.one_of("kind", {"controllable", "contingent"}, row.has("rendezvous") ? 1 : 0) == 1;
   read_duration(row, action);
   if (const YamlNode* request = row.find("request")) action.request = read_request(*request, row.find("input"));
+  if (const YamlNode* call = row.find("tcl")) action.request = read_call(*call);
   if (const YamlNode* stop = row.find("stop")) action.stop = read_request(*stop, nullptr);
   action.rendezvous = row.text("rendezvous", "");
-  if (row.has("request") && row.has("rendezvous"))
-    throw item.written.bad("expected a request or a rendezvous in " + title + ", found both");
+  if (ends > 1)
+    throw item.written.bad("expected a request, a procedure or a rendezvous in " + title + ", found several");
   if (row.has("input") && !row.has("request"))
     throw item.written.bad("expected no input without a request in " + title);
   if (row.has("rendezvous") && !action.contingent)
     throw item.written.bad("expected a rendezvous to be contingent: its end is the other robot's choice");
-  if (action.contingent && !waits)
-    throw item.written.bad("expected a request or a rendezvous in " + title +
+  if (action.contingent && ends == 0)
+    throw item.written.bad("expected a request, a procedure or a rendezvous in " + title +
                            ": a contingent action ends with its report");
   action.when = read_conditions(row, "when");
   action.during = read_conditions(row, "during");
@@ -204,6 +221,15 @@ void read_after(const YamlNode& item, std::size_t action, Plan& plan) {
     for (const YamlNode& name : after->items) add(name);
   else
     add(*after);
+}
+
+// The script's task evaluates one procedure at a time.
+void share_script(Plan& plan) {
+  const auto calls = [](const Action& action) { return action.request && action.request->is_to_script(); };
+  if (std::none_of(plan.actions.begin(), plan.actions.end(), calls)) return;
+  for (Action& action : plan.actions)
+    if (calls(action)) action.uses.push_back({plan.resources.size(), 1});
+  plan.resources.push_back({"the task of the script", 1, plan.actions.front().written});
 }
 
 PointId read_point(const YamlMap& row, std::string_view key, const Plan& plan) {
@@ -302,6 +328,7 @@ Plan read_plan(const YamlNode& document) {
     throw actions.written.bad("expected 1 to " + std::to_string(actions_max) + " actions, found " +
                               std::to_string(count));
   for (const YamlNode& item : actions.items) read_action(item, plan);
+  share_script(plan);
   for (std::size_t i = 0; i < plan.actions.size(); ++i) read_after(actions.items[i], i, plan);
   read_constraints(map, plan);
   read_alternatives(map, plan);

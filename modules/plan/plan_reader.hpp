@@ -5,6 +5,7 @@
 //   name: office round
 //   actions:
 //     - {name: visit, kind: contingent, duration_s: [5, 40], request: ndd.GoTo, input: {via: [{x: 20, y: 9}]}}
+//     - {name: look around, kind: contingent, duration_s: [5, 40], tcl: look_around 20 9, after: visit}
 //     - {name: picture, duration_s: [2, 3], request: sick.SegmentsOn, after: visit}
 //   constraints:
 //     - {name: the light, from: start, to: picture.start, most_s: 60}

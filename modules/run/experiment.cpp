@@ -183,7 +183,7 @@ void Experiment::spawn(bridge::Robot& robot) {
                                   : robot.has_mission() ? kernel::StackSize::large
                                                         : kernel::StackSize::medium;
   sync::start_thread(simulation_.scheduler(), lane,
-                     {.name = "executive", .stack = stack, .service = !robot.has_mission()},
+                     {.name = robot.task_name(), .stack = stack, .service = !robot.has_mission()},
                      sync::make_call([&robot] { robot.run(); }), {computing.clock, computing.on, computing.priority});
 }
 

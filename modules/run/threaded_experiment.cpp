@@ -24,7 +24,7 @@ void ThreadedExperiment::run_for(Duration limit, const std::function<bool()>& in
   threads::thread world({.name = "world", .stack = kernel::StackSize::large}, [this] { run_world(); });
   std::vector<threads::thread> rounds;
   for (const auto& robot : robots())
-    rounds.emplace_back(threads::thread_attributes{.name = "executive", .stack = kernel::StackSize::large},
+    rounds.emplace_back(threads::thread_attributes{.name = robot->task_name(), .stack = kernel::StackSize::large},
                         [this, &robot] {
                           robot->run();
                           if (robot->has_mission()) round_ended_.release();

@@ -286,7 +286,6 @@ RobotScenario read_robot(const YamlNode& node, const YamlNode* types) {
   if (const YamlNode* goals = own.find("goals")) robot.goals = read_goals(*goals);
   if (const YamlNode* plan = own.find("plan")) {
     if (!robot.goals.empty()) throw plan->written.bad("expected goals or a plan, found both in " + title);
-    if (robot.script) throw plan->written.bad("expected a script or a plan, found both in " + title);
     robot.plan = read_plan_document(*plan);
   }
   return robot;

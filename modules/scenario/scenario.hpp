@@ -97,7 +97,7 @@ struct ControlScenario {
   std::vector<Setting> settings;  ///< clock and processor of the controller's task
 };
 
-/// A script of Tcl in place of the executive.
+/// A script of Tcl in place of the executive, or, with a plan, below it.
 struct ScriptScenario {
   std::string file;  ///< resolved
   std::string text;

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "modules/plan/execution.hpp"
 #include "modules/plan/plan_network.hpp"
 #include "tests/modules/plan/plan_text.hpp"
 
@@ -58,8 +59,12 @@ TEST(PlanReader, BadInputIsALineWithItsPlace) {
             "plan.yaml:4: there is no action 'drve', did you mean 'drive'?");
   EXPECT_EQ(refusal("actions: [{name: a, duration_s: [3, 1]}]"),
             "plan.yaml:3: expected the least duration before the greatest");
-  EXPECT_EQ(refusal("actions: [{name: a, kind: contingent, duration_s: 1}]"),
-            "plan.yaml:3: expected a request or a rendezvous in action 'a': a contingent action ends with its report");
+  EXPECT_EQ(
+      refusal("actions: [{name: a, kind: contingent, duration_s: 1}]"),
+      "plan.yaml:3: expected a request, a procedure or a rendezvous in action 'a': a contingent action ends with its "
+      "report");
+  EXPECT_EQ(refusal("actions: [{name: a, request: m.Go, tcl: go}]"),
+            "plan.yaml:3: expected a request, a procedure or a rendezvous in action 'a', found several");
   EXPECT_EQ(refusal("actions: [{name: a, uses: {arm: 1}}]"), "plan.yaml:3: there is no resource 'arm'");
   EXPECT_EQ(refusal("actions: [{name: a}]\nconstraints: [{from: start, to: a.middle, most_s: 1}]"),
             "plan.yaml:4: expected to to be start, ACTION.start or ACTION.end, found 'a.middle'");
@@ -95,6 +100,25 @@ constraints: [{name: just before, from: look.start, to: drive.end, least_s: 0.5,
   EXPECT_FALSE(checked.controllable);
   EXPECT_NE(checked.conflict.find("'just before' (line 6)"), std::string::npos) << checked.conflict;
   EXPECT_NE(checked.conflict.find("'duration of drive' (line 4)"), std::string::npos) << checked.conflict;
+}
+
+TEST(PlanReader, PutsProceduresOfTheScriptInAnOrder) {
+  Plan plan = test::plan_of(R"(
+actions:
+  - {name: a, kind: contingent, duration_s: [1, 2], tcl: visit 20 6.4}
+  - {name: b, duration_s: 3, request: m.Go}
+  - {name: c, duration_s: 3, tcl: halt}
+)");
+  EXPECT_EQ(plan.actions[0].request->name, "visit");
+  EXPECT_EQ(plan.actions[0].request->input.at(0).text, "20 6.4");
+  EXPECT_TRUE(plan.actions[2].request->input.empty());
+  Execution execution(plan);
+  std::string started;
+  for (Order order = execution.next({}); order.kind == Order::Kind::start; order = execution.next({})) {
+    execution.started(order.action, {});
+    started += plan.actions[order.action].name;
+  }
+  EXPECT_EQ(started, "ab") << "c waits for the end of a";
 }
 
 }  // namespace

@@ -4,22 +4,11 @@
 
 #include <fstream>
 
-#include "modules/run/experiment.hpp"
-#include "modules/scenario/scenario_reader.hpp"
 #include "tests/modules/tcl/scripted_robot.hpp"
-#include "tests/project.hpp"
-#include "tools/papers_modules.hpp"
+#include "tests/modules/tcl/scripted_run.hpp"
 
 namespace waitpoint::tcl {
 namespace {
-
-std::string shipped(const std::string& name) { return (test::project_root() / "scenarios" / name).string(); }
-
-bridge::RunResult result_of(const scenario::Scenario& scenario) {
-  run::Experiment experiment(scenario, tools::papers_modules(), {1, kernel::Order::fifo, ""});
-  experiment.run_before(Time() + scenario.until);
-  return experiment.result();
-}
 
 /// The shipped scenario with a script of the test.
 scenario::Scenario with_script(const std::string& script) {
