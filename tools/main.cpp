@@ -14,9 +14,7 @@
 #include "fibers/sync/post_mortem.hpp"
 #include "modules/run/experiment.hpp"
 #include "modules/scenario/scenario_reader.hpp"
-#include "modules/tcl/interpreter.hpp"
 #include "tools/check/self_check.hpp"
-#include "tools/command/installed_part.hpp"
 #include "tools/command/interruption.hpp"
 #include "tools/command/program_layer.hpp"
 #include "tools/exec/exec.hpp"
@@ -30,6 +28,7 @@
 #include "tools/ranks/launcher.hpp"
 #include "tools/run/run.hpp"
 #include "tools/run/run_watchdog.hpp"
+#include "tools/tcl_library.hpp"
 #include "tools/version.hpp"
 
 namespace waitpoint {
@@ -55,14 +54,6 @@ int check(const tools::CheckOptions& options, std::span<const genom::ModuleType>
   return 0;
 }
 
-// Where a script needs it, its absence is an error of the scenario.
-void find_tcl() {
-  try {
-    tcl::set_library_path(tools::find_part(tcl::Library::file).string());
-  } catch (const BadInput&) {
-  }
-}
-
 int carry_out(int argc, const char* const* argv, std::vector<genom::ModuleType> own) {
   // Of two types of one name the first counts.
   std::vector<genom::ModuleType> types = std::move(own);
@@ -70,7 +61,7 @@ int carry_out(int argc, const char* const* argv, std::vector<genom::ModuleType> 
   const kernel::FaultReports reports(nullptr);  // also of constructors; once for all windows of a run
   kernel::set_call_stack_writer(sync::write_call_stack);
   tools::prefer_errors_to_signals();
-  find_tcl();
+  tools::find_tcl();
   try {
     const tools::Options options = tools::read_options(argc, argv, tools::version_text());
     std::optional<Confinement> confinement;

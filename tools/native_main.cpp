@@ -10,6 +10,7 @@
 #include "tools/main.hpp"
 #include "tools/output/output_file.hpp"
 #include "tools/papers_modules.hpp"
+#include "tools/tcl_library.hpp"
 
 namespace waitpoint::tools {
 namespace {
@@ -38,6 +39,11 @@ void print(const bridge::RunResult& result) {
       if (!goal.reached())
         std::printf("  %s: goal at (%.2f, %.2f): %s\n", robot.name.c_str(), goal.position.x, goal.position.y,
                     goal.report.empty() ? "not reached" : goal.report.c_str());
+  for (const bridge::RobotResult& robot : result.robots) {
+    if (!robot.plan) continue;
+    std::printf("\n  %s: plan '%s' %s\n", robot.name.c_str(), robot.plan->name.c_str(), robot.plan->end.c_str());
+    for (const std::string& line : robot.plan->log) std::printf("    %s\n", line.c_str());
+  }
   for (const std::string& warning : result.warnings) std::printf("warning: %s\n", warning.c_str());
 }
 
@@ -90,6 +96,7 @@ int main(int argc, const char* const* argv, std::vector<genom::ModuleType> own) 
   // Of two types of one name the first counts.
   std::vector<genom::ModuleType> types = std::move(own);
   for (genom::ModuleType& type : tools::shipped_modules()) types.push_back(std::move(type));
+  tools::find_tcl();
   tools::prefer_errors_to_signals();
   try {
     return tools::read_and_run(argc, argv, types);

@@ -272,6 +272,15 @@ class Office(unittest.TestCase):
         self.assertIn("at 3.500000000 s", told[11])
         self.assertEqual(digest(told[12]), digest(plain.stdout))
 
+    def test_shows_the_tasks_of_every_level(self):
+        told = session(["break-time 2", "run", "info fibers", "fiber script", "bt"],
+                       ["--", "run", ROOT / "scenarios/laas.yaml"], start=[BUILD / "tools/waitpoint", "gdb", "-nx", "-batch"])
+        names = [line.split()[1] for line in told[2].replace("*", " ").splitlines()[1:]]
+        modules = [f"{module}.{task}" for module, task in
+                   (("rflex", "motion"), ("sick", "scanning"), ("segloc", "slam"), ("pom", "fusing"), ("ndd", "motion"))]
+        self.assertLessEqual({"plan", "tcl.control", "script", "control", *modules, "bridge", "world"}, set(names), told[2])
+        self.assertRegex(told[4], r"(?s)TaskInterpreter::request.*Tcl_EvalEx.*TclExecutive::serve")
+
     def test_the_command_says_what_it_lacks(self):
         def status(*words, **environment):
             done = subprocess.run([BUILD / "tools/waitpoint", "gdb", *words], capture_output=True, text=True,

@@ -101,6 +101,21 @@ class LatePom(Installed):
                               env={**os.environ, "DEBUGINFOD_URLS": "", "LC_ALL": "C"})
         return done.stdout
 
+    def test_is_found_below_a_temporal_plan(self):
+        def below_a_plan(kind, *options):
+            program = self.compile("late_pom", *flags(self.prefix, "--cflags", "--libs", "waitpoint-robots"))
+            modules = ("[{name: segloc, tasks: {slam: {period_ms: 100, clock: {kind: interval, cost_us: [25000, 90000]}}}}, "
+                       f"{{name: pom, type: {kind}}}]")
+            return subprocess.run([program, "explore", HERE.parents[1] / "scenarios/laas.yaml", "--set",
+                                   f"robots.0.modules={modules}", "--property", "position_error_max_m=0.12", "--jobs", "2",
+                                   "--no-minimize", *options], capture_output=True, text=True, timeout=300)
+
+        found = below_a_plan("late_pom")
+        self.assertEqual(found.returncode, 1, found.stdout + found.stderr)
+        self.assertIn("expected at most 0.12 m", found.stdout)
+        mended = below_a_plan("mended_pom", "--iterations", "20")
+        self.assertEqual(mended.returncode, 0, mended.stdout + mended.stderr)
+
     def test_its_mended_twin_passes(self):
         passed = self.explore("--jobs", "2", "--iterations", "40", "--set", "robots.0.modules.pom.type=mended_pom")
         self.assertEqual(passed.returncode, 0, passed.stdout + passed.stderr)
