@@ -7,13 +7,13 @@
 #pragma once
 
 #include <array>
-#include <charconv>
 #include <string>
 #include <string_view>
 #include <type_traits>
 #include <utility>
 
 #include "core/fields.hpp"
+#include "core/number_text.hpp"
 
 namespace waitpoint {
 
@@ -47,8 +47,7 @@ inline std::pair<std::string_view, std::string_view> split(std::string_view path
 }
 
 inline bool parse_index(std::string_view text, std::size_t count, std::size_t& index) {
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), index);
-  return error == std::errc() && end == text.data() + text.size() && index < count;
+  return parse_number(text, index) && index < count;
 }
 
 inline FieldOutcome found(double value, std::string_view path, double& number) {

@@ -9,12 +9,12 @@
 // fewest digits that read back as the same value.
 #pragma once
 
-#include <charconv>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "core/fields.hpp"
+#include "core/number_text.hpp"
 
 namespace waitpoint {
 
@@ -29,13 +29,6 @@ struct FieldShape {
 
 template <class T>
 std::string text_of(const T& value, std::string_view name = "");
-
-template <class Number>
-std::string number_text(Number number) {
-  char digits[40];
-  const std::to_chars_result end = std::to_chars(digits, digits + sizeof digits, number);
-  return {digits, end.ptr};
-}
 
 namespace internal {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Numbers parsed from text: the whole text or nothing, independent of the locale, with the same bits from every
-// standard library (libc++ 14 has no std::from_chars for doubles). Also counts formatted as text.
+// standard library (libc++ 14 has no std::from_chars for doubles). Also numbers and counts formatted as text.
 #pragma once
 
 #include <charconv>
@@ -20,6 +20,14 @@ template <std::integral Integer>
 bool parse_number(std::string_view text, Integer& number) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
   return error == std::errc() && end == text.data() + text.size();
+}
+
+/// The fewest digits that read back as the same number.
+template <class Number>
+std::string number_text(Number number) {
+  char digits[40];
+  const std::to_chars_result end = std::to_chars(digits, digits + sizeof digits, number);
+  return {digits, end.ptr};
 }
 
 /// "1 task", "2 tasks".
