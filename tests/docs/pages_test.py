@@ -86,6 +86,10 @@ class Pages(Installed):
     def test_robots(self):
         self.try_page("robots.md")
 
+    def test_laas(self):
+        if (BUILD / "libwaitpoint-tcl.so").exists():
+            self.try_page("laas.md")
+
     def test_programs(self):
         self.try_page("programs.md")
 

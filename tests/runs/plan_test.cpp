@@ -2,6 +2,8 @@
 // Temporal plans, from the scenario to the summary.
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include "tests/project.hpp"
 #include "tests/runs/program.hpp"
 #include "tests/tools/folder.hpp"
@@ -29,6 +31,47 @@ TEST(Plan, TwoRobotsKeepTheirPlansAndMeet) {
   EXPECT_TRUE(has(first.output, "20.200000000 s: start of pass the door")) << first.output;
   const Outcome second = outcome_of(run_command("office-plan.yaml", "300"));
   EXPECT_EQ(first.digest(), second.digest());
+}
+
+TEST(Plan, IsKeptWithTheNoiseOfOtherSeeds) {
+  std::set<std::string> digests;
+  for (const char* seed : {"2", "3", "4"}) {
+    const Outcome outcome = outcome_of(run_command("office-plan.yaml", "300", {"--seed", seed}));
+    EXPECT_EQ(outcome.status, 0) << seed << outcome.errors << outcome.output;
+    EXPECT_TRUE(has(outcome.output, "20.200000000 s: start of pass the door")) << outcome.output;
+    digests.insert(outcome.digest());
+  }
+  EXPECT_EQ(digests.size(), 3u);
+}
+
+// The robot drives from y = 4 m on.
+TEST(Plan, ConditionDuringAnActionEndsItWhenItNoLongerHolds) {
+  const tools::Folder folder;
+  folder.write("p.yaml", R"(
+format: 1
+name: p
+setup:
+  - {request: rflex.SetPos, input: start}
+  - {request: pom.SetPos, input: start}
+  - sick.ContinuousShot
+  - rflex.TrackSpeedStart
+ready: [{poster: pom.position}, {poster: sick.echoes}]
+actions:
+  - name: go
+    kind: contingent
+    duration_s: [1, 20]
+    request: ndd.GoTo
+    input: {via: [{x: 20.05, y: 6.4}]}
+    during: [{poster: rflex.odometry, field: position.pose.y, at_most: 5}]
+safe: [ndd.Stop, rflex.Stop, sick.Stop]
+)");
+  const std::string plan = "robots.rackham.plan=" + (folder / "p.yaml").string();
+  const Outcome outcome = waitpoint_with(
+      {"run", "scenarios/office.yaml", "--set", "robots.rackham.goals=~", "--set", plan, "--until", "20"});
+  EXPECT_TRUE(has(outcome.output,
+                  "plan 'p' aborted: action 'go' failed: expected that rflex.odometry.position.pose.y is at most 5"))
+      << outcome.output << outcome.errors;
+  EXPECT_FALSE(has(outcome.output, "end of go")) << outcome.output;
 }
 
 TEST(Plan, InconsistentPlanIsRefusedWithItsCycle) {
