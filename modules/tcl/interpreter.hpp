@@ -103,7 +103,7 @@ struct Procedure {
 /// The library, loaded.
 struct Library {
   static constexpr const char* file = "libwaitpoint-tcl.so";
-  static constexpr const char* symbol = "waitpoint_tcl_library";
+  static constexpr const char* symbol = "waitpoint_tcl_library_2";  ///< with the version of this struct
 
   /// Makes an interpreter, in a task that destroys it again. `seed` is that of rand(), `now` the clock of the running
   /// task.

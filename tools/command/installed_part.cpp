@@ -23,7 +23,7 @@ std::filesystem::path own_folder() {
 std::filesystem::path find_part(const std::string& name) {
   const std::filesystem::path folder = std::filesystem::read_symlink("/proc/self/exe").parent_path();
   const std::filesystem::path installed = std::filesystem::path(library_folder) / name;
-  for (const std::filesystem::path& place : {folder / ".." / name, installed, own_folder() / "waitpoint" / name})
+  for (const std::filesystem::path& place : {own_folder() / "waitpoint" / name, folder / ".." / name, installed})
     if (std::filesystem::exists(place)) return std::filesystem::canonical(place);
   throw BadInput("programs", "the library they need is not installed: expected " + installed.string());
 }

@@ -7,7 +7,7 @@
 
 namespace waitpoint::tools {
 
-/// The part of this name from the build folder, the installation, or beside this library. BadInput if it is missing.
+/// The part of this name from beside this library, the build folder, or the installation. BadInput if it is missing.
 std::filesystem::path find_part(const std::string& name);
 
 /// The scenario's file: a name without a folder that is not here is that of an installed scenario, if there is one.

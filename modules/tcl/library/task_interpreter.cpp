@@ -149,6 +149,6 @@ Outcome TaskInterpreter::outcome(int result) {
 
 }  // namespace waitpoint::tcl
 
-extern "C" [[gnu::visibility("default")]] const waitpoint::tcl::Library waitpoint_tcl_library = {
+extern "C" [[gnu::visibility("default")]] const waitpoint::tcl::Library waitpoint_tcl_library_2 = {
     waitpoint::tcl::make, waitpoint::tcl::check, waitpoint::tcl::procedures_of, waitpoint::tcl::check_call,
     waitpoint::tcl::is_complete};
