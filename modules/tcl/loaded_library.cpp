@@ -13,13 +13,7 @@ std::string& library_path() {
   return path;
 }
 
-}  // namespace
-
-void set_library_path(const std::string& path) { library_path() = path; }
-
-const Library& library(const std::string& where, int line) {
-  static const Library* loaded = nullptr;
-  if (loaded != nullptr) return *loaded;
+const Library& load(const std::string& where, int line) {
   const std::filesystem::path path =
       library_path().empty()
           ? std::filesystem::read_symlink("/proc/self/exe").parent_path().parent_path() / Library::file
@@ -28,9 +22,18 @@ const Library& library(const std::string& where, int line) {
     throw BadInput(where, line, "scripts in Tcl are not in this program: install tcl8.6-dev and build it again");
   void* const object = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (object == nullptr) throw BadInput(where, line, std::string("the library for Tcl cannot be loaded: ") + dlerror());
-  loaded = static_cast<const Library*>(dlsym(object, Library::symbol));
+  const auto* const loaded = static_cast<const Library*>(dlsym(object, Library::symbol));
   if (loaded == nullptr) throw BadInput(where, line, "the library for Tcl is of another version");
   return *loaded;
+}
+
+}  // namespace
+
+void set_library_path(const std::string& path) { library_path() = path; }
+
+const Library& library(const std::string& where, int line) {
+  static const Library& loaded = load(where, line);
+  return loaded;
 }
 
 }  // namespace waitpoint::tcl
