@@ -150,6 +150,10 @@ class World {
   /// Lifts the body and puts it down at `pose`, at its present height, at rest. Its odometer does not notice; its
   /// command stays in force.
   virtual std::optional<std::string> move_body(BodyId id, const Pose& pose) = 0;
+  /// From now on the body is guided from outside, as a real robot's is: commands and the limits of its base do not
+  /// count. In the next step it moves along an arc to `to`, if given, and then on at `velocity` until the next call;
+  /// contacts stop it as any body.
+  virtual std::optional<std::string> guide_body(BodyId id, const std::optional<Pose>& to, const Velocity& velocity) = 0;
   /// Adds an obstacle, or replaces the first one of its name.
   virtual std::optional<std::string> put_obstacle(const Obstacle& obstacle) = 0;
   /// Removes the first obstacle of that name; false if there is none.

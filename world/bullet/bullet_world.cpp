@@ -45,6 +45,9 @@ class BulletWorld final : public VehicleWorld {
   void reset(std::uint64_t seed) override;
 
   std::optional<std::string> move_body(BodyId id, const Pose& pose) override;
+  std::optional<std::string> guide_body(BodyId, const std::optional<Pose>&, const Velocity&) override {
+    return "bodies of a dynamic world are moved by forces";
+  }
   std::optional<std::string> put_obstacle(const Obstacle& obstacle) override;
   bool remove_obstacle(const std::string& name) override;
   std::optional<std::string> push(const std::string& name, Point force_n, Duration time) override;

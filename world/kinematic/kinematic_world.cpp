@@ -44,6 +44,10 @@ class KinematicWorld final : public VehicleWorld, private MeetingPlace {
   void reset(std::uint64_t seed) override;
 
   std::optional<std::string> move_body(BodyId id, const Pose& pose) override;
+  std::optional<std::string> guide_body(BodyId id, const std::optional<Pose>& to, const Velocity& velocity) override {
+    vehicles_.at(index(id)).guide(to, velocity);
+    return std::nullopt;
+  }
   std::optional<std::string> put_obstacle(const Obstacle& obstacle) override;
   bool remove_obstacle(const std::string& name) override;
   std::optional<std::string> push(const std::string&, Point, Duration) override {

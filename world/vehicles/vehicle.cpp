@@ -45,6 +45,7 @@ Velocity Vehicle::wanted(std::uint64_t step, Duration period) const {
 
 Arc Vehicle::latch(std::uint64_t step, Duration period) {
   const double period_s = period.seconds();
+  if (guidance_) return latch_guided(period_s);
   motion_ = next_motion(description_->base, motion_, wanted(step, period), period_s);
   Arc arc = Arc::of(state_.pose, motion_.velocity, period_s);
   if (state_.height_m + arc.climb_m < 0) {  // the floor holds it
@@ -53,6 +54,15 @@ Arc Vehicle::latch(std::uint64_t step, Duration period) {
   }
   state_.velocity = motion_.velocity;
   return arc;
+}
+
+// The arc to a reported pose corrects the position: its speed is none of the robot's.
+Arc Vehicle::latch_guided(double period_s) {
+  state_.velocity = motion_.velocity = guidance_->velocity;
+  if (!guidance_->to) return Arc::of(state_.pose, guidance_->velocity, period_s);
+  const Pose to = *guidance_->to;
+  guidance_->to.reset();
+  return Arc::between(state_.pose, to.position() - state_.pose.position(), to.heading - state_.pose.heading, 0);
 }
 
 void Vehicle::publish(std::uint64_t step, Duration period, const Arc& arc, std::optional<double> stop) {
@@ -100,6 +110,14 @@ void Vehicle::put(const Pose& pose) {
   state_.velocity = motion_.velocity = {};
   state_.stalled = false;
   outline_ = outline_of(description_->shape, pose);
+}
+
+void Vehicle::guide(const std::optional<Pose>& to, const Velocity& velocity) {
+  for (const double v : {velocity.v_m_s, velocity.w_rad_s, velocity.side_m_s, velocity.climb_m_s})
+    WAITPOINT_CHECK(v == v, "a velocity of NaN");
+  if (to)
+    for (const double v : {to->x, to->y, to->heading}) WAITPOINT_CHECK(v == v, "a pose of NaN");
+  guidance_ = Guidance{to, velocity};
 }
 
 }  // namespace waitpoint::world

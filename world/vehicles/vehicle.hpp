@@ -50,11 +50,19 @@ class Vehicle {
   void publish(std::uint64_t step, Duration period, const Arc& tried, const BodyMotion& motion);
   /// An intervention puts it there, at rest.
   void put(const Pose& pose);
+  /// See World::guide_body(); NaN is a bug.
+  void guide(const std::optional<Pose>& to, const Velocity& velocity);
 
  private:
   void note_contact(bool stalled, bool tried);
   void go(std::uint64_t step, Duration period, const Arc& arc);
   Velocity wanted(std::uint64_t step, Duration period) const;
+  Arc latch_guided(double period_s);
+
+  struct Guidance {
+    std::optional<Pose> to;  // of the next step
+    Velocity velocity;
+  };
 
   const BodyDescription* description_;
   BodyState state_;
@@ -64,6 +72,7 @@ class Vehicle {
   Outline outline_;                 // at state_.pose
   Odometer odometer_;
   std::optional<Battery> battery_;
+  std::optional<Guidance> guidance_;  // from outside
 };
 
 }  // namespace waitpoint::world
