@@ -82,6 +82,21 @@ struct PlanResult {
   std::vector<std::string> log;  ///< a line each, with the date
 };
 
+/// Virtual time at which reports of a robot outside were taken in, after their dates.
+struct ReportLag {
+  Duration least, median, most;
+};
+
+/// A robot outside of the simulation, as its reports moved it.
+struct ExternalFigures {
+  std::uint64_t reports = 0;   ///< that were taken in, at most one in a step of the world
+  std::uint64_t late = 0;      ///< of these, by more than the limit
+  std::uint64_t jumps = 0;     ///< farther than its motion explains
+  std::uint64_t refused = 0;   ///< jumps to a place that was taken
+  std::uint64_t silences = 0;  ///< longer than the limit
+  std::optional<ReportLag> lag;
+};
+
 /// The figures that mean something: others are 0.
 struct FiguresPresent {
   bool motion = true;    ///< distance and collisions: of a robot with a base
@@ -107,6 +122,7 @@ struct RobotResult {
   std::optional<BatteryResult> battery;                             ///< if the robot has one that is simulated
   std::vector<ProgramResult> programs;                              ///< in the order of the scenario
   std::optional<PlanResult> plan;                                   ///< if the robot has one
+  std::optional<ExternalFigures> external;                          ///< if reports from outside moved it
   std::vector<Line> segments;                                       ///< the map built by localisation
 
   /// Visits to goals, and those that reached one.

@@ -328,6 +328,7 @@ bridge::RunResult Experiment::result() const {
   result.environment_digest = simulation_.environment().digest.digest();
   for (std::size_t i = 0; i < lanes_.size(); ++i) complete(result.robots[i], i);
   if (ranked_) ranked_->complete(result);
+  for (std::size_t i = 0; i < lanes_.size(); ++i) result.robots[i].external = operator_->external_figures(i);
   result.events = events();
   result.trouble = ranked_ ? ranked_->windows().trouble() : simulation_.trouble();
   const bool is_at_limit_after_end = last_end() && end_ == RunEnd::time_reached;

@@ -5,6 +5,7 @@
 
 #include "core/nearest_name.hpp"
 #include "core/number_text.hpp"
+#include "modules/genom/settings.hpp"
 #include "modules/scenario/shape_reader.hpp"
 #include "modules/scenario/words.hpp"
 
@@ -35,21 +36,26 @@ Pose require_pose(std::string_view& text, const scenario::Location& written) {
   return scenario::read_pose(scenario::parse_yaml(list + "]", written.text(), false), "the place");
 }
 
-What parse_request(std::string_view text, const scenario::Location& written) {
-  ModuleRequest request;
-  request.robot = require(text, "a robot", written);
-  request.module = require(text, "a module", written);
-  request.request = require(text, "a request", written);
+std::vector<Setting> parse_settings(std::string_view text, const scenario::Location& written) {
+  std::vector<Setting> settings;
   for (std::string word = scenario::take_word(text, written); !word.empty();
        word = scenario::take_word(text, written)) {
     const std::size_t equals = word.find('=');
     if (equals == 0 || equals == std::string::npos) throw written.bad("expected FIELD=VALUE, found '" + word + "'");
     Setting setting{word.substr(0, equals), word.substr(equals + 1), written.file, written.line};
     const auto same = [&](const Setting& other) { return other.key == setting.key; };
-    if (std::any_of(request.arguments.begin(), request.arguments.end(), same))
-      throw written.bad("'" + setting.key + "' is given twice");
-    request.arguments.push_back(std::move(setting));
+    if (std::any_of(settings.begin(), settings.end(), same)) throw written.bad("'" + setting.key + "' is given twice");
+    settings.push_back(std::move(setting));
   }
+  return settings;
+}
+
+What parse_request(std::string_view text, const scenario::Location& written) {
+  ModuleRequest request;
+  request.robot = require(text, "a robot", written);
+  request.module = require(text, "a module", written);
+  request.request = require(text, "a request", written);
+  request.arguments = parse_settings(text, written);
   return request;
 }
 
@@ -103,6 +109,30 @@ What parse_shell_command(std::string_view text, const scenario::Location& writte
   return command;
 }
 
+What parse_external(std::string_view text, const scenario::Location& written) {
+  ExternalDeclaration external{require(text, "a robot", written), {}};
+  genom::Settings settings(parse_settings(text, written));
+  settings.read(external.settings);
+  settings.check_not_negative(external.settings);
+  settings.check_all_used();
+  if (const std::string& between = external.settings.between; between != "move" && between != "stay")
+    settings.reject("between", "move or stay");
+  return external;
+}
+
+What parse_report_of(std::string_view text, const scenario::Location& written) {
+  std::string robot = require(text, "a robot", written);
+  return ExternalReport{std::move(robot), parse_report(text, "date_s", written)};
+}
+
+What parse_command(std::string_view text, const scenario::Location& written) {
+  DriveCommand command{require(text, "a robot", written), {}};
+  genom::Settings settings(parse_settings(text, written));
+  settings.read(command.velocity);
+  settings.check_all_used();
+  return command;
+}
+
 struct Verb {
   std::string_view name;
   What (*parse)(std::string_view text, const scenario::Location& written);
@@ -111,9 +141,15 @@ struct Verb {
 constexpr Verb verbs[] = {{"request", parse_request},         {"move", parse_move},
                           {"obstacle", parse_obstacle},       {"move-obstacle", parse_obstacle_move},
                           {"remove-obstacle", parse_removal}, {"push", parse_push},
-                          {"tcl", parse_shell_command}};
+                          {"tcl", parse_shell_command},       {"external", parse_external},
+                          {"report", parse_report_of},        {"command", parse_command}};
 
 }  // namespace
+
+bool is_frequent(const Intervention& intervention) {
+  return std::holds_alternative<ExternalReport>(intervention.what) ||
+         std::holds_alternative<DriveCommand>(intervention.what);
+}
 
 std::vector<std::string_view> intervention_verbs() {
   std::vector<std::string_view> names;
@@ -129,9 +165,10 @@ Intervention parse_intervention(std::string_view text, const scenario::Location&
   for (const Verb& verb : verbs)
     if (verb.name == word) return {std::string(scenario::trimmed(text)), written, verb.parse(rest, written)};
   const std::string hint = did_you_mean(word, intervention_verbs());
-  throw written.bad(
-      "unknown intervention '" + word + "'" +
-      (hint.empty() ? ", expected request, move, obstacle, move-obstacle, remove-obstacle, push or tcl" : hint));
+  throw written.bad("unknown intervention '" + word + "'" +
+                    (hint.empty() ? ", expected request, move, obstacle, move-obstacle, remove-obstacle, push, tcl, "
+                                    "external, report or command"
+                                  : hint));
 }
 
 }  // namespace waitpoint::run

@@ -8,6 +8,9 @@
 //   remove-obstacle NAME
 //   push NAME FX_N FY_N SECONDS                       a force on a robot or a loose obstacle; dynamic worlds only
 //   tcl ROBOT COMMAND                                 evaluated by the robot's shell (modules/tcl); U+2424 is a newline
+//   external ROBOT [between=stay] [KEY=VALUE ...]     from now on its body is moved by reports: see external_robot.hpp
+//   report ROBOT date_s=T x_m=X y_m=Y heading_rad=A ...  of an external robot's position: see position_report.hpp
+//   command ROBOT v_m_s=V w_rad_s=W ...               to its base, as by its software
 //
 // One line of text each, the same at the prompt, in a journal and in the programming interface; the digest hashes it.
 // Words with spaces are in double quotes. operator.hpp describes when and how interventions are executed.
@@ -21,6 +24,8 @@
 #include "core/pose.hpp"
 #include "core/setting.hpp"
 #include "core/time.hpp"
+#include "modules/run/external_robot.hpp"
+#include "modules/run/position_report.hpp"
 #include "modules/scenario/location.hpp"
 #include "world/description.hpp"
 
@@ -63,11 +68,31 @@ struct ShellCommand {
   std::string command;
 };
 
+struct ExternalDeclaration {
+  std::string robot;
+  ExternalSettings settings;
+};
+
+struct ExternalReport {
+  std::string robot;
+  PositionReport report;  ///< its time is its date
+};
+
+struct DriveCommand {
+  std::string robot;
+  world::Velocity velocity;
+};
+
 struct Intervention {
   std::string text;
   scenario::Location written;
-  std::variant<ModuleRequest, RobotMove, ObstacleMove, ObstaclePut, ObstacleRemoval, Push, ShellCommand> what;
+  std::variant<ModuleRequest, RobotMove, ObstacleMove, ObstaclePut, ObstacleRemoval, Push, ShellCommand,
+               ExternalDeclaration, ExternalReport, DriveCommand>
+      what;
 };
+
+/// True for what comes from outside many times a second: its result is told only if it is more than "done".
+bool is_frequent(const Intervention& intervention);
 
 /// The first words of all kinds of interventions: "request", "move", ...
 std::vector<std::string_view> intervention_verbs();

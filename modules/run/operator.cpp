@@ -27,10 +27,10 @@ std::string no_obstacle(const std::string& name) { return "refused, there is no 
 
 Time Operator::add(Intervention intervention, std::optional<Time> wanted) {
   const Time date = step_for(intervention, wanted);
-  if (added_ == interventions_max)
+  if (added_ == interventions_max && !is_frequent(intervention))
     throw intervention.written.bad("more than " + std::to_string(interventions_max) + " interventions in a run");
   check(intervention);
-  ++added_;
+  if (!is_frequent(intervention)) ++added_;
   const auto place = std::upper_bound(planned_.begin(), planned_.end(), date,
                                       [](Time time, const Planned& other) { return time < other.date; });
   planned_.insert(place, {date, std::move(intervention)});
@@ -48,24 +48,44 @@ Time Operator::step_for(const Intervention& intervention, std::optional<Time> da
 }
 
 void Operator::act(Time now) {
+  now_ = now;
   while (!planned_.empty() && planned_.front().date <= now) {
     const Intervention intervention = std::move(planned_.front().intervention);
     planned_.pop_front();
     const std::string outcome = intervention.text + ": " + carry_out(intervention);
-    outcomes_.push_back({now, outcome});
+    if (!is_frequent(intervention)) outcomes_.push_back({now, outcome});
     Digest digest;
     digest.add(std::string_view(outcome));
     kernel::running->scheduler->record_output(by_the_operator, digest.value());
   }
+  for (const auto& [robot, external] : external_) external->before_step(now);
 }
 
 // --- checks at submission ---
 
-void Operator::check(const Intervention& intervention) const {
+void Operator::check(const Intervention& intervention) {
   if (const auto* request = std::get_if<ModuleRequest>(&intervention.what)) check(*request, intervention.written);
   if (const auto* move = std::get_if<RobotMove>(&intervention.what))
     (void)bridge::index_of(move->robot, robots_, intervention.written);
   if (const auto* command = std::get_if<ShellCommand>(&intervention.what)) check(*command, intervention.written);
+  if (const auto* external = std::get_if<ExternalDeclaration>(&intervention.what))
+    check(*external, intervention.written);
+  if (const auto* report = std::get_if<ExternalReport>(&intervention.what)) check(*report, intervention.written);
+  if (const auto* command = std::get_if<DriveCommand>(&intervention.what))
+    (void)bridge::index_of(command->robot, robots_, intervention.written);
+}
+
+void Operator::check(const ExternalDeclaration& external, const scenario::Location& written) {
+  const std::size_t robot = bridge::index_of(external.robot, robots_, written);
+  if (world_.description().engine == world::Engine::bullet)
+    throw written.bad(
+        "expected engine fcl or slice for a robot outside: bodies of a dynamic world are moved by forces");
+  if (!external_declared_.insert(robot).second) throw written.bad("'" + external.robot + "' is external already");
+}
+
+void Operator::check(const ExternalReport& report, const scenario::Location& written) const {
+  if (!external_declared_.contains(bridge::index_of(report.robot, robots_, written)))
+    throw written.bad("'" + report.robot + "' is no external robot: expected 'external " + report.robot + "' before");
 }
 
 void Operator::check(const ShellCommand& command, const scenario::Location& written) const {
@@ -132,6 +152,32 @@ std::string Operator::carry_out(const ShellCommand& command, const Intervention&
   }
   shell->submit(command.command);
   return "sent";
+}
+
+std::string Operator::carry_out(const ExternalDeclaration& external, const Intervention& whole) {
+  const std::size_t robot = bridge::index_of(external.robot, robots_, whole.written);
+  external_[robot] = std::make_unique<ExternalRobot>(world_, world::BodyId(robot), external.settings, now_,
+                                                     [this, name = external.robot](Time date, const std::string& text) {
+                                                       outcomes_.push_back({date, text, false, name});
+                                                     });
+  return "done";
+}
+
+std::string Operator::carry_out(const ExternalReport& report, const Intervention& whole) {
+  const auto external = external_.find(bridge::index_of(report.robot, robots_, whole.written));
+  if (external == external_.end()) return "refused, the robot is not external yet";
+  external->second->take(report.report, now_);
+  return "done";
+}
+
+std::string Operator::carry_out(const DriveCommand& command, const Intervention& whole) {
+  world_.command(world::BodyId(bridge::index_of(command.robot, robots_, whole.written)), command.velocity);
+  return "done";
+}
+
+std::optional<bridge::ExternalFigures> Operator::external_figures(std::size_t robot) const {
+  const auto external = external_.find(robot);
+  return external == external_.end() ? std::nullopt : std::optional(external->second->figures());
 }
 
 std::string Operator::carry_out(const RobotMove& move, const Intervention& whole) {

@@ -5,13 +5,14 @@
 // and are part of the environment's digest. They make no earlier event: an intervention known long before its time
 // (from a journal) and one typed a moment ago (at a prompt) give the same run. A request is sent by a task of the
 // robot, a service called "operator", which starts at that instant and waits for the final reply; of a robot that is
-// elsewhere it is sent there.
+// elsewhere it is sent there. What external robots have to tell appears among the results.
 #pragma once
 
 #include <deque>
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -24,14 +25,15 @@
 
 namespace waitpoint::run {
 
-/// Bound on the interventions of one run.
+/// Bound on the interventions of one run, without reports and commands from outside.
 inline constexpr std::size_t interventions_max = 100'000;
 
 /// The result of an intervention, or a reply to a request.
 struct InterventionOutcome {
   Time date;
-  std::string text;       ///< "move rackham 1 2: done"
-  bool is_reply = false;  ///< by a module, to a request
+  std::string text;             ///< "move rackham 1 2: done"
+  bool is_reply = false;        ///< by a module, to a request
+  std::string of = "operator";  ///< or an external robot
 };
 
 class Operator {
@@ -51,6 +53,8 @@ class Operator {
 
   /// So far, in the order of their dates.
   const std::vector<InterventionOutcome>& outcomes() const { return outcomes_; }
+  /// The figures of an external robot; nothing for others.
+  std::optional<bridge::ExternalFigures> external_figures(std::size_t robot) const;
   /// A reply that came elsewhere.
   void add_reply(const InterventionOutcome& reply) { outcomes_.push_back(reply); }
 
@@ -61,9 +65,11 @@ class Operator {
   };
 
   Time step_for(const Intervention& intervention, std::optional<Time> date) const;
-  void check(const Intervention& intervention) const;
+  void check(const Intervention& intervention);
   void check(const ModuleRequest& request, const scenario::Location& written) const;
   void check(const ShellCommand& command, const scenario::Location& written) const;
+  void check(const ExternalDeclaration& external, const scenario::Location& written);
+  void check(const ExternalReport& report, const scenario::Location& written) const;
   std::string carry_out(const Intervention& intervention);
   std::string carry_out(const ModuleRequest& request, const Intervention& whole);
   std::string carry_out(const RobotMove& move, const Intervention& whole);
@@ -72,6 +78,9 @@ class Operator {
   std::string carry_out(const ObstacleRemoval& removal, const Intervention& whole);
   std::string carry_out(const Push& push, const Intervention& whole);
   std::string carry_out(const ShellCommand& command, const Intervention& whole);
+  std::string carry_out(const ExternalDeclaration& external, const Intervention& whole);
+  std::string carry_out(const ExternalReport& report, const Intervention& whole);
+  std::string carry_out(const DriveCommand& command, const Intervention& whole);
 
   world::World& world_;
   const std::vector<std::unique_ptr<bridge::Robot>>& robots_;
@@ -79,7 +88,10 @@ class Operator {
   std::deque<Planned> planned_;  // by date
   std::size_t added_ = 0;
   std::vector<InterventionOutcome> outcomes_;
-  std::map<std::size_t, std::unique_ptr<tcl::Shell>> shells_;  // by robot, since their first commands
+  std::map<std::size_t, std::unique_ptr<tcl::Shell>> shells_;       // by robot, since their first commands
+  std::set<std::size_t> external_declared_;                         // by robot, from their declarations on
+  std::map<std::size_t, std::unique_ptr<ExternalRobot>> external_;  // since the execution of these
+  Time now_;                                                        // of act()
 };
 
 }  // namespace waitpoint::run

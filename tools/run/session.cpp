@@ -79,7 +79,7 @@ void Session::close_window(Time end) {
 
 void Session::tell_outcomes() {
   const std::vector<run::InterventionOutcome>& outcomes = experiment_.outcomes();
-  for (; told_ < outcomes.size(); ++told_) progress_.log(outcomes[told_].date, "operator", outcomes[told_].text);
+  for (; told_ < outcomes.size(); ++told_) progress_.log(outcomes[told_].date, outcomes[told_].of, outcomes[told_].text);
 }
 
 Time Session::intervene(const run::Intervention& intervention, std::optional<Time> date) {
