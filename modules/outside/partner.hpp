@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A process outside that takes part in a run: what it sends becomes interventions, which the journal repeats without
+// it.
+#pragma once
+
+#include <string>
+
+#include "core/time.hpp"
+#include "modules/run/experiment.hpp"
+
+namespace waitpoint::outside {
+
+/// What a partner needs of the run, which is between two windows.
+class Host {
+ public:
+  virtual run::Experiment& experiment() = 0;
+  /// For the world's next step.
+  virtual void intervene(const std::string& text) = 0;
+  /// For the person at the run: one line.
+  virtual void tell(const std::string& of, const std::string& text) = 0;
+  /// Tells it too; ends the run if faults are to.
+  virtual void tell_fault(const std::string& of, const std::string& text) = 0;
+
+  /// The virtual time of the world's next step, where interventions act.
+  Time next_step() {
+    const world::World& world = experiment().world();
+    return Time() + world.description().step * static_cast<std::int64_t>(world.steps() + 1);
+  }
+
+ protected:
+  ~Host() = default;
+};
+
+class Partner {
+ public:
+  virtual ~Partner() = default;
+
+  /// Before the run begins.
+  virtual void begin(Host& host) = 0;
+  /// After a window of the run: shows its state to the outside.
+  virtual void publish(Host&) {}
+  /// Before the next window: takes in what has come. Does not block.
+  virtual void take_in(Host& host) = 0;
+  /// One line for the summary.
+  virtual std::string account() const = 0;
+};
+
+/// A word of an intervention, in quotation marks if it has blanks.
+inline std::string quoted_word(const std::string& word) {
+  return word.find(' ') == std::string::npos ? word : '"' + word + '"';
+}
+
+}  // namespace waitpoint::outside
