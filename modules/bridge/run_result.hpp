@@ -162,8 +162,10 @@ struct RunResult {
   std::uint64_t events = 0;
   Duration simulated;
   double wall_s = 0, real_time_factor = 0;
-  std::optional<Lag> lag;          ///< of a paced run
-  std::vector<RankFigures> ranks;  ///< of a run of several processes
+  std::optional<Lag> lag;            ///< of a paced run
+  std::vector<RankFigures> ranks;    ///< of a run of several processes
+  std::vector<std::string> outside;  ///< one line for each partner outside, of the run that it took part in
+  std::string outside_fault;         ///< that ended the run; may be empty
 };
 
 /// Figures over all robots that have them: sums of counts and distances, maxima of maxima, means of means.

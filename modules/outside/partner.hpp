@@ -15,7 +15,7 @@ class Host {
  public:
   virtual run::Experiment& experiment() = 0;
   /// For the world's next step.
-  virtual void intervene(const std::string& text) = 0;
+  virtual void intervene(const std::string& text, const scenario::Location& written) = 0;
   /// For the person at the run: one line.
   virtual void tell(const std::string& of, const std::string& text) = 0;
   /// Tells it too; ends the run if faults are to.

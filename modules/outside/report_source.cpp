@@ -32,10 +32,10 @@ std::string list(const std::map<std::string, std::uint64_t>& faults) {
 
 ReportSource::ReportSource(std::string robot, const Endpoint& endpoint, std::string declaration,
                            const std::string& where)
-    : robot_(std::move(robot)), declaration_(std::move(declaration)), listener_(endpoint, where) {}
+    : robot_(std::move(robot)), declaration_(std::move(declaration)), where_(where), listener_(endpoint, where) {}
 
 void ReportSource::begin(Host& host) {
-  host.intervene("external " + quoted_word(robot_) + declaration_);
+  host.intervene("external " + quoted_word(robot_) + declaration_, {where_, 0});
   host.tell(robot_, "external: awaits position reports at " + listener_.endpoint().text());
 }
 
@@ -110,7 +110,7 @@ void ReportSource::give_newest(Host& host) {
   if (!newest_) return;
   run::PositionReport dated = *newest_;
   dated.time_s = newest_date_s_;
-  host.intervene("report " + quoted_word(robot_) + " " + to_text(dated, "date_s"));
+  host.intervene("report " + quoted_word(robot_) + " " + to_text(dated, "date_s"), {where_, 0});
   connection_->lines.send(fmt::format("taken {} at {}\n", newest_->time_s, to_string(host.next_step())));
   newest_.reset();
 }

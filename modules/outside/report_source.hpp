@@ -50,7 +50,7 @@ class ReportSource final : public Partner {
   void give_newest(Host& host);
   void end_connection(Host& host);
 
-  std::string robot_, declaration_;
+  std::string robot_, declaration_, where_;
   Listener listener_;
   std::optional<Connection> connection_;
   std::optional<run::PositionReport> newest_;  // of this step, with its stamp

@@ -71,6 +71,19 @@ std::string plan(const RobotResult& robot) {
   return text;
 }
 
+std::string external(const RobotResult& robot) {
+  if (!robot.external) return "";
+  const bridge::ExternalFigures& figures = *robot.external;
+  const std::string lag =
+      figures.lag
+          ? fmt::format(", lag least {:.1f}, median {:.1f}, greatest {:.1f} ms", figures.lag->least.seconds() * 1e3,
+                        figures.lag->median.seconds() * 1e3, figures.lag->most.seconds() * 1e3)
+          : "";
+  return fmt::format("  {}: external: {}, {} late{}; {}, {} refused, {}\n", robot.name,
+                     counted(figures.reports, "report"), figures.late, lag, counted(figures.jumps, "jump"),
+                     figures.refused, counted(figures.silences, "silence"));
+}
+
 RunTotals figures_of(const RobotResult& robot) {
   return {robot.goal_visits(),
           robot.goals_reached(),
@@ -173,6 +186,19 @@ Json json_of(const RobotResult& robot) {
     json["plan"]["end"] = robot.plan->end;
     json["plan"]["log"] = robot.plan->log;
   }
+  if (robot.external) {
+    Json& external = json["external"];
+    external["reports"] = robot.external->reports;
+    external["late"] = robot.external->late;
+    external["jumps"] = robot.external->jumps;
+    external["refused"] = robot.external->refused;
+    external["silences"] = robot.external->silences;
+    if (const auto& lag = robot.external->lag) {
+      external["lag_min_s"] = lag->least.seconds();
+      external["lag_median_s"] = lag->median.seconds();
+      external["lag_max_s"] = lag->most.seconds();
+    }
+  }
   if (!robot.late_tasks.empty()) json["late_tasks"] = Json::array();
   for (const bridge::LateTask& task : robot.late_tasks) {
     Json entry;
@@ -204,6 +230,8 @@ Json json_of(const RunResult& result) {
     json["lag_mean_s"] = result.lag->mean_s;
     json["lag_max_s"] = result.lag->max_s;
   }
+  if (!result.outside.empty()) json["outside"] = result.outside;
+  if (!result.outside_fault.empty()) json["outside_fault"] = result.outside_fault;
   json["environment_digest"] = to_string(result.environment_digest);
   json["warnings"] = result.warnings;
   if (!result.trouble.empty()) {
@@ -254,7 +282,9 @@ std::string summary_text(const RunResult& result) {
   for (const RobotResult& robot : result.robots) unreached += unreached_goals(robot);
   if (!unreached.empty()) text += "\n" + unreached;
   std::string equipment;
-  for (const RobotResult& robot : result.robots) equipment += battery(robot) + programs(robot) + plan(robot);
+  for (const RobotResult& robot : result.robots)
+    equipment += battery(robot) + programs(robot) + plan(robot) + external(robot);
+  for (const std::string& line : result.outside) equipment += "  " + line + "\n";
   if (!equipment.empty()) text += "\n" + equipment;
   std::string late;
   for (const RobotResult& robot : result.robots) late += late_tasks(robot);

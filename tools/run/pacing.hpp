@@ -43,6 +43,7 @@ class Pacing {
     ++waits_;
     lag_sum_s_ += late_s;
     lag_max_s_ = std::max(lag_max_s_, late_s);
+    late_s_ = late_s;
     for (;;) {
       const double left_s = speed_ > 0 ? due_s(now) - clock_() : 0;
       if (left_s <= 0 || stop()) return;
@@ -50,6 +51,8 @@ class Pacing {
     }
   }
 
+  /// Behind the wall clock, at the last wait.
+  double late_s() const { return late_s_; }
   /// Empty for an unthrottled run.
   std::optional<bridge::Lag> lag() const {
     if (waits_ == 0) return std::nullopt;
@@ -64,7 +67,7 @@ class Pacing {
   Time from_;
   double start_s_;
   std::uint64_t waits_ = 0;
-  double lag_sum_s_ = 0, lag_max_s_ = 0;
+  double lag_sum_s_ = 0, lag_max_s_ = 0, late_s_ = 0;
 };
 
 }  // namespace waitpoint::tools

@@ -37,6 +37,9 @@ constexpr const char* help_text = R"(  step [N]                     execute the 
     remove-obstacle NAME
     push NAME FX_N FY_N SECONDS  apply a force to a robot or a loose body of a dynamic world
     tcl ROBOT COMMAND            evaluate a command of Tcl in the robot's shell
+    external ROBOT [KEY=VALUE ...], report ROBOT KEY=VALUE ...
+                                 move its body by reports of its position, as from outside
+    command ROBOT KEY=VALUE ...  drive its base: v_m_s, w_rad_s, side_m_s, climb_m_s
   quit                         end the run here, with summary and digest
 )";
 
@@ -182,6 +185,8 @@ void Prompt::speed(std::string_view rest) {
   double speed = 0;
   if (!parse_number(word, speed) || !is_speed(speed))
     throw written_.bad(std::string("expected ") + speeds + ", found '" + word + "'");
+  if (session_.has_partners())
+    throw written_.bad("expected no change of the speed: partners outside live in real time");
   session_.set_speed(speed);
 }
 

@@ -12,8 +12,10 @@ int status(const scenario::Scenario& scenario, const bridge::RunResult& result) 
   if (result.outcome == bridge::Outcome::interrupted) return 130;
   const std::vector<std::string> unmet = run::unmet(scenario.expect, result);
   std::fflush(stdout);
+  if (!result.outside_fault.empty())
+    std::fprintf(stderr, "waitpoint: ended at a fault outside: %s\n", result.outside_fault.c_str());
   for (const std::string& line : unmet) std::fprintf(stderr, "waitpoint: not as expected: %s\n", line.c_str());
-  return unmet.empty() ? 0 : 1;
+  return unmet.empty() && result.outside_fault.empty() ? 0 : 1;
 }
 
 int report_failure(const std::exception& failure, const std::string& replay, Outputs* outputs) {

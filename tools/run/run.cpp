@@ -46,10 +46,11 @@ Session session_of(const RunOptions& options, run::Experiment& experiment, Outpu
 }
 
 bridge::RunResult carry_out(const RunOptions& options, const scenario::Scenario& scenario, std::uint64_t seed,
-                            run::Experiment& experiment, Outputs& outputs) {
+                            run::Experiment& experiment, Outputs& outputs, outside::Partners& partners) {
   Session session = session_of(options, experiment, outputs, options.limit(scenario.until));
   JournalFile* const journal = outputs.journal();
   if (journal != nullptr) session.keep(*journal);
+  if (!partners.empty()) session.take_part(partners, options.partners.faults_end);
   bool interrupted = false;
   if (options.tcl)
     interrupted = !TclShell(session, STDIN_FILENO, isatty(STDIN_FILENO) != 0).run();
@@ -59,7 +60,7 @@ bridge::RunResult carry_out(const RunOptions& options, const scenario::Scenario&
     interrupted = session.carry_on(session.until()) == Session::Stop::interrupted;
   if (journal != nullptr) journal->write(run::to_text(session.here()));
   bridge::RunResult result = result_of(session, seed, interrupted);
-  if (!interrupted && !session.over()) result.outcome = bridge::Outcome::left;
+  if (!interrupted && (!session.over() || !session.fault().empty())) result.outcome = bridge::Outcome::left;
   return result;
 }
 
@@ -112,7 +113,8 @@ bridge::RunResult run_seed(const RunOptions& options, const scenario::Scenario& 
   RunOptions single = options;
   single.summary.reset();
   Outputs none(single, scenario, experiment);
-  return carry_out(options, scenario, seed, experiment, none);
+  outside::Partners nobody;
+  return carry_out(options, scenario, seed, experiment, none, nobody);
 }
 
 int run_once(const RunOptions& options, const scenario::Scenario& scenario, run::Experiment& experiment,
@@ -126,12 +128,13 @@ int run_once(const RunOptions& options, const scenario::Scenario& scenario, run:
     for (const auto& [date, intervention] : journal->interventions)
       lines += to_text(experiment.intervene(intervention, date), intervention);
   }
+  outside::Partners partners = make_partners(options.partners, scenario);
   sync::tell_threads_outside();
   outputs.emplace(options, scenario, experiment);
   if (outputs->journal() != nullptr) outputs->journal()->write(lines);
   bool same = true;
   bridge::RunResult result = journal ? repeat(options, scenario, *journal, experiment, *outputs, same)
-                                     : carry_out(options, scenario, options.seed, experiment, *outputs);
+                                     : carry_out(options, scenario, options.seed, experiment, *outputs, partners);
   if (options.idle > Duration() && result.outcome != bridge::Outcome::deadlock)
     result.idle = experiment.idle(options.idle);
   outputs->check(result);

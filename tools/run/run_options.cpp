@@ -76,7 +76,9 @@ std::string replay_line(const RunOptions& options, std::uint64_t seed) {
   for (std::size_t i = 1; i < options.confined_to.size(); ++i)
     line += " --allow " + quoted(options.confined_to[i].string());
   for (const std::string& assignment : options.assignments) line += " --set " + in_quotation_marks(assignment);
-  if ((options.interactive || options.tcl) && !options.journal)
+  if (options.partners.any() && !options.journal)
+    line += "  # without what came from outside: --journal FILE records it";
+  else if ((options.interactive || options.tcl) && !options.journal)
     line += "  # without the prompt's commands: --journal FILE records them";
   return line;
 }
@@ -123,8 +125,17 @@ RunArguments::RunArguments(CommandLine& line)
                 "the speed, send requests, move robots and obstacles; help lists them");
   command_.flag("--tcl", tcl_,
                 "read commands in Tcl from standard input, for the first robot's modules\n(docs/laas-tcl.md)");
+  command_.repeated("--external", partners_.external, "ROBOT=ADDRESS",
+                    "move this robot's body by position reports from a process outside, which\n"
+                    "connects to unix:PATH or tcp:PORT of the loopback; needs --speed 1; may be\n"
+                    "repeated (docs/external.md)");
+  command_.repeated("--reports", partners_.reports, "KEY=VALUE",
+                    "of external robots: between=move or stay, between reports (move); jump_m (0.5),\n"
+                    "silent_s (1) and late_s (0.2), from which it is told");
+  command_.flag("--outside-faults-end", partners_.faults_end,
+                "end the run, with status 1, at the first fault of a process outside");
   command_.option("--journal", journal_, "FILE",
-                  "write the interventions of the prompt or shell with their virtual times");
+                  "write the interventions of the prompt, shell and outside with their virtual times");
   command_.option("--replay-journal", replay_journal_, "FILE",
                   "repeat the interventions of a journal and verify that the run ends with its\ndigest");
   command_.option("--summary", summary_, "FILE.json",
@@ -158,6 +169,7 @@ RunArguments::RunArguments(CommandLine& line)
 void RunArguments::check_of_many(const char* option) const {
   if (interactive_) throw BadInput(option, "cannot be used together with --interactive");
   if (tcl_) throw BadInput(option, "cannot be used together with --tcl");
+  if (partners_.any()) throw BadInput(option, std::string("cannot be used together with ") + partners_.name());
   check_not_together(option, {{"--journal", journal_},
                               {"--replay-journal", replay_journal_},
                               {"--picture", picture_},
@@ -188,6 +200,24 @@ void RunArguments::check_for_ranks() const {
                                  {"--record-durations", record_durations_},
                                  {"--replay-durations", replay_durations_}});
   if (check_) throw BadInput("--ranks", "cannot be used together with --check");
+  if (partners_.any())
+    throw BadInput(partners_.name(), "cannot be used together with --ranks: processes outside meet one process");
+}
+
+/// What is outside lives in real time, and takes part once.
+void RunArguments::check_partners(double speed) const {
+  if (!partners_.any()) {
+    if (!partners_.reports.empty()) throw BadInput("--reports", "expected --external, whose reports they concern");
+    if (partners_.faults_end)
+      throw BadInput("--outside-faults-end", "expected --external or --serve-world, whose faults they are");
+    return;
+  }
+  if (speed != 1)
+    refuse(partners_.name(), "--speed 1: processes outside live in real time",
+           speed_.empty() ? "a run as fast as possible" : speed_);
+  if (!replay_journal_.empty())
+    throw BadInput(partners_.name(),
+                   "cannot be used together with --replay-journal, which repeats what came from outside");
 }
 
 RunOptions RunArguments::options() const {
@@ -224,6 +254,8 @@ RunOptions RunArguments::options() const {
   options.until = positive_seconds("--until", until_);
   if (!speed_.empty() && (!parse_number(speed_, options.speed) || !is_speed(options.speed)))
     refuse("--speed", speeds, speed_);
+  check_partners(options.speed);
+  options.partners = partners_;
   if (!watchdog_.empty() &&
       (!parse_number(watchdog_, options.watchdog_s) || !(options.watchdog_s >= 0 && options.watchdog_s <= 1e6)))
     refuse("--watchdog", "seconds from 0 to 1000000", watchdog_);

@@ -14,6 +14,7 @@
 #include "tools/command/command_line.hpp"
 #include "tools/command/confinement_options.hpp"
 #include "tools/command/option_values.hpp"
+#include "tools/run/run_partners.hpp"
 #include "tools/run/run_watchdog.hpp"
 
 namespace waitpoint::tools {
@@ -39,6 +40,7 @@ struct RunOptions {
   bool tcl = false;                                     ///< commands in Tcl from standard input
   std::optional<std::filesystem::path> journal;         ///< to write
   std::optional<std::filesystem::path> replay_journal;  ///< to repeat
+  PartnerOptions partners;                              ///< outside
   bool check = false;                                   ///< self-check: compare runs instead of reporting a result
   std::optional<std::filesystem::path> summary, picture, trajectory, record, digests, events, decisions;
   std::optional<std::filesystem::path> record_durations, replay_durations;  ///< not both
@@ -82,6 +84,7 @@ class RunArguments {
   void check_writes_nothing() const;
   void check_alone() const;
   void check_for_ranks() const;
+  void check_partners(double speed) const;
 
   Command command_;
   ScenarioArguments scenario_;
@@ -89,6 +92,7 @@ class RunArguments {
   std::string summary_, picture_, trajectory_, record_, digests_, events_, decisions_;
   std::string record_durations_, replay_durations_;
   std::vector<std::string> places_;
+  PartnerOptions partners_;
   bool interactive_ = false, tcl_ = false, check_ = false;
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/run/session.hpp"
 
+#include <fmt/format.h>
 #include <sys/syscall.h>
 #include <unistd.h>
 
@@ -14,7 +15,8 @@
 namespace waitpoint::tools {
 namespace {
 
-constexpr Duration window = std::chrono::milliseconds(100);
+constexpr Duration usual_window = std::chrono::milliseconds(100);
+constexpr double behind_s_max = 0.2;  // of real time
 constexpr Duration second_length = std::chrono::seconds(1);
 
 std::int64_t seconds_begun(Time time) {
@@ -29,7 +31,16 @@ Session::Session(run::Experiment& experiment, Time until, double speed, Second s
       second_(std::move(second)),
       progress_(stderr, isatty(STDERR_FILENO) != 0, until.since_start()),
       pacing_(speed),
+      window_(usual_window),
       process_(getpid()) {}
+
+// Before the first window the world has its state of the start.
+void Session::take_part(outside::Partners& partners, bool faults_end) {
+  partners_ = &partners;
+  faults_end_ = faults_end;
+  window_ = std::min(usual_window, experiment_.world().description().step);
+  partners_->begin(*this);
+}
 
 Session::Stop Session::carry_on(Time target, const Enough& enough, const Heed& heed) {
   pacing_.restart(now(), pacing_.speed());
@@ -44,13 +55,17 @@ Session::Stop Session::carry_on(Time target, const Enough& enough, const Heed& h
 Session::Stop Session::carry_on_in_windows(Time target, const Enough& enough, const Heed& heed) {
   while (!over() && reached_ < target) {
     if (interruption() != 0) return Stop::interrupted;
-    const Time next = std::min(target, Time() + window * (reached_.since_start() / window + 1));
+    if (partners_ != nullptr) partners_->take_in(*this);
+    if (!fault_.empty()) break;
+    const Time next = std::min(target, Time() + window_ * (reached_.since_start() / window_ + 1));
     end_ = enough ? experiment_.run_before(next, enough) : experiment_.run_before(next);
     end_forked_copy();
     if (experiment_.paused()) return Stop::enough;
     close_window(next);
+    if (partners_ != nullptr) partners_->publish(*this);
     bool asked = false;
     pacing_.wait_for(next, [&] { return interruption() != 0 || (heed && (asked = heed())); });
+    if (partners_ != nullptr) tell_lag();
     if (!over() && (asked || (heed && heed()))) return Stop::asked;
   }
   return over() ? Stop::over : Stop::target;
@@ -79,7 +94,27 @@ void Session::close_window(Time end) {
 
 void Session::tell_outcomes() {
   const std::vector<run::InterventionOutcome>& outcomes = experiment_.outcomes();
-  for (; told_ < outcomes.size(); ++told_) progress_.log(outcomes[told_].date, outcomes[told_].of, outcomes[told_].text);
+  for (; told_ < outcomes.size(); ++told_)
+    progress_.log(outcomes[told_].date, outcomes[told_].of, outcomes[told_].text);
+}
+
+void Session::tell_lag() {
+  const bool behind = pacing_.late_s() > behind_s_max;
+  if (behind != is_behind_)
+    progress_.log(reached_, "run",
+                  behind ? fmt::format("{:.1f} s behind real time", pacing_.late_s()) : "in real time again");
+  is_behind_ = behind;
+}
+
+void Session::intervene(const std::string& text, const scenario::Location& written) {
+  intervene(run::parse_intervention(text, written));
+}
+
+void Session::tell(const std::string& of, const std::string& text) { progress_.log(now(), of, text); }
+
+void Session::tell_fault(const std::string& of, const std::string& text) {
+  tell(of, text);
+  if (faults_end_ && fault_.empty()) fault_ = of + ": " + text;
 }
 
 Time Session::intervene(const run::Intervention& intervention, std::optional<Time> date) {
@@ -99,6 +134,8 @@ bridge::RunResult Session::result() const {
   bridge::RunResult result = experiment_.result();
   result.wall_s = wall_s_;
   result.lag = pacing_.lag();
+  if (partners_ != nullptr) result.outside = partners_->accounts();
+  result.outside_fault = fault_;
   const Time here = end_ == RunEnd::time_reached ? now() : experiment_.simulation().global_time();
   const Time last = experiment_.last_end().value_or(here);
   result.simulated = last.since_start();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // One run in short windows of virtual time. Between windows it shows progress, polls signals, waits for the wall clock
-// and accepts commands. The windows do not affect the run.
+// and accepts commands and what partners outside send. The windows do not affect the run.
 #pragma once
 
 #include <sys/types.h>
@@ -9,6 +9,7 @@
 #include <functional>
 #include <optional>
 
+#include "modules/outside/partners.hpp"
 #include "modules/run/experiment.hpp"
 #include "modules/run/journal.hpp"
 #include "tools/output/progress.hpp"
@@ -17,7 +18,7 @@
 
 namespace waitpoint::tools {
 
-class Session {
+class Session : private outside::Host {
  public:
   /// Reason for the return of carry_on().
   enum class Stop {
@@ -37,6 +38,10 @@ class Session {
   /// Also writes interventions to the journal from now on, with their dates.
   void keep(JournalFile& journal) { journal_ = &journal; }
 
+  /// Takes in what partners send, from now on, before each step of the world, whose state they get after it.
+  /// `faults_end`: their first fault ends the run.
+  void take_part(outside::Partners& partners, bool faults_end);
+
   /// Continues to `target`, or to the event after which `enough` returns true. `heed` is called at least ten times a
   /// second, and stops the run by returning true.
   Stop carry_on(Time target, const Enough& enough = nullptr, const Heed& heed = nullptr);
@@ -50,10 +55,14 @@ class Session {
   /// Everything before this time is done; after a stop between two events of an instant, also part of that instant.
   Time now() const;
   Time until() const { return until_; }
-  bool over() const { return end_ != RunEnd::time_reached || reached_ >= until_; }
+  bool over() const { return end_ != RunEnd::time_reached || reached_ >= until_ || !fault_.empty(); }
+  /// The fault of a partner that ended the run.
+  const std::string& fault() const { return fault_; }
+  /// True if partners take part: they live in real time, so that the speed cannot be changed.
+  bool has_partners() const { return partners_ != nullptr; }
   /// The run's current position, for the journal.
   run::JournalEnd here() const;
-  run::Experiment& experiment() { return experiment_; }
+  run::Experiment& experiment() override { return experiment_; }
 
   /// The results so far, with the wall clock's figures.
   bridge::RunResult result() const;
@@ -63,6 +72,10 @@ class Session {
   void close_window(Time end);
   void end_forked_copy();
   void tell_outcomes();
+  void tell_lag();
+  void intervene(const std::string& text, const scenario::Location& written) override;
+  void tell(const std::string& of, const std::string& text) override;
+  void tell_fault(const std::string& of, const std::string& text) override;
 
   run::Experiment& experiment_;
   Time until_;
@@ -70,6 +83,10 @@ class Session {
   Progress progress_;
   Pacing pacing_;
   JournalFile* journal_ = nullptr;
+  outside::Partners* partners_ = nullptr;
+  bool faults_end_ = false, is_behind_ = false;
+  std::string fault_;
+  Duration window_;
   RunEnd end_ = RunEnd::time_reached;
   Time reached_;
   double wall_s_ = 0;

@@ -93,6 +93,8 @@ void TclShell::obey(std::string_view line) {
     double speed = 0;
     if (!parse_number(text, speed) || !is_speed(speed))
       throw written_.bad(std::string("expected ") + speeds + ", found '" + text + "'");
+    if (session_.has_partners())
+      throw written_.bad("expected no change of the speed: partners outside live in real time");
     session_.set_speed(speed);
   } else {
     session_.intervene(run::parse_intervention(line, written_));
