@@ -158,6 +158,9 @@ ExploreArguments::ExploreArguments(CommandLine& line)
                   "of a program: keep at most N stopped copies of its runs, in which schedules with the same\n"
                   "choices up to there begin; for each of the jobs (default: 0)");
   conditions_.add_to(command_);
+  command_.repeated("--external", external_, "ROBOT=ADDRESS",
+                    "rejected: processes outside take part in paced runs only");
+  command_.option("--serve-world", serve_world_, "ADDRESS", "rejected, likewise");
   command_.flag("--no-minimize", keep_all_, "report the failure as found, without minimisation");
   command_.footer(
       "Exit status: 0 no failure found, 1 failure found, 2 bad input, 130 stopped by a signal, after a report of the\n"
@@ -201,6 +204,11 @@ void ExploreArguments::take_program_options(ExploreOptions& options) const {
 
 ExploreOptions ExploreArguments::options(const std::vector<std::string>& words) const {
   ExploreOptions options;
+  for (const auto& [name, is_given] :
+       {std::pair<const char*, bool>{"--external", !external_.empty()}, {"--serve-world", !serve_world_.empty()}})
+    if (is_given)
+      throw BadInput(
+          name, "expected waitpoint run: processes outside live in real time, in which schedules are not explored");
   if (is_program_) {
     check_program();
     if (words.empty())

@@ -74,8 +74,8 @@ class ExploreArguments {
 
   Command command_;
   std::string scenario_, seed_, strategy_, iterations_, time_limit_, schedule_limit_, jobs_, until_, from_, shard_;
-  std::string results_, trace_, schedule_, replay_, races_, switch_at_, memory_, snapshots_;
-  std::vector<std::string> assignments_, properties_;
+  std::string results_, trace_, schedule_, replay_, races_, switch_at_, memory_, snapshots_, serve_world_;
+  std::vector<std::string> assignments_, properties_, external_;
   ConfinementArguments confinement_;
   ConditionArguments conditions_;
   bool is_program_ = false, keep_all_ = false, forks_each_ = false;
