@@ -21,13 +21,6 @@ double unix_time_s() {
   return std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
 }
 
-// ", 3 malformed, 1 from the past"
-std::string list(const std::map<std::string, std::uint64_t>& faults) {
-  std::string text;
-  for (const auto& [kind, count] : faults) text += fmt::format(", {} {}", count, kind);
-  return text;
-}
-
 }  // namespace
 
 ReportSource::ReportSource(std::string robot, const Endpoint& endpoint, std::string declaration,
@@ -98,12 +91,11 @@ void ReportSource::obey_report(std::string_view words, const scenario::Location&
   ++reports_;
 }
 
-// The first of each kind of a connection is told, and all are counted.
 void ReportSource::refuse(const char* kind, const std::string& reason, Host& host) {
   const std::string text = printable_message(reason);
   connection_->lines.send("refused: " + text + "\n");
-  ++faults_[kind];
-  if (++connection_->faults[kind] == 1) host.tell_fault(robot_, text);
+  faults_.add(kind);
+  if (connection_->faults.add(kind)) host.tell_fault(robot_, text);
 }
 
 void ReportSource::give_newest(Host& host) {
@@ -117,13 +109,13 @@ void ReportSource::give_newest(Host& host) {
 
 void ReportSource::end_connection(Host& host) {
   host.tell_fault(robot_, "the connection to the source ended after " + counted(connection_->reports, "report") +
-                              list(connection_->faults));
+                              connection_->faults.text());
   connection_.reset();
 }
 
 std::string ReportSource::account() const {
   if (connections_ == 0) return robot_ + ": no source of reports has connected to " + listener_.endpoint().text();
-  return robot_ + ": " + counted(connections_, "connection") + ", " + counted(reports_, "report") + list(faults_);
+  return robot_ + ": " + counted(connections_, "connection") + ", " + counted(reports_, "report") + faults_.text();
 }
 
 }  // namespace waitpoint::outside

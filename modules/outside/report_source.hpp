@@ -11,11 +11,11 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
 #include <optional>
 #include <string>
 
 #include "modules/outside/endpoint.hpp"
+#include "modules/outside/fault_counts.hpp"
 #include "modules/outside/line_stream.hpp"
 #include "modules/outside/partner.hpp"
 #include "modules/outside/source_clock.hpp"
@@ -40,7 +40,7 @@ class ReportSource final : public Partner {
     LineStream lines;
     SourceClock clock;
     std::uint64_t reports = 0;
-    std::map<std::string, std::uint64_t> faults;  // by kind
+    FaultCounts faults;
   };
 
   void accept(Host& host);
@@ -56,7 +56,7 @@ class ReportSource final : public Partner {
   std::optional<run::PositionReport> newest_;  // of this step, with its stamp
   double newest_date_s_ = 0;
   std::uint64_t connections_ = 0, reports_ = 0;
-  std::map<std::string, std::uint64_t> faults_;  // of all connections
+  FaultCounts faults_;  // of all connections
 };
 
 }  // namespace waitpoint::outside

@@ -132,6 +132,9 @@ RunArguments::RunArguments(CommandLine& line)
   command_.repeated("--reports", partners_.reports, "KEY=VALUE",
                     "of external robots: between=move or stay, between reports (move); jump_m (0.5),\n"
                     "silent_s (1) and late_s (0.2), from which it is told");
+  command_.option("--serve-world", partners_.serve_world, "ADDRESS",
+                  "serve base and lasers of robots without modules to software in other processes\n"
+                  "at unix:PATH or tcp:PORT of the loopback; needs --speed 1 (docs/external.md)");
   command_.flag("--outside-faults-end", partners_.faults_end,
                 "end the run, with status 1, at the first fault of a process outside");
   command_.option("--journal", journal_, "FILE",

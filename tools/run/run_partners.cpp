@@ -8,6 +8,7 @@
 
 #include "core/nearest_name.hpp"
 #include "modules/outside/report_source.hpp"
+#include "modules/outside/world_server.hpp"
 #include "modules/run/intervention.hpp"
 
 namespace waitpoint::tools {
@@ -53,6 +54,10 @@ outside::Partners make_partners(const PartnerOptions& options, const scenario::S
     const outside::Endpoint endpoint = outside::parse_endpoint(text.substr(equals + 1), where);
     partners.add(std::make_unique<outside::ReportSource>(name, endpoint, settings, where));
   }
+  if (options.serve_world.empty()) return partners;
+  const std::string where = "--serve-world";
+  const outside::Endpoint endpoint = outside::parse_endpoint(options.serve_world, where);
+  partners.add(std::make_unique<outside::WorldServer>(scenario, names, endpoint, where));
   return partners;
 }
 

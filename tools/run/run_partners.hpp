@@ -23,7 +23,7 @@ struct PartnerOptions {
 };
 
 /// Listens for all of them. Throws BadInput for a robot that the scenario lacks, an endpoint that cannot be had, and a
-/// world whose bodies cannot be guided.
+/// world whose bodies cannot be guided. The scenario must outlive them.
 outside::Partners make_partners(const PartnerOptions& options, const scenario::Scenario& scenario);
 
 }  // namespace waitpoint::tools
