@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // waitpoint::main() of the build on system threads: the same scenarios and modules, at the wall clock's speed.
 #include <CLI/CLI.hpp>
+#include <atomic>
 #include <cstdio>
+#include <memory>
 
+#include "modules/outside/remote_world.hpp"
 #include "modules/run/expectation.hpp"
 #include "modules/run/threaded_experiment.hpp"
 #include "modules/scenario/scenario_reader.hpp"
@@ -20,7 +23,17 @@ struct Arguments {
   std::vector<std::string> assignments;
   std::uint64_t seed = 1;
   double until_s = 0;
+  std::string world;
 };
+
+/// The world of another process, at this address; the scenario's own if it is empty.
+run::MakeWorld world_at(const std::string& address, const scenario::Scenario& scenario, std::atomic<bool>& ended) {
+  if (address.empty()) return nullptr;
+  const outside::Endpoint endpoint = outside::parse_endpoint(address, "--world");
+  return [&, endpoint](const world::WorldDescription& description) {
+    return std::make_unique<outside::RemoteWorld>(scenario, description, endpoint, "--world", ended);
+  };
+}
 
 void print(const bridge::RunResult& result) {
   const bridge::RunTotals sum = totals(result);
@@ -49,13 +62,15 @@ void print(const bridge::RunResult& result) {
 
 int run(const Arguments& arguments, std::span<const genom::ModuleType> types) {
   const scenario::Scenario scenario = scenario::read_scenario(arguments.scenario, arguments.assignments);
-  run::ThreadedExperiment experiment(scenario, types, arguments.seed);
+  std::atomic<bool> world_ended = false;
+  run::ThreadedExperiment experiment(scenario, types, arguments.seed, world_at(arguments.world, scenario, world_ended));
   heed_signals();
   experiment.run_for(arguments.until_s > 0 ? Duration::from_seconds(arguments.until_s) : scenario.until,
-                     [] { return interruption() != 0; });
+                     [&] { return interruption() != 0 || world_ended; });
   const bridge::RunResult result = experiment.result();
   print(result);
   flush_standard_output();
+  if (world_ended) return 1;
   if (result.outcome == bridge::Outcome::interrupted) return 130;
   const std::vector<std::string> unmet = run::unmet(scenario.expect, result);
   for (const std::string& line : unmet) std::fprintf(stderr, "waitpoint: not as expected: %s\n", line.c_str());
@@ -75,6 +90,11 @@ int read_and_run(int argc, const char* const* argv, std::span<const genom::Modul
   command->add_option("--set", arguments.assignments, "override a value of the scenario; may be repeated")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
+  command
+      ->add_option("--world", arguments.world,
+                   "drive the robots in the world of another process, which serves it there\n"
+                   "(waitpoint run --speed 1 --serve-world; docs/external.md)")
+      ->type_name("unix:PATH|tcp:PORT");
   app.require_subcommand(1, 1);
   try {
     app.parse(argc, argv);

@@ -19,7 +19,7 @@ void LineStream::receive() {
   (void)flush();
   for (std::size_t count = 0; count < received_max && !is_over_; count += part_bytes) {
     char part[part_bytes];
-    const ssize_t got = recv(connection_.number(), part, sizeof part, 0);
+    const ssize_t got = recv(connection_.number(), part, sizeof part, count == 0 ? 0 : MSG_DONTWAIT);
     if (got > 0) received_.append(part, static_cast<std::size_t>(got));
     if (got < 0 && errno == EINTR) continue;
     if (got < 0 && (errno == EAGAIN || errno == EWOULDBLOCK)) return;

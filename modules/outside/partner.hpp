@@ -45,9 +45,4 @@ class Partner {
   virtual std::string account() const = 0;
 };
 
-/// A word of an intervention, in quotation marks if it has blanks.
-inline std::string quoted_word(const std::string& word) {
-  return word.find(' ') == std::string::npos ? word : '"' + word + '"';
-}
-
 }  // namespace waitpoint::outside

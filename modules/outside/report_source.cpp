@@ -9,6 +9,7 @@
 #include "core/error.hpp"
 #include "core/number_text.hpp"
 #include "core/printable_line.hpp"
+#include "modules/outside/words.hpp"
 #include "modules/scenario/words.hpp"
 
 namespace waitpoint::outside {

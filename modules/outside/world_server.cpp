@@ -9,6 +9,7 @@
 
 #include "core/number_text.hpp"
 #include "core/printable_line.hpp"
+#include "modules/outside/words.hpp"
 #include "modules/run/intervention.hpp"
 #include "modules/scenario/words.hpp"
 

@@ -41,7 +41,7 @@ class KnownMaps {
 }  // namespace
 
 Assembly::Assembly(const scenario::Scenario& scenario, std::span<const genom::ModuleType> types, io::Network* network,
-                   std::uint64_t seed, const Placement& placement)
+                   std::uint64_t seed, const Placement& placement, const MakeWorld& make)
     : scenario_(scenario) {
   world::WorldDescription description = scenario.world_without_map();
   std::shared_ptr<const world::WorldFile> file;
@@ -56,7 +56,7 @@ Assembly::Assembly(const scenario::Scenario& scenario, std::span<const genom::Mo
       file != nullptr && file->grid);
   scenario::check_starts(scenario, world::start_overlaps(description));
   check_rendezvous(scenario);
-  make_world(description, seed);
+  make_world(description, seed, make);
   for (std::size_t i = 0; i < scenario.robots.size(); ++i)
     robots_.push_back(placement.is_here(i)
                           ? std::make_unique<bridge::Robot>(scenario.robots[i], types, maps.of(scenario.robots[i]),
@@ -83,7 +83,11 @@ std::shared_ptr<const world::WorldFile> Assembly::load(scenario::MapFile map) {
   return map.contents;
 }
 
-void Assembly::make_world(const world::WorldDescription& description, std::uint64_t seed) {
+void Assembly::make_world(const world::WorldDescription& description, std::uint64_t seed, const MakeWorld& make) {
+  if (make != nullptr) {
+    world_ = make(description);
+    return;
+  }
   if (scenario_.engine == world::Engine::bullet) {
     scenario::check_dynamic(scenario_, world::loose_overlaps(description));
     world_ = world::make_bullet_world(description, seed);

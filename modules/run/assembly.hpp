@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -18,12 +19,15 @@
 
 namespace waitpoint::run {
 
+/// Makes the world for a description that has all obstacles and bodies.
+using MakeWorld = std::function<std::unique_ptr<world::World>(const world::WorldDescription&)>;
+
 class Assembly {
  public:
   /// Bad input of any kind is found here, as BadInput. The scenario and the network (null without one) must outlive the
-  /// assembly.
+  /// assembly. `make`: in the place of the scenario's engine.
   Assembly(const scenario::Scenario& scenario, std::span<const genom::ModuleType> types, io::Network* network,
-           std::uint64_t seed, const Placement& placement = {});
+           std::uint64_t seed, const Placement& placement = {}, const MakeWorld& make = nullptr);
 
   const scenario::Scenario& scenario() const { return scenario_; }
   world::World& world() { return *world_; }
@@ -39,7 +43,7 @@ class Assembly {
 
  private:
   std::shared_ptr<const world::WorldFile> load(scenario::MapFile map);
-  void make_world(const world::WorldDescription& description, std::uint64_t seed);
+  void make_world(const world::WorldDescription& description, std::uint64_t seed, const MakeWorld& make);
   void check_step();
 
   const scenario::Scenario& scenario_;

@@ -11,8 +11,8 @@ constexpr Duration look_period = std::chrono::milliseconds(100);  // of polling 
 }  // namespace
 
 ThreadedExperiment::ThreadedExperiment(const scenario::Scenario& scenario, std::span<const genom::ModuleType> types,
-                                       std::uint64_t seed)
-    : assembly_(scenario, types, nullptr, seed), seed_(seed) {
+                                       std::uint64_t seed, const MakeWorld& make)
+    : assembly_(scenario, types, nullptr, seed, {}, make), has_steps_of_its_own_(make != nullptr), seed_(seed) {
   for (const scenario::RobotScenario& robot : scenario.robots)
     if (!robot.programs.empty())
       throw robot.programs.front().written.bad(
@@ -61,7 +61,7 @@ void ThreadedExperiment::run_world() {
     const Time due = start + assembly_.scenario().step * k;
     if (world_ends_.try_acquire_for(std::chrono::nanoseconds((due - threads::now()).ns()))) return;
     assembly_.world().step();
-    exchange(due);
+    exchange(has_steps_of_its_own_ ? threads::now() : due);
   }
 }
 

@@ -22,8 +22,10 @@ namespace waitpoint::run {
 
 class ThreadedExperiment {
  public:
-  /// Bad input of any kind is found here, as BadInput. The scenario must outlive the experiment.
-  ThreadedExperiment(const scenario::Scenario& scenario, std::span<const genom::ModuleType> types, std::uint64_t seed);
+  /// Bad input of any kind is found here, as BadInput. The scenario must outlive the experiment. `make`: see Assembly;
+  /// the step() of such a world waits for the step.
+  ThreadedExperiment(const scenario::Scenario& scenario, std::span<const genom::ModuleType> types, std::uint64_t seed,
+                     const MakeWorld& make = nullptr);
 
   /// Runs once, until every robot with goals has ended its round, `limit` has passed, or `interrupted`, which is
   /// polled, returns true. Then stops every robot, ends its modules and joins all threads.
@@ -42,6 +44,7 @@ class ThreadedExperiment {
   void exchange(Time date);
 
   Assembly assembly_;
+  bool has_steps_of_its_own_;  // the world: elsewhere, so that its step() waits for them
   std::uint64_t seed_;
   bridge::Outcome outcome_ = bridge::Outcome::time_limit;
   Duration took_;

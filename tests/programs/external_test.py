@@ -12,6 +12,7 @@ import unittest
 from installed import BUILD, HERE, main
 
 WAITPOINT = BUILD / "tools/waitpoint"
+NATIVE = BUILD / "tools/waitpoint-native"
 MIXED = HERE / "mixed/mixed.yaml"
 PATIENCE_S = 120
 
@@ -297,6 +298,39 @@ class ServedWorld(External):
         again = self.replay()
         self.assertEqual(again.returncode, 0, again.stderr)
         self.assertIn(run.digest(), again.stdout)
+
+    @unittest.skipUnless(NATIVE.exists(), "the build has no native library")
+    def test_native_modules_in_another_process_drive_a_robot_to_its_goal(self):
+        body_only = [word for part in ("modules", "bridge", "goals") for word in ("--set", f"robots.rackham.{part}=[]")]
+        run = self.start("--serve-world", f"unix:{self.folder / 'world'}", *body_only, robots=("ada",))
+        self.connect(run).report(1, 10, 2)
+        native = subprocess.run([NATIVE, "run", MIXED, "--world", f"unix:{self.folder / 'world'}",
+                                 "--until", str(PATIENCE_S), "--set", "robots.rackham.goals=[[4.8, 5]]"],
+                                capture_output=True, text=True, timeout=2 * PATIENCE_S)
+        self.assertEqual(native.returncode, 0, native.stdout + native.stderr)
+        self.assertIn("goals reached     1 of 1", native.stdout)
+        run.type("pause\nstatus")
+        self.assertEqual(run.end(), 0, run.told())
+        self.assertGreater(float(re.search(r"rackham: 0 of 0 goals, at \(([\d.]+)", run.output)[1]), 4.4)
+        again = self.replay(*body_only)
+        self.assertEqual(again.returncode, 0, again.stderr)
+        self.assertIn(run.digest(), again.stdout)
+
+    @unittest.skipUnless(NATIVE.exists(), "the build has no native library")
+    def test_native_modules_without_a_world_that_fits_are_refused(self):
+        def refused(*words):
+            done = subprocess.run([NATIVE, "run", MIXED, *words], capture_output=True, text=True,
+                                  timeout=PATIENCE_S)
+            self.assertEqual(done.returncode, 2, done.stdout)
+            return done.stderr
+
+        self.assertIn("--world: expected unix:PATH or tcp:PORT, found 'here'\n", refused("--world", "here"))
+        self.assertIn("--world: cannot connect to unix:", refused("--world", f"unix:{self.path}"))
+        run, _ = self.serve()
+        world = f"unix:{self.folder / 'world'}"
+        self.assertIn("'rackham' is driven by its modules in this run", refused("--world", world))
+        self.assertIn("--world: expected a world with step_s=0.005", refused("--world", world, "--set", "world.step_ms=5"))
+        self.assertEqual(run.end(), 0, run.told())
 
     def test_what_it_lacks_is_refused_and_told_once(self):
         run, client = self.serve(robots=("ada",))

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The world of a run in another process (world_server.hpp), for robots' software on real threads: each robot with
+// modules has a connection of its own. Base, battery and lasers are served; sonars have no echo.
+//
+// One thread uses it. step() waits for the next step of the other world. A connection that ends sets `ended`, and
+// everything stays as it was.
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <string_view>
+#include <vector>
+
+#include "modules/outside/endpoint.hpp"
+#include "modules/scenario/scenario.hpp"
+#include "world/world.hpp"
+
+namespace waitpoint::outside {
+
+class RemoteWorld final : public world::World {
+ public:
+  /// Attaches the robots. Throws BadInput at `where` for a world that does not have them, or another step; and at a row
+  /// of a robot's bridge for a device that is not served. `ended` must outlive it.
+  RemoteWorld(const scenario::Scenario& scenario, const world::WorldDescription& description, const Endpoint& endpoint,
+              const std::string& where, std::atomic<bool>& ended);
+  ~RemoteWorld() override;
+
+  const world::WorldDescription& description() const override { return description_; }
+  void command(world::BodyId id, world::Velocity velocity) override;
+  void step() override;
+  std::uint64_t steps() const override { return steps_; }
+  void reset(std::uint64_t seed) override;
+
+  std::optional<std::string> move_body(world::BodyId id, const Pose& pose) override;
+  std::optional<std::string> guide_body(world::BodyId id, const std::optional<Pose>& to,
+                                        const world::Velocity& velocity) override;
+  std::optional<std::string> put_obstacle(const world::Obstacle& obstacle) override;
+  bool remove_obstacle(const std::string&) override { return false; }
+  std::optional<std::string> push(const std::string& name, Point force_n, Duration time) override;
+
+  const world::BodyState& body(world::BodyId id) const override;
+  std::span<const world::LooseState> loose() const override { return {}; }
+  const world::OdometerReading& odometer(world::BodyId id) const override;
+  world::BatteryState battery(world::BodyId id) const override;
+  const world::ImuSample& imu(world::BodyId id) const override;
+  const world::PositionFix& position_fix(world::BodyId id) const override;
+
+  /// The last scan that came; waits for the first one.
+  void scan(world::BodyId id, std::size_t laser, std::uint64_t scan_number, world::LaserScan& out) const override;
+  void expect_scan(world::BodyId id, std::size_t laser, std::uint64_t scan_number) override;
+  void sonar(world::BodyId id, std::size_t ring, std::uint64_t firing_number,
+             std::vector<double>& range_m) const override;
+  std::uint32_t bumpers(world::BodyId) const override { return 0; }
+  void infrareds(world::BodyId id, std::uint64_t reading_number, std::vector<double>& volts) const override;
+  void add_to(WorkingSet&, world::BodyId) const override {}
+  void add_scan_to(WorkingSet&, world::BodyId) const override {}
+  double cast(const world::Beam&, double range_max_m, std::optional<world::BodyId>) const override {
+    return range_max_m;
+  }
+
+ private:
+  struct Attached;
+
+  Attached& attached(world::BodyId id) const { return *robots_[index(id)]; }
+  void attach(Attached& robot, const Endpoint& endpoint, const std::string& where);
+  void switch_on(Attached& robot, std::size_t laser) const;
+  /// Reads what has come, waiting for something; false if the connection has ended.
+  bool read(Attached& robot) const;
+
+  world::WorldDescription description_;
+  std::atomic<bool>& ended_;
+  std::vector<std::unique_ptr<Attached>> robots_;  // by body
+  std::uint64_t steps_ = 0;
+};
+
+}  // namespace waitpoint::outside
