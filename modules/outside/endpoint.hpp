@@ -13,7 +13,7 @@ struct Endpoint {
   std::string path;        ///< of a local socket; empty: TCP
   std::uint16_t port = 0;  ///< 0, to listen: any free one
 
-  /// "unix:/tmp/robot", "tcp:7000".
+  /// "unix:robot.socket", "tcp:7000".
   std::string text() const;
 };
 

@@ -93,6 +93,9 @@ class Pages(Installed):
     def test_programs(self):
         self.try_page("programs.md")
 
+    def test_external(self):
+        self.try_page("external.md")
+
 
 if __name__ == "__main__":
     main()

@@ -58,6 +58,7 @@ OWN_CASES = {
     "deaths": [sys.executable, str(ROOT / "tests/programs/deaths_test.py"), BUILD],
     "generated modules": [sys.executable, str(ROOT / "tests/programs/genom_test.py"), BUILD],
     "external robots": [sys.executable, str(ROOT / "tests/programs/external_test.py"), BUILD],
+    "served world": [sys.executable, str(ROOT / "tests/programs/served_world_test.py"), BUILD],
     "mistakes": [sys.executable, str(ROOT / "tests/programs/mistakes_test.py"), BUILD],
     "recordings": [sys.executable, str(ROOT / "tests/programs/recordings_test.py"), BUILD],
     "programs": [sys.executable, str(ROOT / "tests/programs/programs_test.py"), BUILD],
