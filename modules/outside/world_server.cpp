@@ -16,7 +16,7 @@
 namespace waitpoint::outside {
 namespace {
 
-const std::string server = "world";
+constexpr const char* server = "world";
 
 bool is_due(Duration period, Duration step, std::uint64_t steps) {
   const Duration now = step * static_cast<std::int64_t>(steps);
@@ -47,7 +47,7 @@ WorldServer::WorldServer(const scenario::Scenario& scenario, std::vector<std::st
 
 void WorldServer::begin(Host& host) { host.tell(server, "served at " + listener_.endpoint().text()); }
 
-const std::string& WorldServer::name(const Client& client) const {
+std::string WorldServer::name(const Client& client) const {
   return client.robot ? scenario_.robots[*client.robot].name : server;
 }
 

@@ -57,7 +57,7 @@ class WorldServer final : public Partner {
   void attach(Client& client, const std::string& name, const scenario::Location& written, Host& host);
   void switch_laser(Client& client, std::string_view words, const scenario::Location& written);
   void end(Client& client, Host& host);
-  const std::string& name(const Client& client) const;
+  std::string name(const Client& client) const;
   std::string readings(Client& client, const world::World& world) const;
   std::string scan(Client& client, std::size_t laser, const world::World& world) const;
 
