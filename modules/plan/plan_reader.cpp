@@ -88,7 +88,7 @@ std::vector<Condition> read_conditions(const YamlMap& map, std::string_view key)
     Condition& condition = conditions.emplace_back();
     condition.written = item.written;
     const auto [module, name] = read_dotted(row.require("poster"), "poster");
-    condition.poster = module + "." + name;
+    condition.poster.append(module).append(".").append(name);
     condition.field = row.text("field", "");
     int comparisons = 0;
     for (const auto& [word, comparison] :
@@ -130,8 +130,8 @@ std::size_t find(const std::vector<Named>& known, const std::string& name, const
 template <class Named>
 void check_new(const std::vector<Named>& known, const std::string& name, const std::string& what,
                const scenario::Location& written) {
-  for (const Named& other : known)
-    if (other.name == name) throw written.bad("there are two " + what + "s called '" + name + "'");
+  if (std::any_of(known.begin(), known.end(), [&](const Named& other) { return other.name == name; }))
+    throw written.bad("there are two " + what + "s called '" + name + "'");
 }
 
 void read_resources(const YamlMap& map, Plan& plan) {
