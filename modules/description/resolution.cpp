@@ -139,9 +139,10 @@ class Resolution {
                "expected other codels than another request's with another input or output, found '" + codel + "' in '" +
                    request.name.text + "'");
     };
+    const std::string of_activity = "activity " + input + output;
     add_signature(request.control, "control " + input);
     for (const std::string* codel : {&request.start, &request.main, &request.end, &request.fail, &request.inter})
-      add_signature(*codel, "activity " + input + output);
+      add_signature(*codel, of_activity);
   }
 
   void resolve_interrupts(Request& request) const {

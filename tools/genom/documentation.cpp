@@ -25,6 +25,7 @@ std::string joined(const std::vector<std::string>& names) {
 }
 std::string joined(const std::vector<description::Name>& names) {
   std::vector<std::string> texts;
+  texts.reserve(names.size());
   for (const description::Name& name : names) texts.push_back(name.text);
   return joined(texts);
 }

@@ -71,6 +71,7 @@ int genom(const GenomOptions& options) {
   std::vector<std::string> include_folders;
   std::vector<fs::path> folders = {beside.empty() ? fs::path(".") : beside};
   folders.insert(folders.end(), options.folders.begin(), options.folders.end());
+  include_folders.reserve(folders.size());
   for (const fs::path& folder : folders)
     include_folders.push_back(
         fs::absolute(folder).lexically_normal().lexically_relative(fs::absolute(out).lexically_normal()).string());

@@ -13,7 +13,6 @@ namespace waitpoint::tools {
 
 using description::Description;
 using description::ExecTask;
-using description::Field;
 using description::Parameter;
 using description::Poster;
 using description::Request;

@@ -140,8 +140,8 @@ TEST(Controller, DelaysUntilTheStateAllowsIt) {
     robot.send("B", 1);
     EXPECT_EQ(robot.next(200ms), "none");
     robot.client.send("m", "Abort", genom::AbortInput{0});
-    std::vector<std::string> replies;
-    for (int i = 0; i < 4; ++i) replies.push_back(robot.next());
+    std::vector<std::string> replies(4);
+    for (std::string& reply : replies) reply = robot.next();
     EXPECT_EQ(replies,
               (std::vector<std::string>{"3 final ok", "1 final ACTIVITY_INTERRUPTED", "2 began ok", "2 final ok"}));
   });
