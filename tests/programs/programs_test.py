@@ -196,8 +196,8 @@ class TwoRobots(Installed):
     def test_lose_sight_of_each_other_and_no_letter(self):
         told, digest = self.outcome()
         self.assertEqual([(who, what) for _, who, what, _, _ in told],
-                         [("bea", "hears ada"), ("ada", "hears bea"), ("bea", "has lost ada"), ("ada", "has lost bea"),
-                          ("bea", "hears ada"), ("ada", "hears bea")])
+                         [("ada", "hears bea"), ("bea", "hears ada"), ("ada", "has lost bea"), ("bea", "has lost ada"),
+                          ("ada", "hears bea"), ("bea", "hears ada")])
         for _, _, what, positions, entries in told[2:]:
             # At 5 positions a second for 20 s some are lost; the log waits while out of range, and arrives completely.
             self.assertLess(int(positions), 90)
