@@ -27,32 +27,37 @@ Automaton::Automaton(const Rules& rules) {
     forbidden_.push_back(compile(check.forbidden));
     for (const auto* patterns : {&check.delayed, &check.interrupted})
       for (const RequestPattern& each : *patterns) pattern(each);
-    if (diagrams_.is_full())
-      throw bad(rules.file, check.place,
-                "expected rules of at most " + std::to_string(DecisionDiagrams::nodes_max) + " nodes when compiled");
+    expect_room(rules, check);
   }
   for (const RequestPattern& p : patterns_)
     for (std::vector<bool>& implied = implied_.emplace_back(); const RequestPattern& q : patterns_)
       implied.push_back(is_same_request(p, q) && control::implies(p, q));
-  find_raising();
+  for (std::size_t i = 0; i < checks(); ++i) {
+    find_raising(i);
+    expect_room(rules, rules.checks[i]);
+  }
+}
+
+void Automaton::expect_room(const Rules& rules, const Check& check) const {
+  if (diagrams_.is_full())
+    throw bad(rules.file, check.place,
+              "expected rules of at most " + std::to_string(DecisionDiagrams::nodes_max) + " nodes when compiled");
 }
 
 // The condition becomes true when what is true of such a request becomes true.
-void Automaton::find_raising() {
-  for (const Node forbidden : forbidden_) {
-    std::vector<bool>& raises = raises_.emplace_back();
-    for (std::size_t p = 0; p < patterns_.size(); ++p) {
-      DecisionDiagrams::Fixed with, without;
-      for (std::size_t v = 0; v < predicates_.size(); ++v) {
-        const Predicate::Kind kind = predicates_[v].kind;
-        if (kind == Predicate::Kind::succeeded || kind == Predicate::Kind::failed || !is_of(predicates_[v], p))
-          continue;
-        with.emplace(static_cast<std::uint32_t>(v), true);
-        without.emplace(static_cast<std::uint32_t>(v), false);
-      }
-      const Node before = diagrams_.restricted(forbidden, without), after = diagrams_.restricted(forbidden, with);
-      raises.push_back(diagrams_.conjunction(after, diagrams_.negation(before)) != DecisionDiagrams::no);
+void Automaton::find_raising(std::size_t check) {
+  const Node forbidden = forbidden_[check];
+  std::vector<bool>& raises = raises_.emplace_back();
+  for (std::size_t p = 0; p < patterns_.size(); ++p) {
+    DecisionDiagrams::Fixed with, without;
+    for (std::size_t v = 0; v < predicates_.size(); ++v) {
+      const Predicate::Kind kind = predicates_[v].kind;
+      if (kind == Predicate::Kind::succeeded || kind == Predicate::Kind::failed || !is_of(predicates_[v], p)) continue;
+      with.emplace(static_cast<std::uint32_t>(v), true);
+      without.emplace(static_cast<std::uint32_t>(v), false);
     }
+    const Node before = diagrams_.restricted(forbidden, without), after = diagrams_.restricted(forbidden, with);
+    raises.push_back(diagrams_.conjunction(after, diagrams_.negation(before)) != DecisionDiagrams::no);
   }
 }
 

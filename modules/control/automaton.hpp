@@ -60,7 +60,9 @@ class Automaton {
   const std::vector<Memory>& memory() const { return memory_; }
 
  private:
-  void find_raising();
+  /// BadInput for `check`, at which the rules have come to need too many nodes.
+  void expect_room(const Rules& rules, const Check& check) const;
+  void find_raising(std::size_t check);
   Node compile(const Expression& expression);
   Node compile(const Comparison& comparison);
   Node since(Node lasting, Node begin);

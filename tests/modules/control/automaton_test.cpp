@@ -231,5 +231,25 @@ TEST(Automaton, ARequestRaisesWhatBecomesTrueByIt) {
   EXPECT_FALSE(automaton.raises(0, automaton.index_of(b)));
 }
 
+// A condition of 2^14 nodes, in an order of the variables that is bad for it: what requests raise needs the rest. A
+// check that would not be enforced for want of nodes is refused.
+TEST(Automaton, RefusesRulesWhoseSearchForRaisingRequestsNeedsTooManyNodes) {
+  std::string order, pairs;
+  for (int i = 0; i < 14; ++i) {
+    const std::string a = "m.p.a > " + std::to_string(i), b = "m.p.b > " + std::to_string(i);
+    order += " || " + a;
+    pairs += (pairs.empty() ? "" : " || ") + ("(" + a) + " && " + b + ")";
+  }
+  const std::string filler = "check order { fail: running(m.B) && (m.p.a > 99" + order +
+                             "); }\ncheck pairs { fail: running(m.B(x > 1)) && (" + pairs + "); }\n";
+  try {
+    const Automaton automaton(parse_rules("context c {\n" + filler + "check k { fail: running(m.A); } }", "r"));
+    EXPECT_TRUE(automaton.raises(2, automaton.index_of({"m", "A", {}, {}})));
+    FAIL() << "the rules have come to need fewer nodes";
+  } catch (const BadInput& error) {
+    EXPECT_EQ(std::string(error.what()), "r:3: column 7: expected rules of at most 131072 nodes when compiled");
+  }
+}
+
 }  // namespace
 }  // namespace waitpoint::control
