@@ -47,6 +47,9 @@ bool Controller::post(genom::Module& module, const genom::Letter& request) {
   return mailbox_.post(letter);
 }
 
+// There is always room: as for replies.
+void Controller::withdraw(const genom::Letter& withdrawal) { (void)mailbox_.post(withdrawal); }
+
 void Controller::run() {
   for (;;) {
     wait();
@@ -72,7 +75,11 @@ void Controller::step() {
   bindings_.observe(values_);
   genom::Letter letter;
   if (!std::exchange(again_, false) && mailbox_.take(letter)) {
-    letter.kind == genom::LetterKind::request ? take_request(letter) : take_reply(letter);
+    switch (letter.kind) {
+      case genom::LetterKind::request: take_request(letter); break;
+      case genom::LetterKind::withdrawal: take_withdrawal(letter); break;
+      default: take_reply(letter);
+    }
   }
   requests_.evaluate(change_, now_, values_);
   keep_safe();
@@ -117,6 +124,18 @@ void Controller::take_reply(const genom::Letter& reply) {
   change_.is_success = reply.report == genom::ok;
 }
 
+// Of a request that waits; one that has been accepted or rejected has its reply on the way.
+void Controller::take_withdrawal(const genom::Letter& withdrawal) {
+  const auto withdrawn = std::find_if(delayed_.begin(), delayed_.end(), [&](const Delayed& delayed) {
+    const genom::Letter& letter = delayed.request.letter;
+    return letter.reply_to == withdrawal.reply_to && letter.send_id == withdrawal.send_id;
+  });
+  if (withdrawn == delayed_.end()) return;
+  end_here(withdrawn->request, genom::StandardReport::activity_interrupted);
+  decide(Verdict::withdrawn, &withdrawn->request, -1);
+  delayed_.erase(withdrawn);
+}
+
 void Controller::accept(ControlledRequest request) {
   request.accepted = now_;
   genom::Letter to_module = request.letter;
@@ -129,13 +148,18 @@ void Controller::accept(ControlledRequest request) {
 }
 
 void Controller::reject(const ControlledRequest& request, std::size_t check) {
+  end_here(request, genom::StandardReport::rejected_by_control);
+  decide(Verdict::rejected, &request, static_cast<std::ptrdiff_t>(check));
+}
+
+// The final reply to a request that does not come to its module.
+void Controller::end_here(const ControlledRequest& request, genom::StandardReport report) {
   genom::Letter reply;
   reply.kind = genom::LetterKind::final_reply;
   reply.request = request.letter.request;
   reply.send_id = request.letter.send_id;
-  reply.report = request.module->report(genom::StandardReport::rejected_by_control);
+  reply.report = request.module->report(report);
   letters_.emplace_back(request.letter.reply_to, reply);
-  decide(Verdict::rejected, &request, static_cast<std::ptrdiff_t>(check));
 }
 
 // --- decisions ---

@@ -7,9 +7,9 @@
 //
 // One step, for a letter, a period or the end of a time:
 //
-//   read the posters -> a reply: end or start its request -> a request: accept, reject or delay it -> a forbidden
-//   state: interrupt running requests -> delayed requests: accept at most one, reject those whose time is over ->
-//   memory of the temporal operators -> the step's cost -> letters to modules and clients
+//   read the posters -> a reply: end or start its request -> a request: accept, reject or delay it, or withdraw one ->
+//   a forbidden state: interrupt running requests -> delayed requests: accept at most one, reject those whose time is
+//   over -> memory of the temporal operators -> the step's cost -> letters to modules and clients
 //
 // Rules hold for the state as known in a step: the poster's values are those at its beginning, and a request counts as
 // running from its acceptance to its final reply.
@@ -60,15 +60,18 @@ class Controller : private genom::RequestGate {
   };
 
   bool post(genom::Module& module, const genom::Letter& request) override;
+  void withdraw(const genom::Letter& withdrawal) override;
 
   void run();
   void wait();
   void step();
   void take_request(const genom::Letter& letter);
   void take_reply(const genom::Letter& reply);
+  void take_withdrawal(const genom::Letter& withdrawal);
   Judgement judge(const ControlledRequest& request) const;
   void accept(ControlledRequest request);
   void reject(const ControlledRequest& request, std::size_t check);
+  void end_here(const ControlledRequest& request, genom::StandardReport report);
   void keep_safe();
   void interrupt_for(std::size_t check);
   void interrupt(ControlledRequest& request, std::size_t check);

@@ -15,10 +15,11 @@ enum class Verdict : std::uint8_t {
   delayed,      ///< the request waits
   interrupted,  ///< the activity was aborted
   unresolved,   ///< a forbidden state that no running activity is the cause of
+  withdrawn,    ///< a delayed request, by its client
 };
 
 constexpr const char* name(Verdict verdict) {
-  constexpr const char* names[] = {"accepted", "rejected", "delayed", "interrupted", "unresolved"};
+  constexpr const char* names[] = {"accepted", "rejected", "delayed", "interrupted", "unresolved", "withdrawn"};
   return names[static_cast<int>(verdict)];
 }
 

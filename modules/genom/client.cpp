@@ -19,6 +19,15 @@ std::optional<std::uint32_t> Client::send(const std::string& module, const std::
   return letter.send_id;
 }
 
+void Client::withdraw(std::uint32_t send_id) {
+  if (names_.gate() == nullptr) return;
+  Letter letter;
+  letter.kind = LetterKind::withdrawal;
+  letter.send_id = send_id;
+  letter.reply_to = &mailbox_;
+  names_.gate()->withdraw(letter);
+}
+
 std::optional<Reply> Client::receive(Duration timeout) {
   if (timeout == Duration::max())
     mailbox_.event().acquire();

@@ -30,6 +30,10 @@ class Client {
     return send(module, request, Payload(input));
   }
 
+  /// Takes a request back that has not come to its module: a gate that holds it back replies ACTIVITY_INTERRUPTED. A
+  /// request that has come there is replied to as ever, and ended by "Abort" with its activity's number.
+  void withdraw(std::uint32_t send_id);
+
   /// The next reply to any request, or one without a number (send_id 0) after wake(); nothing after `timeout`
   /// (Duration::max(): no timeout; zero: does not block).
   std::optional<Reply> receive(Duration timeout = Duration::max());

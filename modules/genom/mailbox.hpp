@@ -19,7 +19,8 @@ namespace waitpoint::genom {
 class Mailbox;
 class Module;
 
-enum class LetterKind : std::uint8_t { request, intermediate_reply, final_reply };
+/// A withdrawal, of the request with its sender and number, is for a gate alone (request_gate.hpp).
+enum class LetterKind : std::uint8_t { request, intermediate_reply, final_reply, withdrawal };
 
 struct Letter {
   LetterKind kind = LetterKind::request;

@@ -159,6 +159,26 @@ TEST(Controller, RejectsADelayedRequestWhenItsTimeIsOver) {
   });
 }
 
+TEST(Controller, DropsADelayedRequestThatItsClientWithdraws) {
+  ControlledRobot robot("check k { exclusive: m.A, m.B; delay: m.B for 300 ms; }");
+  robot.run([&] {
+    robot.send("A");
+    EXPECT_EQ(robot.next(), "1 began ok");
+    const std::uint32_t number = robot.send("B");
+    robot.other.withdraw(number);  // another client's number
+    EXPECT_EQ(robot.next(100ms), "none");
+    robot.client.withdraw(number);
+    EXPECT_EQ(robot.next(10ms), "2 final ACTIVITY_INTERRUPTED");
+    EXPECT_EQ(robot.log.back(), "m.B #2 withdrawn");
+    robot.client.withdraw(1);  // has passed
+    robot.client.send("m", "Abort", genom::AbortInput{0});
+    EXPECT_EQ(robot.next(), "3 final ok");
+    EXPECT_EQ(robot.next(), "1 final ACTIVITY_INTERRUPTED");
+    EXPECT_EQ(robot.next(400ms), "none");
+    EXPECT_EQ(robot.running[1], 0);
+  });
+}
+
 TEST(Controller, InterruptsTheActivityThatGivesWay) {
   ControlledRobot robot("check k { exclusive: m.A, m.B; interrupt: m.A within 1 s; }");
   robot.run([&] {
