@@ -5,6 +5,7 @@
 #include <netinet/in.h>
 #include <netinet/tcp.h>
 #include <sys/socket.h>
+#include <sys/stat.h>
 #include <sys/un.h>
 
 #include <cerrno>
@@ -58,8 +59,10 @@ bool connects(const Descriptor& socket, const Address& address) {
   return result == 0;
 }
 
+// Only a socket is: connecting to a file of another kind, which is the user's, is refused too.
 bool is_left_behind(const Endpoint& endpoint, const Address& address) {
-  if (endpoint.path.empty() || errno != EADDRINUSE) return false;
+  struct stat found {};
+  if (endpoint.path.empty() || lstat(endpoint.path.c_str(), &found) != 0 || !S_ISSOCK(found.st_mode)) return false;
   const Descriptor probe = socket_for(endpoint, 0);
   return !connects(probe, address) && errno == ECONNREFUSED;
 }
@@ -96,13 +99,14 @@ Listener::Listener(const Endpoint& endpoint, const std::string& where)
   const Address address(endpoint);
   const int on = 1;
   if (endpoint.path.empty()) setsockopt(socket_.number(), SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
-  bool bound = bind(socket_.number(), address.get(), address.size()) == 0;
-  if (!bound && is_left_behind(endpoint, address)) {
+  const auto bind_fails = [&] { return bind(socket_.number(), address.get(), address.size()) != 0 ? errno : 0; };
+  int reason = bind_fails();
+  if (reason == EADDRINUSE && is_left_behind(endpoint, address)) {
     unlink(endpoint.path.c_str());
-    bound = bind(socket_.number(), address.get(), address.size()) == 0;
+    reason = bind_fails();
   }
-  if (!bound || listen(socket_.number(), waiting_max) != 0) {
-    const int reason = errno;
+  if (reason == 0 && listen(socket_.number(), waiting_max) != 0) reason = errno;
+  if (reason != 0) {
     endpoint_.path.clear();
     throw BadInput(where, "cannot listen at " + endpoint.text() + ": " + std::strerror(reason));
   }

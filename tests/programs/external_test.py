@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Robots outside take part in a run by reports of their positions, and its journal repeats it: external_test.py BUILD."""
 
+import os
 import pathlib
 import re
 import socket
@@ -193,6 +194,15 @@ class Refusals(External):
         self.assertRegex(self.connect(run).report(1, 10, 2), "^taken")
         self.assertEqual(run.end(), 0, run.told())
         self.assertFalse(self.path.exists())
+
+    def test_an_address_that_is_a_file_but_no_socket_is_refused_and_the_file_stays(self):
+        self.path.write_text("precious")
+        pipe = self.folder / "pipe"
+        os.mkfifo(pipe)
+        for option in f"--external=ada=unix:{self.path}", f"--external=ada=unix:{pipe}", f"--serve-world=unix:{self.path}":
+            self.assertIn("Address already in use", self.refused("--speed", "1", "--until", "0.1", option))
+        self.assertEqual(self.path.read_text(), "precious")
+        self.assertTrue(pipe.is_fifo())
 
     def test_tcp_listens_on_the_loopback_only(self):
         run = Run(self.folder, "--external", "ada=tcp:0")
