@@ -24,7 +24,6 @@ void LineStream::receive() {
     if (got < 0 && errno == EINTR) continue;
     if (got < 0 && (errno == EAGAIN || errno == EWOULDBLOCK)) return;
     is_over_ = got <= 0;
-    if (got < static_cast<ssize_t>(sizeof part)) return;
   }
 }
 
@@ -42,7 +41,7 @@ bool LineStream::take(std::string& line) {
 }
 
 bool LineStream::send(std::string_view lines) {
-  if (is_over_ || sent_.size() + lines.size() > unsent_max) return false;
+  if (sent_.size() + lines.size() > unsent_max) return false;
   sent_ += lines;
   return flush();
 }

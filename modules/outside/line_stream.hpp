@@ -22,7 +22,7 @@ class LineStream {
   /// Sends `lines`, or none of them: false if the peer does not read, or is gone.
   bool send(std::string_view lines);
 
-  /// The peer has ended the connection, or it broke: take() has the last lines.
+  /// The peer sends no more, or the connection broke: take() has the last lines. The peer may still read.
   bool is_over() const { return is_over_; }
   /// Lines taken so far.
   int lines() const { return lines_; }

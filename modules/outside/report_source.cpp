@@ -47,10 +47,16 @@ void ReportSource::accept(Host& host) {
   }
 }
 
+// The end of a source is noticed before the next one is accepted, which may connect in the same step. One source is
+// heard in a step.
 void ReportSource::take_in(Host& host) {
-  if (connection_ && connection_->lines.is_over()) end_connection(host);
+  const bool had_source = connection_.has_value();
+  if (had_source) hear(host);
   accept(host);
-  if (!connection_) return;
+  if (connection_ && !had_source) hear(host);
+}
+
+void ReportSource::hear(Host& host) {
   LineStream& lines = connection_->lines;
   lines.receive();
   const int before = lines.lines();

@@ -44,6 +44,7 @@ class ReportSource final : public Partner {
   };
 
   void accept(Host& host);
+  void hear(Host& host);
   void obey(std::string_view line, Host& host);
   void obey_report(std::string_view words, const scenario::Location& written, Host& host);
   void refuse(const char* kind, const std::string& reason, Host& host);

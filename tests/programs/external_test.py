@@ -7,7 +7,7 @@ import re
 import socket
 
 from installed import main
-from partners import MIXED, PATIENCE_S, External, Run, waitpoint
+from partners import MIXED, PATIENCE_S, External, Run, Source, waitpoint
 
 
 class Reports(External):
@@ -122,6 +122,24 @@ class Faults(External):
         self.assertEqual(run.end(), 0, run.told())
         self.assertIn("ada: the connection to the source ended after 1 report\n", run.told())
         self.assertIn("bob: no source of reports has connected to unix:", run.output)
+
+    def test_a_source_that_connects_again_within_a_step_is_accepted(self):
+        """A paused run takes in nothing: all of it comes before the next step."""
+        run = self.start()
+        ada = self.connect(run)
+        self.assertRegex(ada.report(1, 10, 2), "^taken")
+        run.type("pause\nstatus")
+        while "ada: " not in run.process.stdout.readline():
+            self.assertIsNone(run.process.poll(), run.told())
+        ada.lines.write("report stamp_s=2 x_m=10 y_m=2 heading_rad=0\n")
+        ada.close()
+        again = Source(self.path, run, greeted=False)
+        self.addCleanup(again.close)
+        run.type("go")
+        self.assertEqual(again.lines.readline(), "waitpoint reports 1 ada\n")
+        self.assertRegex(again.report(1, 10, 2), "^taken")
+        self.assertEqual(run.end(), 0, run.told())
+        self.assertIn("ada: the connection to the source ended after 2 reports\nada: a source of reports is connected\n", run.told())
 
     def test_silence_is_told_and_the_body_stays(self):
         run = self.start("--reports", "silent_s=0.05")

@@ -61,7 +61,7 @@ class Run:
 class Source:
     """Connects to a run as soon as it listens."""
 
-    def __init__(self, path, run):
+    def __init__(self, path, run, greeted=True):
         self.socket = socket.socket(socket.AF_UNIX)
         self.socket.settimeout(PATIENCE_S)
         while True:
@@ -72,7 +72,7 @@ class Source:
                 if run.process.poll() is not None:
                     raise AssertionError(run.told()) from None
         self.lines = self.socket.makefile("rw", encoding="utf-8")
-        self.greeting = self.lines.readline()
+        self.greeting = self.lines.readline() if greeted else None
 
     def say(self, text):
         """Returns the answer to the last line."""
