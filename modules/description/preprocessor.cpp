@@ -14,6 +14,7 @@ namespace {
 constexpr std::size_t include_depth_max = 32;
 constexpr std::size_t macro_depth_max = 64;
 constexpr std::size_t tokens_max = 200'000;
+constexpr std::size_t replacement_tokens_max = 200'000;
 
 struct Macro {
   bool has_parameters = false;
@@ -72,6 +73,7 @@ class Preprocessor {
     if (found->second.has_parameters)
       reject(token.place, "expected no use of a macro with parameters, found '" + token.text + "'");
     if (depth > macro_depth_max) reject(token.place, "expected constants nested at most 64 deep");
+    count_replacement(found->second, token.place);
     for (Token replaced : found->second.tokens) {
       replaced.place = token.place;
       replaced.begin = token.begin;
@@ -79,6 +81,13 @@ class Preprocessor {
       replaced.macro = token.text;
       put(std::move(replaced), depth + 1);
     }
+  }
+
+  // The depth alone is no bound: constants that each have another one twice double with every level, and may be empty.
+  void count_replacement(const Macro& macro, const Place& place) {
+    replacement_tokens_ += macro.tokens.size();
+    if (replacement_tokens_ > replacement_tokens_max)
+      reject(place, "expected at most 200000 words of constants in place of their names");
   }
 
   void directive(std::vector<Token> words, const Token& hash, const SourceFile& source, std::size_t depth) {
@@ -171,6 +180,7 @@ class Preprocessor {
     const auto found = macros_.find(word.text);
     if (found == macros_.end() || found->second.has_parameters || found->second.tokens.empty()) return 0;
     if (++condition_depth_ > macro_depth_max) reject(word.place, "expected constants nested at most 64 deep");
+    count_replacement(found->second, word.place);
     std::vector<Token> tokens = found->second.tokens;
     tokens.push_back(end_token(word.place));
     TokenStream of_macro(std::move(tokens));
@@ -185,6 +195,7 @@ class Preprocessor {
   std::map<std::string, Macro> macros_;
   std::vector<Condition> conditions_;
   std::size_t condition_depth_ = 0;
+  std::size_t replacement_tokens_ = 0;
   Preprocessed result_;
 };
 

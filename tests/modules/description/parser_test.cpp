@@ -186,5 +186,22 @@ TEST(Description, IsRefusedAtLineAndColumn) {
       "demo.gen:3: column 62: expected input_info for each of the 1 numbers and texts of the input, found 2");
 }
 
+/// Constants that each have the one before twice, with `separator` between: A59 has it 2^59 times.
+std::string doubling_constants(const std::string& first, const std::string& separator) {
+  std::string text = "#define A0 " + first + "\n";
+  for (int i = 1; i < 60; ++i) {
+    const std::string before = " A" + std::to_string(i - 1);
+    text += "#define A" + std::to_string(i) + before + separator + before + "\n";
+  }
+  return text;
+}
+
+TEST(Description, IsRefusedForConstantsThatMultiply) {
+  const std::string expected = "expected at most 200000 words of constants in place of their names";
+  EXPECT_EQ(refusal(doubling_constants("", "") + "A59\n"), "demo.gen:61: column 1: " + expected);
+  const std::string condition = refusal(doubling_constants("1", "|") + "#if A59\n#endif\n");
+  EXPECT_NE(condition.find(expected), std::string::npos) << condition;
+}
+
 }  // namespace
 }  // namespace waitpoint::description
