@@ -158,7 +158,8 @@ TypeRef CDeclarations::number_specifier(TokenStream& tokens) {
 
 TypeRef CDeclarations::struct_specifier(TokenStream& tokens, int depth) {
   const Place place = tokens.take().place;
-  const std::string name = tokens.peek().kind == TokenKind::name ? "struct " + tokens.take().text : "";
+  const std::string name =
+      tokens.peek().kind == TokenKind::name ? "struct " + tokens.expect_declared_name("the name of a struct").text : "";
   if (!tokens.next_is("{")) {
     const auto found = tags_.find(name);
     if (found == tags_.end())
@@ -188,7 +189,8 @@ TypeRef CDeclarations::struct_specifier(TokenStream& tokens, int depth) {
 
 TypeRef CDeclarations::enum_specifier(TokenStream& tokens) {
   const Place place = tokens.take().place;
-  const std::string name = tokens.peek().kind == TokenKind::name ? "enum " + tokens.take().text : "";
+  const std::string name =
+      tokens.peek().kind == TokenKind::name ? "enum " + tokens.expect_declared_name("the name of an enum").text : "";
   if (!tokens.next_is("{")) {
     const auto found = tags_.find(name);
     if (found == tags_.end()) tokens.fail("expected '{' behind 'enum'");
@@ -199,7 +201,7 @@ TypeRef CDeclarations::enum_specifier(TokenStream& tokens) {
   std::int64_t next = 0;
   do {
     if (tokens.next_is("}")) break;  // C99 allows a comma there
-    const Token enumerator = tokens.expect_name("the name of an enumerator");
+    const Token enumerator = tokens.expect_declared_name("the name of an enumerator");
     if (tokens.accept("=")) next = constant(tokens);
     if (next < std::numeric_limits<std::int32_t>::min() || next > std::numeric_limits<std::int32_t>::max())
       reject(enumerator.place, "expected a value of 32 bits for '" + enumerator.text + "'");
@@ -217,7 +219,7 @@ TypeRef CDeclarations::enum_specifier(TokenStream& tokens) {
 Field CDeclarations::declarator(TokenStream& tokens, const TypeRef& base, const char* what) {
   if (tokens.next_is("*") || tokens.next_is("("))
     tokens.fail("expected " + std::string(what) + " (pointers and functions mean nothing in another process)");
-  Field field{tokens.expect_name(what).text, base};
+  Field field{tokens.expect_declared_name(what).text, base};
   std::vector<std::pair<std::size_t, Place>> dimensions;
   while (tokens.next_is("[")) {
     const Place place = tokens.take().place;

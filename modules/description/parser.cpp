@@ -80,7 +80,7 @@ class Parser {
   }
 
   Name read_name(const std::string& what) {
-    const Token& token = tokens_.expect_name(what);
+    const Token& token = tokens_.expect_declared_name(what);
     return {token.text, token.place};
   }
   std::string read_text(const std::string& what) {
@@ -180,7 +180,7 @@ class Parser {
     if (tokens_.peek().kind == TokenKind::text) {
       name = read_text("a package");
     } else {
-      name = read_name("a package").text;
+      name = tokens_.expect_name("a package").text;
       while (tokens_.next_is("-") || tokens_.next_is(".") || (tokens_.previous().text == "-" && !tokens_.next_is(";")))
         name += tokens_.take().text;
     }

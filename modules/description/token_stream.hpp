@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "modules/description/keywords.hpp"
 #include "modules/description/lexer.hpp"
 
 namespace waitpoint::description {
@@ -42,6 +43,12 @@ class TokenStream {
   const Token& expect_name(std::string_view what) {
     if (peek().kind != TokenKind::name) fail("expected " + std::string(what));
     return take();
+  }
+  /// The same of what is declared in C and C++, where keywords are no names.
+  const Token& expect_declared_name(std::string_view what) {
+    if (peek().kind == TokenKind::name && is_keyword(peek().text))
+      reject(peek().place, "expected " + std::string(what) + ", found the keyword '" + peek().text + "' of C or C++");
+    return expect_name(what);
   }
   /// Throws BadInput "`expected`, found TOKEN" at the next token.
   [[noreturn]] void fail(const std::string& expected) const {

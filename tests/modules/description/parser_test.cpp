@@ -203,5 +203,17 @@ TEST(Description, IsRefusedForConstantsThatMultiply) {
   EXPECT_NE(condition.find(expected), std::string::npos) << condition;
 }
 
+TEST(Description, IsRefusedForKeywordsAsNames) {
+  const std::string keyword = ", found the keyword 'class' of C or C++";
+  EXPECT_EQ(refusal(module_with("int class;")), "demo.gen:2: column 31: expected the name of a member" + keyword);
+  EXPECT_EQ(refusal("module class { number: 9000; };"),
+            "demo.gen:1: column 8: expected the name of a module" + keyword);
+  EXPECT_EQ(refusal(module_with("int a;", "request Go { type: control; codel_control: class; };")),
+            "demo.gen:3: column 44: expected the name of a codel" + keyword);
+  EXPECT_EQ(refusal("enum class { RED };"), "demo.gen:1: column 6: expected the name of an enum" + keyword);
+  EXPECT_EQ(refusal("enum { class };"), "demo.gen:1: column 8: expected the name of an enumerator" + keyword);
+  EXPECT_EQ(refusal(module_with("int class_, klass;")), "");
+}
+
 }  // namespace
 }  // namespace waitpoint::description
