@@ -5,6 +5,7 @@
 #include <string>
 
 #include "core/exact_math.hpp"
+#include "modules/tcl/library/guarded_commands.hpp"
 
 namespace waitpoint::tcl {
 namespace {
@@ -84,14 +85,8 @@ constexpr const char* script = R"(
   array set ::env {TZ :UTC}
   encoding system utf-8
   set ::auto_path [list $::tcl_library]
-  foreach name {exec socket fileevent pid load unload} { rename $name {} }
   foreach name {sinh cosh tanh pow} { rename ::tcl::mathfunc::$name {} }
   rename ::puts ::waitpoint::puts_to_channel
-  rename ::open ::waitpoint::open_file
-  proc ::open {name args} {
-    if {[string index $name 0] eq "|"} { error "processes are not started in virtual time" }
-    tailcall ::waitpoint::open_file $name {*}$args
-  }
 )";
 
 }  // namespace
@@ -110,6 +105,7 @@ void set_up_process(Time (*now)()) {
 void set_up_interpreter(Tcl_Interp* tcl, std::uint32_t seed) {
   Tcl_CreateNamespace(tcl, "::waitpoint", nullptr, nullptr);
   Tcl_Eval(tcl, script);
+  guard_commands(tcl);
   for (const Function& function : functions)
     Tcl_CreateObjCommand(tcl, (std::string("::tcl::mathfunc::") + function.name).c_str(), call_function,
                          const_cast<Function*>(&function), nullptr);

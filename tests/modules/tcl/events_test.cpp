@@ -4,6 +4,7 @@
 
 #include "fibers/sync/thread.hpp"
 #include "tests/modules/tcl/scripted_robot.hpp"
+#include "tests/project.hpp"
 
 namespace waitpoint::tcl {
 namespace {
@@ -81,6 +82,43 @@ TEST(Surroundings, DoNotReachAScript) {
             "{TZ :UTC} {} {} {} 1");
   EXPECT_EQ(robot.run("expr {sin(1e6) < 2 && atan2(1, 1) * 4 > 3.14159 && hypot(3, 4) == 5}").text, "1");
   EXPECT_EQ(robot.run("expr {rand()}").text, robot.run("expr {rand()}").text);
+}
+
+TEST(Surroundings, AreNotReachedByOtherWays) {
+  ScriptedRobot robot;
+  for (const char* script : {"interp create c",
+                             "interp cr",
+                             "info hostname",
+                             "::tcl::info::hostname",
+                             "file tempfile n",
+                             "file mtime /",
+                             "file stat / s",
+                             "file lstat / s",
+                             "file atime /",
+                             "chan pipe",
+                             "pwd",
+                             "cd /",
+                             "open /dev/urandom",
+                             "open /proc/self/stat",
+                             "open /proc/../proc/uptime",
+                             "source /proc/uptime",
+                             "file copy /proc/uptime copy",
+                             "set tcl_platform(osVersion)",
+                             "set tcl_platform(user)",
+                             "set env(PATH)",
+                             "timerate {}",
+                             "::tcl::unsupported::representation a"})
+    EXPECT_EQ(robot.run("catch {" + std::string(script) + "}").text, "1") << script;
+  EXPECT_EQ(robot.run("interp alias {} g {} list; g [info exists a] [file tail /a/b]").text, "0 b");
+  EXPECT_EQ(robot.run("clock format 0").text, "Thu Jan 01 00:00:00 UTC 1970");
+  robot.run("chan puts stdout said");
+  EXPECT_EQ(robot.said, std::vector<std::string>{"said"});
+}
+
+TEST(Glob, IsSorted) {
+  ScriptedRobot robot;
+  const std::string names = "[glob -directory " + (test::project_root() / "scenarios").string() + " *]";
+  EXPECT_EQ(robot.run("expr {" + names + " eq [lsort " + names + "] && [llength " + names + "] > 9}").text, "1");
 }
 
 }  // namespace
