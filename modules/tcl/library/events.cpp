@@ -113,6 +113,19 @@ bool TaskInterpreter::do_one_event(bool idle, Time limit, int& result) {
   }
 }
 
+// Those that there are now: one that asks for itself again waits for the next time, as by Tcl.
+void TaskInterpreter::do_idle_tasks(int& result) {
+  const std::uint64_t end = timers_made_;
+  while (result == TCL_OK && thrown_ == nullptr && !exited_) {
+    const auto task = std::find_if(timers_.begin(), timers_.end(),
+                                   [&](const Timer& timer) { return timer.idle && timer.number < end; });
+    if (task == timers_.end()) return;
+    const std::string script = std::move(task->script);
+    timers_.erase(task);
+    result = evaluate_callback(script);
+  }
+}
+
 int TaskInterpreter::vwait(Words words) {
   if (words.size() != 2) return usage(words, "name");
   const char* const name = Tcl_GetString(words[1]);
@@ -133,7 +146,15 @@ int TaskInterpreter::vwait(Words words) {
 
 int TaskInterpreter::update(Words words) {
   if (words.size() > 2) return usage(words, "?idletasks?");
+  constexpr const char* options[] = {"idletasks", nullptr};
+  int option = 0;
+  if (words.size() == 2 && Tcl_GetIndexFromObj(tcl_, words[1], options, "option", 0, &option) != TCL_OK)
+    return TCL_ERROR;
   int result = TCL_OK;
+  if (words.size() == 2) {
+    do_idle_tasks(result);
+    return result == TCL_OK ? succeed("") : result;
+  }
   while (result == TCL_OK && thrown_ == nullptr && !exited_ && do_one_event(true, link_.now(), result)) {
   }
   return result == TCL_OK ? succeed("") : result;

@@ -99,6 +99,7 @@ class TaskInterpreter : public Interpreter {
   int puts(Words words);
   int exit(Words words);
   bool do_one_event(bool idle, Time limit, int& result);
+  void do_idle_tasks(int& result);
   std::optional<Time> next_timer() const;
   bool may_still_happen() const;
   int evaluate_callback(const std::string& script);

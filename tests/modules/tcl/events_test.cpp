@@ -31,6 +31,16 @@ TEST(Update, RunsWhatIsDueWithoutWaiting) {
             "now");
 }
 
+TEST(Update, OfIdletasksRunsThoseThatThereAreAlone) {
+  ScriptedRobot robot;
+  EXPECT_EQ(robot
+                .run("set log {}; after idle {lappend log idle; after idle {lappend log again}}; "
+                     "after 0 {lappend log zero}; update idletasks; set log")
+                .text,
+            "idle");
+  EXPECT_EQ(robot.run("update foo").text, "bad option \"foo\": must be idletasks");
+}
+
 TEST(Vwait, IsAnErrorWhereNothingCanHappen) {
   ScriptedRobot robot;
   const Outcome outcome = robot.run("vwait never");
