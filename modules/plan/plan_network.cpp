@@ -8,6 +8,9 @@
 namespace waitpoint::plan {
 namespace {
 
+/// Of constraints that are refused or taken back, in the search of an order.
+constexpr int order_tries_max = 1000;
+
 /// The order of actions at one resource.
 class ResourceOrder {
  public:
@@ -15,28 +18,49 @@ class ResourceOrder {
       : plan_(plan), actions_(std::move(actions)), resource_(resource), network_(network) {}
 
   /// Adds constraints "end of the first to start of the second" to the network until no overlap is possible that needs
-  /// more than the capacity; false, with nothing added, if there is no such order, or none is found in time.
+  /// more than the capacity; false if there is no such order, or none is found in time.
   bool find() {
-    const std::vector<std::size_t> set = overlap();
-    if (set.empty()) return true;
-    for (const std::size_t first : set)
-      for (const std::size_t second : set) {
-        if (first == second || ++tries_ > tries_max) continue;
-        const std::size_t mark = network_.mark();
-        if (network_.add({start_of(second), end_of(first), Duration(), 0})) {
-          pairs_.emplace_back(first, second);
-          if (find()) return true;
-          pairs_.pop_back();
-        }
-        network_.roll_back(mark);
+    std::vector<Choice> choices;
+    for (std::vector<std::size_t> set = overlap(); !set.empty(); set = overlap()) {
+      choices.push_back({std::move(set), 0, network_.mark()});
+      while (!choose(choices.back())) {
+        choices.pop_back();
+        if (choices.empty() || tries_ == order_tries_max) return false;
+        ++tries_;
+        pairs_.pop_back();
+        network_.roll_back(choices.back().mark);
       }
-    return false;
+    }
+    return true;
   }
+  /// Of find(): an order may exist all the same.
+  bool gave_up() const { return tries_ == order_tries_max; }
 
   const std::vector<std::pair<std::size_t, std::size_t>>& pairs() const { return pairs_; }
 
  private:
-  static constexpr int tries_max = 1000;
+  /// Actions that may not all overlap, and the pairs of them, numbered, of which one has yet to be tried.
+  struct Choice {
+    std::vector<std::size_t> set;
+    std::size_t next_pair;
+    std::size_t mark;  ///< of the network without the choice
+  };
+
+  // Adds the next pair that the network allows; false if none is left, or after too many tries.
+  bool choose(Choice& choice) {
+    const std::size_t size = choice.set.size();
+    while (choice.next_pair < size * size && tries_ < order_tries_max) {
+      const std::size_t first = choice.set[choice.next_pair / size], second = choice.set[choice.next_pair % size];
+      ++choice.next_pair;
+      if (first == second) continue;
+      if (network_.add({start_of(second), end_of(first), Duration(), 0})) {
+        pairs_.emplace_back(first, second);
+        return true;
+      }
+      ++tries_;
+    }
+    return false;
+  }
 
   std::uint32_t amount(std::size_t action) const {
     for (const Use& use : plan_.actions[action].uses)
@@ -69,7 +93,7 @@ class ResourceOrder {
   std::size_t resource_;
   TemporalNetwork& network_;
   std::vector<std::pair<std::size_t, std::size_t>> pairs_;
-  int tries_ = 0;
+  int tries_ = 0;  // constraints that were refused, or taken back
 };
 
 }  // namespace
@@ -144,7 +168,8 @@ void PlanNetwork::add_resources(const Plan& plan, const Situation& situation) {
     ResourceOrder order(plan, users, resource, trial);
     const std::uint32_t own = label("resource " + plan.resources[resource].name, plan.resources[resource].written);
     if (!order.find()) {
-      // No order exists: a contradiction under the resource's name.
+      // A contradiction under the resource's name.
+      if (order.gave_up()) unordered_ = resource;
       network_.edges.push_back({origin, start_of(users.front()), Duration::from_ns(-1), own});
       return;
     }
@@ -175,6 +200,11 @@ PlanCheck check(const Plan& plan) {
   PlanCheck result;
   const auto look = [&](const Situation& situation, bool is_first) {
     const PlanNetwork of(plan, situation);
+    if (const std::optional<std::size_t> unordered = of.unordered()) {
+      const Resource& resource = plan.resources[*unordered];
+      throw resource.written.bad("no order of the actions at resource '" + resource.name + "' was found in " +
+                                 std::to_string(order_tries_max) + " tries, expected parts of it as 'after'");
+    }
     const Dispatcher dispatcher(of.network());
     if (!dispatcher.consistent())
       throw of.place(dispatcher.conflict())

@@ -31,6 +31,8 @@ class PlanNetwork {
   PlanNetwork(const Plan& plan, const Situation& situation);
 
   const Network& network() const { return network_; }
+  /// The resource at which the search for an order of its actions was given up: the network then contradicts itself.
+  std::optional<std::size_t> unordered() const { return unordered_; }
   /// "'the light' (line 12), 'duration of visit' (line 5)": for conflicts.
   std::string told(const std::vector<std::uint32_t>& labels) const;
   /// The place of the first of them.
@@ -46,6 +48,7 @@ class PlanNetwork {
   void add_resources(const Plan& plan, const Situation& situation);
 
   Network network_;
+  std::optional<std::size_t> unordered_;
   std::vector<Label> labels_;
 };
 

@@ -90,6 +90,26 @@ TEST(PlanReader, ActionsAreOrderedAtAResource) {
             std::string::npos);
 }
 
+// Sixty have 1770 pairs, of which none has to be taken back.
+TEST(PlanReader, ManyActionsAreOrderedAtAResource) {
+  std::string plan = "resources: [{name: base}]\nactions:\n";
+  for (int i = 0; i < 60; ++i) plan += "  - {name: a" + std::to_string(i) + ", duration_s: [1, 5], uses: {base: 1}}\n";
+  EXPECT_EQ(refusal(plan), "");
+}
+
+// Eight actions of a second each in seven seconds: a search through all orders would be needed.
+TEST(PlanReader, TellsThatTheSearchForAnOrderWasGivenUp) {
+  std::string plan = "resources: [{name: base}]\nactions:\n", constraints = "constraints:\n";
+  for (int i = 0; i < 8; ++i) {
+    const std::string name = "a" + std::to_string(i);
+    plan += "  - {name: " + name + ", duration_s: 1, uses: {base: 1}}\n";
+    constraints += "  - {from: start, to: " + name + ".end, most_s: 7}\n";
+  }
+  EXPECT_EQ(refusal(plan + constraints),
+            "plan.yaml:3: no order of the actions at resource 'base' was found in 1000 tries, expected parts of it as "
+            "'after'");
+}
+
 TEST(PlanReader, ConsistentPlanMayNotBeControllable) {
   const PlanCheck checked = check(test::plan_of(R"(
 actions:
