@@ -12,6 +12,7 @@ namespace waitpoint::plan {
 namespace {
 
 constexpr Duration full_mailbox_period = std::chrono::milliseconds(1);
+constexpr Duration settling_max = std::chrono::seconds(1);
 
 std::string text(const Condition& condition) {
   static constexpr const char* words[] = {" has been written", " is at least ", " is at most ", " is "};
@@ -121,6 +122,7 @@ void Executor::run() {
     if (order.kind == Order::Kind::wait) wait(order.until);
     publish();
   }
+  settle();
   for (const Request& request : completed() ? plan_.done : plan_.safe)
     client_.call(request.module, request.name, input(request));
 }
@@ -159,10 +161,12 @@ void Executor::start(std::size_t i) {
   sent_.push_back({i, *number});
 }
 
-// The request in place of an abort, or the abort, which waits for the activity to begin.
+// The request in place of an abort, or the abort, which waits for the activity to begin. A request that the control
+// holds back is withdrawn.
 void Executor::stop(std::size_t i) {
   const auto sent = std::find_if(sent_.begin(), sent_.end(), [i](const Sent& each) { return each.action == i; });
   const Action& action = plan_.actions[i];
+  if (sent != sent_.end() && sent->activity < 0) client_.withdraw(sent->number);
   if (action.stop) send(action.stop->module, action.stop->name, input(*action.stop));
   if (sent == sent_.end() || action.stop) return;
   sent->is_stopped = true;
@@ -181,6 +185,15 @@ void Executor::wait(Duration until) {
   until = std::min(until, now() + stop_look);
   if (const std::optional<genom::Reply> reply = client_.receive(until - now())) take(*reply);
   if (looks) check_running();
+}
+
+// Until no request is on its way, which would run after the safe state. The bound is for a module that does not reply:
+// it must not keep the robot from its safe state.
+void Executor::settle() {
+  const Duration until = now() + settling_max;
+  const auto is_on_its_way = [](const Sent& each) { return each.activity < 0; };
+  while (std::any_of(sent_.begin(), sent_.end(), is_on_its_way) && now() < until)
+    if (const std::optional<genom::Reply> reply = client_.receive(until - now())) take(*reply);
 }
 
 void Executor::take(const genom::Reply& reply) {

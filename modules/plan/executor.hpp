@@ -72,6 +72,7 @@ class Executor {
   void stop(std::size_t action);
   void wait(Duration until);
   void take(const genom::Reply& reply);
+  void settle();
   const Condition* first_false(const std::vector<Condition>& conditions) const;
   void check_running();
   void publish();

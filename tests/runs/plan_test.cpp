@@ -74,6 +74,38 @@ safe: [ndd.Stop, rflex.Stop, sick.Stop]
   EXPECT_FALSE(has(outcome.output, "end of go")) << outcome.output;
 }
 
+// The control holds the motion back until the localisation ends, and the plan with it: it does not run after that.
+TEST(Plan, RequestsThatTheControlDelaysEndWithTheirActions) {
+  const tools::Folder folder;
+  folder.write("r.ctl", R"(
+context c {
+  check k { fail: running(rflex.GotoSpeed) && running(segloc.Localise); delay: rflex.GotoSpeed for 60 s; }
+}
+)");
+  folder.write("p.yaml", R"(
+format: 1
+name: p
+setup:
+  - {request: rflex.SetPos, input: start}
+  - {request: pom.SetPos, input: start}
+  - sick.ContinuousShot
+ready: [{poster: sick.echoes}]
+actions:
+  - {name: localise, duration_s: 2, request: segloc.Localise, input: start}
+  - {name: move, duration_s: 1, request: rflex.GotoSpeed, input: {v_m_s: 0.2}}
+constraints: [{from: localise.start, to: move.start, least_s: 0.5}]
+done: [rflex.Stop]
+)");
+  const Outcome outcome = waitpoint_with({"run", "scenarios/office.yaml", "--set", "robots.rackham.goals=~", "--set",
+                                          "robots.rackham.plan=" + (folder / "p.yaml").string(), "--set",
+                                          "robots.rackham.control=" + (folder / "r.ctl").string(), "--until", "8",
+                                          "--decisions", (folder / "decisions").string()});
+  EXPECT_EQ(outcome.status, 0) << outcome.output << outcome.errors;
+  const std::string decisions = folder.read("decisions");
+  EXPECT_TRUE(has(decisions, "rflex.GotoSpeed #5 withdrawn")) << decisions;
+  EXPECT_FALSE(has(decisions, "rflex.GotoSpeed #5 accepted")) << decisions;
+}
+
 TEST(Plan, InconsistentPlanIsRefusedWithItsCycle) {
   const tools::Folder folder;
   folder.write("s.yaml",
