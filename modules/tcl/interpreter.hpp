@@ -54,6 +54,8 @@ class RobotLink {
   virtual std::vector<RequestShape> requests(const std::string& module) const = 0;
   /// Sends a request; fails for arguments that do not fit, and if the module's mailbox is full.
   virtual Answer send(const std::string& module, const std::string& request, const std::vector<Setting>& input) = 0;
+  /// A request that has not come to its module never does, and ends interrupted.
+  virtual void withdraw(std::uint32_t id) = 0;
   /// The next reply to any request; nothing after `timeout` (Duration::max(): no timeout).
   virtual std::optional<ReplyText> receive(Duration timeout) = 0;
   /// The value of the poster "<module>.<name>"; fails if there is none, or it is empty.

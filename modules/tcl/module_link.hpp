@@ -22,6 +22,7 @@ class ModuleLink : public RobotLink {
   std::vector<std::string> modules() const override;
   std::vector<RequestShape> requests(const std::string& module) const override;
   Answer send(const std::string& module, const std::string& request, const std::vector<Setting>& input) override;
+  void withdraw(std::uint32_t id) override { client_.withdraw(id); }
   std::optional<ReplyText> receive(Duration timeout) override;
   Answer read_poster(const std::string& module, const std::string& name) override;
   Time now() const override { return threads::now(); }

@@ -115,6 +115,8 @@ void TclExecutive::check_stop() const {
 
 // Ends the activities of running_, and waits for their ends.
 void TclExecutive::abort_requests() {
+  for (const auto& [number, request] : running_)
+    if (request.activity < 0) withdraw(number);
   while (!running_.empty()) {
     bool is_full = false;
     for (auto& [number, request] : running_) {

@@ -131,6 +131,7 @@ int TaskInterpreter::abort(Words words) {
   std::uint32_t id = 0;
   Sent* const sent = find_sent(words[1], id);
   if (sent == nullptr) return TCL_ERROR;
+  if (sent->activity < 0 && !sent->final) link_.withdraw(id);
   while (sent->activity < 0 && !sent->final) receive(Duration::max());
   if (sent->final) return succeed("");
   const Answer answer =

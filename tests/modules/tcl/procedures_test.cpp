@@ -19,16 +19,23 @@ class ProceduresBelowPlan : public testing::Test {
     script_.assign(std::istreambuf_iterator<char>(script), {});
   }
 
-  scenario::Scenario scenario(const std::string& procedures, const std::string& actions) const {
+  scenario::Scenario scenario(const std::string& procedures, const std::string& actions,
+                              const std::string& rules = "") const {
     const std::filesystem::path folder = testing::TempDir();
     const std::string script = folder / "procedures.tcl", plan = folder / "procedures_plan.yaml";
     std::ofstream(script) << script_ << procedures;
+    std::vector<std::string> changes = {"robots.0.executive.tcl=" + script, "robots.0.plan=" + plan, "until_s=60"};
+    if (!rules.empty()) {
+      const std::string control = folder / "procedures.ctl";
+      std::ofstream(control) << rules;
+      changes.push_back("robots.0.control=" + control);
+    }
     std::ofstream(plan) << "format: 1\nname: test\nready: [{poster: pom.position}, {poster: sick.echoes}]\n" << actions;
-    return scenario::read_scenario(shipped("laas.yaml"),
-                                   {"robots.0.executive.tcl=" + script, "robots.0.plan=" + plan, "until_s=60"});
+    return scenario::read_scenario(shipped("laas.yaml"), changes);
   }
-  bridge::RobotResult run(const std::string& procedures, const std::string& actions) const {
-    return result_of(scenario(procedures, actions)).robots.at(0);
+  bridge::RobotResult run(const std::string& procedures, const std::string& actions,
+                          const std::string& rules = "") const {
+    return result_of(scenario(procedures, actions, rules)).robots.at(0);
   }
   std::string refusal(const std::string& actions) const {
     try {
@@ -92,6 +99,19 @@ actions:
   EXPECT_EQ(log(robot), "start of go|stop of go|start of rest|end of rest|completed|");
   EXPECT_GT(robot.distance_m, 0.2);
   EXPECT_LT(robot.distance_m, 2) << "it went on after the end of the action";
+}
+
+// The control would hold the way back for longer than the plan lasts: an interrupted procedure does not wait for it.
+TEST_F(ProceduresBelowPlan, WithdrawDelayedRequestsWhenTheyAreInterrupted) {
+  const bridge::RobotResult robot = run(
+      "proc pause {ms} { after $ms }\n", R"(
+actions:
+  - {name: go, duration_s: 2, tcl: visit 20.05 9.4}
+  - {name: rest, kind: contingent, duration_s: [0, 9], tcl: pause 5000, after: go}
+)",
+      "context c { check k { fail: running(ndd.GoTo) && running(sick.ContinuousShot); delay: ndd.GoTo for 50 s; } }");
+  EXPECT_EQ(log(robot), "start of go|stop of go|start of rest|end of rest|completed|");
+  EXPECT_LT(robot.distance_m, 0.01);
 }
 
 // As in catch {}: the procedure does not go on behind its interruption, and leaves the interpreter usable.
