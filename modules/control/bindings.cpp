@@ -43,6 +43,8 @@ constexpr std::size_t no_reading = static_cast<std::size_t>(-1);
 Bindings::Bindings(const Rules& rules, const Automaton& automaton, const genom::NameSpace& names)
     : rules_(rules), automaton_(automaton) {
   for (const RequestPattern& pattern : automaton.patterns()) bind(pattern, names);
+  for (const Check& check : rules.checks)
+    for (const RequestPattern& pattern : check.interrupted) expect_activity(pattern);
   for (std::size_t v = 0; v < automaton.predicates().size(); ++v)
     if (!automaton.predicates()[v].poster.empty()) bind(v, names);
 }
@@ -67,6 +69,13 @@ void Bindings::bind(const RequestPattern& pattern, const genom::NameSpace& names
       throw bad(rules_.file, input.place,
                 "the input of " + request_name(pattern) + " has no number '" + input.path + "'");
   requests_.push_back({module, type->number});
+}
+
+void Bindings::expect_activity(const RequestPattern& pattern) const {
+  const Request& request = requests_[automaton_.index_of(pattern)];
+  if (request.module->requests()[request.number].kind == genom::RequestKind::control)
+    throw bad(rules_.file, pattern.place,
+              "expected an activity to interrupt: " + request_name(pattern) + " is a control request");
 }
 
 void Bindings::bind(std::size_t variable, const genom::NameSpace& names) {

@@ -35,6 +35,7 @@ class Bindings {
   };
 
   void bind(const RequestPattern& pattern, const genom::NameSpace& names);
+  void expect_activity(const RequestPattern& pattern) const;
   void bind(std::size_t variable, const genom::NameSpace& names);
 
   const Rules& rules_;

@@ -6,6 +6,7 @@
 
 #include "core/nearest_name.hpp"
 #include "modules/control/lexer.hpp"
+#include "modules/control/predicate.hpp"
 
 namespace waitpoint::control {
 namespace {
@@ -69,11 +70,14 @@ class Parser {
   Rules rules() {
     Rules rules;
     rules.file = file_;
+    bool has_cost = false, has_period = false;
     for (bool is_setting = true; is_setting;) {
       is_setting = false;
       for (auto [word, value] : {std::pair("cost", &rules.cost), std::pair("period", &rules.period)}) {
         const Place place = token_.place;
         if (!accept(word)) continue;
+        if (std::exchange(value == &rules.cost ? has_cost : has_period, true))
+          throw bad(file_, place, "expected one " + std::string(word) + " in a file");
         *value = time();
         if (value == &rules.period && *value <= Duration()) throw bad(file_, place, "expected a period above 0");
         expect(";");
@@ -177,6 +181,9 @@ class Parser {
     std::vector<Expression> pairs;
     for (std::size_t i = 0; i < patterns.size(); ++i) {
       for (std::size_t j = 0; j < i; ++j) {
+        if (is_one_of_both(patterns[j], patterns[i]))
+          throw bad(file_, patterns[i].place,
+                    "expected requests that exclude each other: one " + request_name(patterns[i]) + " can be both");
         count_operand();
         std::vector<Expression> two;
         two.push_back(running(patterns[j]));

@@ -69,6 +69,12 @@ bool is_same_request(const RequestPattern& a, const RequestPattern& b) {
   return a.module == b.module && a.request == b.request;
 }
 
+bool is_one_of_both(const RequestPattern& a, const RequestPattern& b) {
+  RequestPattern both = a;
+  both.inputs.insert(both.inputs.end(), b.inputs.begin(), b.inputs.end());
+  return is_same_request(a, b) && !is_empty(both);
+}
+
 std::string request_name(const RequestPattern& pattern) { return pattern.module + "." + pattern.request; }
 
 }  // namespace waitpoint::control

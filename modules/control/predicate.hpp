@@ -39,6 +39,8 @@ bool implies(const RequestPattern& a, const RequestPattern& b);
 /// True if no input meets the pattern.
 bool is_empty(const RequestPattern& pattern);
 bool is_same_request(const RequestPattern& a, const RequestPattern& b);
+/// True if one request can meet both patterns.
+bool is_one_of_both(const RequestPattern& a, const RequestPattern& b);
 
 /// "ndd.GoTo"
 std::string request_name(const RequestPattern& pattern);

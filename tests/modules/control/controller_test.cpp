@@ -360,6 +360,8 @@ TEST(Controller, RefusesNamesThatTheRobotDoesNotHave) {
             "r.ctl:1: column 44: poster 'm.level' has no number 'height'");
   EXPECT_EQ(refusal_of("check k { fail: running(m.Abort); }"),
             "r.ctl:1: column 36: expected a request other than Abort, which is always accepted");
+  EXPECT_EQ(refusal_of("check k { exclusive: m.A, m.Set; interrupt: m.Set within 1 s; }"),
+            "r.ctl:1: column 56: expected an activity to interrupt: m.Set is a control request");
   EXPECT_EQ(refusal_of("check k { fail: running(m.A); }"),
             "r.ctl:1: column 18: check c.k: no m.A can ever be accepted");
 }
