@@ -7,6 +7,9 @@
 #include "modules/control/contradictions.hpp"
 
 namespace waitpoint::control {
+namespace {
+constexpr Duration full_mailbox_period = std::chrono::milliseconds(1);
+}
 
 Controller::Controller(Rules rules, genom::NameSpace& names, const genom::TaskComputing& computing)
     : rules_(std::move(rules)),
@@ -63,6 +66,7 @@ void Controller::wait() {
   Time until = bindings_.has_posters() ? next_look_ : Time::max();
   for (const Delayed& delayed : delayed_) until = std::min(until, delayed.until);
   if (const std::optional<Time> change = requests_.next_change(now_)) until = std::min(until, *change);
+  if (!letters_.empty()) until = std::min(until, now_ + full_mailbox_period);
   if (until == Time::max()) return mailbox_.event().acquire();
   const Duration left = until - threads::now();
   if (left > Duration()) (void)mailbox_.event().try_acquire_for(std::chrono::nanoseconds(left.ns()));
@@ -304,6 +308,7 @@ void Controller::decide(Verdict verdict, const ControlledRequest* request, std::
 }
 
 // A full mailbox of a module rejects the request as a system error; that of a client loses the reply, as in GenoM.
+// An abort, to which nobody replies, is tried again.
 void Controller::send() {
   for (auto& [decision, text] : decisions_) {
     decision.date = threads::now();
@@ -311,8 +316,11 @@ void Controller::send() {
     if (watch_ != nullptr) watch_->on(decision, text);
   }
   decisions_.clear();
+  std::vector<std::pair<genom::Mailbox*, genom::Letter>> aborts;
   for (auto& [mailbox, letter] : letters_) {
-    if (mailbox == nullptr || mailbox->post(letter) || letter.reply_to != &mailbox_) continue;
+    if (mailbox == nullptr || mailbox->post(letter)) continue;
+    if (letter.kind == genom::LetterKind::request && letter.reply_to == nullptr) aborts.emplace_back(mailbox, letter);
+    if (letter.reply_to != &mailbox_) continue;
     genom::Letter reply;
     reply.kind = genom::LetterKind::final_reply;
     reply.request = letter.request;
@@ -320,7 +328,7 @@ void Controller::send() {
     reply.report = requests_.find(letter.send_id)->module->report(genom::StandardReport::system_error);
     (void)mailbox_.post(reply);
   }
-  letters_.clear();
+  letters_ = std::move(aborts);
 }
 
 }  // namespace waitpoint::control

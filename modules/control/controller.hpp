@@ -103,7 +103,7 @@ class Controller : private genom::RequestGate {
   Time now_, next_look_;
   bool again_ = false;               // a delayed request may be acceptable now
   std::vector<bool> is_unresolved_;  // by check: told so
-  // Of this step, after its cost.
+  // Of this step, after its cost; aborts of an earlier one that found a full mailbox.
   std::vector<std::pair<genom::Mailbox*, genom::Letter>> letters_;
   std::vector<std::pair<Decision, std::string>> decisions_;
 };

@@ -197,6 +197,23 @@ TEST(Controller, InterruptsTheActivityThatGivesWay) {
   });
 }
 
+// The controller's step is due before the module takes the letters that fill its mailbox.
+TEST(Controller, InterruptsAnActivityOfAModuleWhoseMailboxWasFull) {
+  ControlledRobot robot("check k { exclusive: m.A, m.B; interrupt: m.A within 1 s; }");
+  robot.run([&] {
+    robot.send("A");
+    EXPECT_EQ(robot.next(), "1 began ok");
+    robot.send("B", 1);
+    genom::Letter letter;
+    letter.request = robot.module.find_request("Set")->number;
+    letter.payload = genom::Payload(Number{1});
+    while (robot.module.mailbox().post(letter)) {
+    }
+    EXPECT_EQ(robot.next(), "1 final ACTIVITY_INTERRUPTED");
+    EXPECT_EQ(robot.next(), "2 began ok");
+  });
+}
+
 TEST(Controller, InterruptsWhatAPosterForbids) {
   ControlledRobot robot("check k { fail: running(m.A) && m.level.value > 5; }", "period 20 ms;");
   robot.run([&] {
