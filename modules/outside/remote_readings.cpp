@@ -51,7 +51,7 @@ class Values {
 
 }  // namespace
 
-void RemoteReadings::take(std::string_view line, const std::vector<std::string>& lasers,
+void RemoteReadings::take(std::string_view line, const scenario::RobotScenario& robot,
                           const scenario::Location& written) {
   const std::string word = scenario::take_word(line, written);
   if (word == "step") ++steps;
@@ -77,6 +77,7 @@ void RemoteReadings::take(std::string_view line, const std::vector<std::string>&
     values.read("travelled_m", body.travelled_m);
     values.read("collisions", body.collisions);
   } else {
+    const std::vector<std::string>& lasers = robot.laser_names;
     const auto laser = std::find(lasers.begin(), lasers.end(), values.text("laser"));
     if (laser == lasers.end()) throw written.bad("there is no laser '" + std::string(values.text("laser")) + "'");
     world::LaserScan scan;
@@ -84,7 +85,11 @@ void RemoteReadings::take(std::string_view line, const std::vector<std::string>&
     values.read("angle_step_rad", scan.angle_step_rad);
     values.read("range_max_m", scan.range_max_m);
     scan.range_m = values.list("range_m");
-    scans[static_cast<std::size_t>(laser - lasers.begin())] = std::move(scan);
+    const auto index = static_cast<std::size_t>(laser - lasers.begin());
+    if (const std::size_t beams = robot.body.lasers[index].beams; scan.range_m.size() != beams)
+      throw written.bad("expected range_m with the " + std::to_string(beams) + " ranges of laser '" + *laser +
+                        "', found " + std::to_string(scan.range_m.size()));
+    scans[index] = std::move(scan);
   }
 }
 

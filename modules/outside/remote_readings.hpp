@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "modules/scenario/location.hpp"
+#include "modules/scenario/scenario.hpp"
 #include "world/world.hpp"
 
 namespace waitpoint::outside {
@@ -20,9 +21,9 @@ struct RemoteReadings {
   std::vector<std::optional<world::LaserScan>> scans;  ///< by laser
   std::uint64_t steps = 0;                             ///< that have come
 
-  /// Takes one line of the server; `lasers` are the names of the robot's. Other lines than readings are ignored. Throws
-  /// BadInput at `written` for a malformed one.
-  void take(std::string_view line, const std::vector<std::string>& lasers, const scenario::Location& written);
+  /// Takes one line of the server of `robot`. Other lines than readings are ignored. Throws BadInput at `written` for a
+  /// malformed one, such as a scan with other beams than the scenario's laser has.
+  void take(std::string_view line, const scenario::RobotScenario& robot, const scenario::Location& written);
 };
 
 }  // namespace waitpoint::outside

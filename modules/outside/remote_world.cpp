@@ -103,7 +103,7 @@ bool RemoteWorld::read(Attached& robot) const {
   try {
     while (lines.take(line)) {
       if (line.starts_with("refused: ")) throw BadInput("the world's server", line);
-      robot.readings.take(line, robot.scenario.laser_names, {"the world's server", lines.lines()});
+      robot.readings.take(line, robot.scenario, {"the world's server", lines.lines()});
     }
     if (lines.is_over()) throw BadInput("the world's server", "ended the connection of '" + robot.scenario.name + "'");
   } catch (const BadInput& error) {

@@ -2,6 +2,7 @@
 """Software in other processes drives robots in the world of a run, and its journal repeats it: served_world_test.py BUILD."""
 
 import re
+import socket
 import subprocess
 import unittest
 
@@ -80,6 +81,26 @@ class ServedWorld(External):
         self.assertIn("'rackham' is driven by its modules in this run", refused("--world", world))
         self.assertIn("--world: expected a world with step_s=0.005", refused("--world", world, "--set", "world.step_ms=5"))
         self.assertEqual(run.end(), 0, run.told())
+
+    @unittest.skipUnless(NATIVE.exists(), "the build has no native library")
+    def test_native_modules_end_at_a_scan_with_other_beams_than_the_lasers(self):
+        with socket.socket(socket.AF_UNIX) as server:
+            server.bind(str(self.path))
+            server.listen()
+            server.settimeout(PATIENCE_S)
+            native = subprocess.Popen([NATIVE, "run", MIXED, "--world", f"unix:{self.path}", "--until", str(PATIENCE_S)],
+                                      stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+            self.addCleanup(native.kill)
+            client, _ = server.accept()
+            with client:
+                ranges = ",".join(["1"] * 5000)
+                client.sendall(f"waitpoint world 1 mixed step_s=0.01\nattached rackham\n"
+                               f"scan laser=laser number=1 first_angle_rad=0 angle_step_rad=0.1 range_max_m=8 range_m={ranges}\n"
+                               "step 0.01\n".encode())
+                client.shutdown(socket.SHUT_WR)
+                _, errors = native.communicate(timeout=PATIENCE_S)
+        self.assertEqual(native.returncode, 1, errors)
+        self.assertRegex(errors, r"^waitpoint: the world's server:3: expected range_m with the \d+ ranges of laser 'laser', found 5000\n$")
 
     def test_what_it_lacks_is_refused_and_told_once(self):
         run, client = self.serve(robots=("ada",))
