@@ -72,8 +72,11 @@ void Executor::connect(Request& request) {
     throw request.written.bad("expected a request to a module of this robot, which has none called '" + request.module +
                               "'" + did_you_mean(request.module, known));
   }
-  for (const genom::RequestType& type : module->requests()) known.emplace_back(type.name);
-  if (module->find_request(request.name) == nullptr)
+  // Abort is a request of every module, and no procedure.
+  const auto is_offered = [&](const std::string& name) { return !request.is_to_script() || name != "Abort"; };
+  for (const genom::RequestType& type : module->requests())
+    if (is_offered(type.name)) known.emplace_back(type.name);
+  if (module->find_request(request.name) == nullptr || !is_offered(request.name))
     throw request.written.bad((request.is_to_script() ? "the script has no procedure '"
                                                       : "module '" + request.module + "' has no request '") +
                               request.name + "'" + did_you_mean(request.name, known));

@@ -76,6 +76,7 @@ inline Answer RobotLink::carry_out(const std::string&, const std::vector<std::st
 /// The end of a script: its result, or its error with the innermost known place.
 struct Outcome {
   bool ok = true;
+  bool exited = false;  ///< by the command `exit`
   std::string text;
   int line = 0;       ///< of the script; 0: unknown
   std::string trace;  ///< the levels of the script, innermost first, a line each
@@ -105,7 +106,7 @@ struct Procedure {
 /// The library, loaded.
 struct Library {
   static constexpr const char* file = "libwaitpoint-tcl.so";
-  static constexpr const char* symbol = "waitpoint_tcl_library_2";  ///< with the version of this struct
+  static constexpr const char* symbol = "waitpoint_tcl_library_3";  ///< with the version of this struct
 
   /// Makes an interpreter, in a task that destroys it again. `seed` is that of rand(), `now` the clock of the running
   /// task.

@@ -92,7 +92,8 @@ void TclExecutive::serve(Interpreter& interpreter) {
     try {
       const Outcome outcome = interpreter.evaluate(*command);
       if (!outcome.ok) say(error_of(setup_.script.file, outcome));
-      procedures_->end(outcome.ok);
+      if (outcome.exited) say(setup_.script.file + ": exit, in place of a procedure's end, in: " + *command);
+      procedures_->end(outcome.ok && !outcome.exited);
     } catch (const Interrupted&) {
       abort_requests();
       procedures_->end(false);

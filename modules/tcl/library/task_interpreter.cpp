@@ -136,6 +136,7 @@ Outcome TaskInterpreter::outcome(int result) {
   Outcome outcome;
   const bool has_exited = std::exchange(exited_, false);
   if (has_exited || result == TCL_OK || result == TCL_RETURN) {
+    outcome.exited = has_exited;
     outcome.text = has_exited ? "" : Tcl_GetStringResult(tcl_);
     return outcome;
   }
@@ -149,6 +150,6 @@ Outcome TaskInterpreter::outcome(int result) {
 
 }  // namespace waitpoint::tcl
 
-extern "C" [[gnu::visibility("default")]] const waitpoint::tcl::Library waitpoint_tcl_library_2 = {
+extern "C" [[gnu::visibility("default")]] const waitpoint::tcl::Library waitpoint_tcl_library_3 = {
     waitpoint::tcl::make, waitpoint::tcl::check, waitpoint::tcl::procedures_of, waitpoint::tcl::check_call,
     waitpoint::tcl::is_complete};

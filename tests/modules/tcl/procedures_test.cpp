@@ -89,6 +89,19 @@ alternatives: [{name: way, branches: [[a], [b]]}]
             "start of a|failed: a: report own report 100|alternative 'way', branch 2|start of b|end of b|completed|");
 }
 
+TEST_F(ProceduresBelowPlan, WithAnExitFailTheirActions) {
+  const bridge::RobotResult robot = run("proc leave {} { exit }\nproc pause {ms} { after $ms }\n", R"(
+actions:
+  - {name: a, kind: contingent, duration_s: [0, 3], tcl: leave}
+  - {name: b, kind: contingent, duration_s: [0, 3], tcl: 'pause [exit]'}
+  - {name: c, kind: contingent, duration_s: [0, 3], tcl: pause 500}
+alternatives: [{name: way, branches: [[a], [b], [c]]}]
+)");
+  EXPECT_EQ(log(robot),
+            "start of a|failed: a: report own report 100|alternative 'way', branch 2|start of b|failed: b: report own "
+            "report 100|alternative 'way', branch 3|start of c|end of c|completed|");
+}
+
 // The end of the action aborts the procedure, and the way that it drives.
 TEST_F(ProceduresBelowPlan, AreInterruptedWithTheirRequests) {
   const bridge::RobotResult robot = run("proc pause {ms} { after $ms }\n", R"(
@@ -133,6 +146,7 @@ TEST_F(ProceduresBelowPlan, OfBadCallsAreBadInput) {
   const std::string place = "procedures_plan.yaml:4: ";
   EXPECT_EQ(refusal("actions: [{name: a, tcl: vist 1 2}]"),
             place + "the script has no procedure 'vist', did you mean 'visit'?");
+  EXPECT_EQ(refusal("actions: [{name: a, tcl: Abort 1}]"), place + "the script has no procedure 'Abort'");
   EXPECT_EQ(refusal("actions: [{name: a, tcl: visit 1}]"), place + "wrong # args: should be \"visit x y\"");
   EXPECT_EQ(refusal("actions: [{name: a, tcl: 'visit {1 2'}]"), place + "expected a closing brace for this one");
   EXPECT_EQ(refusal("actions: [{name: a, tcl: halt ; halt}]"), place + "expected one command, found 'halt ; halt'");
