@@ -57,8 +57,8 @@ struct Agenda {
   }
   /// Places it at the present instant; in the first-in-first-out order, for a phase of the present queue.
   void place_present(Task& task) {
-    const std::uint64_t tie = chooser.tie_of_next(task);
-    if (__builtin_expect(!present.try_add(task, tie), 0)) events.insert(task.event, {now, make_order(task.phase, tie)});
+    const std::uint64_t order = make_order(task.phase, chooser.tie_of_next(task));
+    if (__builtin_expect(!present.try_add(task, order), 0)) events.insert(task.event, {now, order});
   }
   /// Places the timeout of a blocked task, which is mostly removed before it is due.
   void place_timeout(Task& task, Time time) {

@@ -25,21 +25,21 @@ class PresentQueue {
   /// The first task, linked to the others by Task::next_waiter; null if the queue is empty.
   const Task* first() const { return first_; }
   /// The first event's place at its instant; the queue must not be empty.
-  std::uint64_t order() const { return make_order(first_->phase, first_->queue_tie); }
+  std::uint64_t order() const { return first_->queue_order; }
 
-  /// `task` must be of such a phase, and neither here nor in the event list. False, with nothing changed, if its place
-  /// is far from both ends.
-  [[nodiscard]] bool try_add(Task& task, std::uint64_t tie) {
+  /// `task` must be of such a phase, and neither here nor in the event list; `order` is its event's place. False, with
+  /// nothing changed, if that is far from both ends.
+  [[nodiscard]] bool try_add(Task& task, std::uint64_t order) {
     WAITPOINT_CHECK(!task.event.in_list(), "a task becomes ready twice");
     if (__builtin_expect(first_ == nullptr, 1))
       first_ = &task;
-    else if (__builtin_expect(last_->phase == task.phase && last_->queue_tie < tie, 1))
+    else if (__builtin_expect(last_->queue_order < order, 1))
       last_->next_waiter = &task;
     else
-      return try_add_near_head(task, tie);
+      return try_add_near_head(task, order);
     task.next_waiter = nullptr;
     last_ = &task;
-    note_added(task, tie);
+    note_added(task, order);
     return true;
   }
   /// Takes out the first task; the queue must not be empty.
@@ -66,22 +66,21 @@ class PresentQueue {
  private:
   static constexpr int reach = 16;  // greatest number of events that an insertion near the head passes
 
-  [[gnu::noinline]] bool try_add_near_head(Task& task, std::uint64_t tie) {
-    const std::uint64_t order = make_order(task.phase, tie);
+  [[gnu::noinline]] bool try_add_near_head(Task& task, std::uint64_t order) {
     Task** link = &first_;
-    for (int passed = 0; *link != nullptr && make_order((*link)->phase, (*link)->queue_tie) < order; ++passed) {
+    for (int passed = 0; *link != nullptr && (*link)->queue_order < order; ++passed) {
       if (passed == reach) return false;
       link = &(*link)->next_waiter;
     }
     if (*link == nullptr) last_ = &task;
     task.next_waiter = *link;
     *link = &task;
-    note_added(task, tie);
+    note_added(task, order);
     return true;
   }
-  void note_added(Task& task, std::uint64_t tie) {
+  void note_added(Task& task, std::uint64_t order) {
     task.event.place = EventNode::ready;
-    task.queue_tie = tie;
+    task.queue_order = order;
     ++size_;
   }
 

@@ -134,7 +134,7 @@ struct Task {
   std::uint32_t working_set_size = 0;
   Task* next_waiter = nullptr;  // or the next in the present queue (present_queue.hpp)
   Task* previous_waiter = nullptr;
-  std::uint64_t queue_tie = 0;  // the tie of its event in that queue
+  std::uint64_t queue_order = 0;  // the place of its event at the instant of that queue
   Scheduler* scheduler = nullptr;
   Task* next = nullptr;  // intrusive list of the run's tasks, in the order of their making
   Task* previous = nullptr;
