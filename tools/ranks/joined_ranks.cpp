@@ -11,18 +11,18 @@
 #include "tools/command/installed_part.hpp"
 #include "tools/command/interruption.hpp"
 #include "tools/output/progress.hpp"
+#include "tools/ranks/launcher.hpp"
 
 namespace waitpoint::tools {
 namespace {
 
 constexpr const char* library = "libwaitpoint-mpi.so";
-constexpr const char* packages = "install openmpi-bin and libopenmpi-dev, and build waitpoint again";
 
 std::string library_path() {
   try {
     return find_part(library).string();
   } catch (const BadInput&) {
-    throw BadInput("--ranks", std::string("ranks are not in this program: ") + packages);
+    throw BadInput("--ranks", std::string("ranks are not in this program: ") + ranks_remedy);
   }
 }
 

@@ -126,10 +126,7 @@ bool is_rank() {
 
 int run_ranks(int ranks, std::span<const std::string> arguments) {
   const std::string mpirun = find_program("mpirun").string();
-  if (mpirun.empty())
-    throw BadInput("--ranks",
-                   "there is no program 'mpirun': install openmpi-bin and libopenmpi-dev, and build "
-                   "waitpoint again");
+  if (mpirun.empty()) throw BadInput("--ranks", std::string("there is no program 'mpirun': ") + ranks_remedy);
   const std::vector<std::string> words = command_of(mpirun, ranks, arguments);
   Door door;
   sigset_t heeded, before;
