@@ -68,9 +68,7 @@ FieldOutcome read_number(const T& value, std::string_view path, double& number) 
       if (field == name) outcome = read_number(member, rest, number);
     });
     return outcome;
-  } else if constexpr (std::is_same_v<T, Time>) {
-    return internal::found(static_cast<double>(value.ns()) / 1e9, path, number);
-  } else if constexpr (std::is_same_v<T, Duration>) {
+  } else if constexpr (std::is_same_v<T, Time> || std::is_same_v<T, Duration>) {
     return internal::found(static_cast<double>(value.ns()) / 1e9, path, number);
   } else if constexpr (std::is_same_v<T, Point> || std::is_same_v<T, Pose>) {
     if (path == "x") return internal::found(value.x, {}, number);

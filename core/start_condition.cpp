@@ -10,12 +10,13 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
 #include <string_view>
 #include <vector>
+
+#include "core/number_text.hpp"
 
 namespace waitpoint {
 namespace {
@@ -83,10 +84,8 @@ bool parse(const std::string& text, StartCondition& condition) {
   if (text.empty()) return false;
   if (text.starts_with(of_port)) {
     condition.kind = StartCondition::Kind::port;
-    const char* const begin = text.data() + of_port.size();
-    const char* const end = text.data() + text.size();
-    const auto [behind, error] = std::from_chars(begin, end, condition.port);
-    return error == std::errc() && behind == end && condition.port > 0 && condition.port < 65536;
+    return parse_number(std::string_view(text).substr(of_port.size()), condition.port) && condition.port > 0 &&
+           condition.port < 65536;
   }
   condition.of = text;
   if (text.find('/') != std::string::npos) {

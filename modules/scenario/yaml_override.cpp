@@ -2,11 +2,11 @@
 #include "modules/scenario/yaml_override.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <map>
 #include <vector>
 
 #include "core/nearest_name.hpp"
+#include "core/number_text.hpp"
 
 namespace waitpoint::scenario {
 namespace {
@@ -35,8 +35,7 @@ std::vector<std::string> split_path(const std::string& path) {
 
 YamlNode& element(YamlNode& list, const std::string& step, const Location& option) {
   std::size_t index = 0;
-  const auto [end, error] = std::from_chars(step.data(), step.data() + step.size(), index);
-  if (error == std::errc() && end == step.data() + step.size()) {
+  if (parse_number(step, index)) {
     if (index < list.items.size()) return list.items[index];
     throw option.bad("there is no element " + step + ": the list has " + std::to_string(list.items.size()) +
                      ", counted from 0");
