@@ -63,6 +63,7 @@ std::vector<std::string> command_of(const std::string& mpirun, int ranks, std::s
   // Its library prints an error of its own for each process that is killed.
   setenv("PMIX_OUTPUT_REDIRECT", "syslog", 0);
   std::vector<char*> pointers;
+  pointers.reserve(words.size() + 1);
   for (const std::string& word : words) pointers.push_back(const_cast<char*>(word.c_str()));
   pointers.push_back(nullptr);
   execv(pointers.front(), pointers.data());
