@@ -6,9 +6,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <string_view>
 #include <vector>
 
+#include "core/confinement.hpp"
 #include "core/error.hpp"
 #include "core/file_contents.hpp"
 #include "core/nearest_name.hpp"
@@ -22,7 +24,7 @@ namespace {
 enum class Mode { trinary, scale, raw };
 
 struct MapFile {
-  std::string image;
+  std::string image;  // its path
   double resolution_m = 0;
   Pose origin;
   bool negate = false;
@@ -35,14 +37,15 @@ constexpr std::array<std::string_view, 7> known_keys = {"image",           "reso
 
 class MapFileReader {
  public:
-  MapFileReader(const std::string& contents, const std::string& file) : contents_(contents), file_(file) {}
+  MapFileReader(const std::string& contents, const std::string& file, LeftOut& left_out)
+      : contents_(contents), file_(file), left_out_(left_out) {}
 
   MapFile read() {
     const YAML::Node root = load();
     if (!root.IsMap()) fail(root, "expected a map's keys: image, resolution, origin, ...");
     check_keys(root);
     MapFile map;
-    map.image = text(required(root, "image"), "image");
+    map.image = image_file(required(root, "image"));
     map.resolution_m = number(required(root, "resolution"), "resolution");
     if (!(map.resolution_m >= 1e-4 && map.resolution_m <= 1e3))
       fail(root["resolution"], "resolution: expected metres a pixel, from 0.0001 to 1000");
@@ -51,7 +54,8 @@ class MapFileReader {
     if (root["occupied_thresh"]) map.occupied_threshold = threshold(root, "occupied_thresh");
     if (root["free_thresh"]) map.free_threshold = threshold(root, "free_thresh");
     if (map.free_threshold > map.occupied_threshold) {
-      fail(root[root["free_thresh"] ? "free_thresh" : "occupied_thresh"], "expected free_thresh <= occupied_thresh");
+      tell(root[root["free_thresh"] ? "free_thresh" : "occupied_thresh"], "'free_thresh' above 'occupied_thresh'",
+           "leaves no cell unknown");
     }
     if (root["mode"]) map.mode = mode(root["mode"]);
     return map;
@@ -59,8 +63,12 @@ class MapFileReader {
 
  private:
   [[noreturn]] void fail(const YAML::Node& at, const std::string& message) const {
-    throw BadInput(file_, std::max(at.Mark().line + 1, 1), message);
+    throw BadInput(file_, line_of(at), message);
   }
+  void tell(const YAML::Node& at, const std::string& what, const std::string& consequence) const {
+    left_out_.add(file_, line_of(at), what, consequence);
+  }
+  static int line_of(const YAML::Node& at) { return std::max(at.Mark().line + 1, 1); }
 
   YAML::Node load() const {
     if (contents_.size() > yaml_bytes_max) {
@@ -79,7 +87,8 @@ class MapFileReader {
     for (const auto& entry : root) {
       const std::string key = text(entry.first, "a key");
       if (std::find(known_keys.begin(), known_keys.end(), key) == known_keys.end()) {
-        fail(entry.first, "unknown key '" + key + "'" + did_you_mean(key, known_keys));
+        tell(entry.first, "the key '" + key + "'", "is left out" + did_you_mean(key, known_keys));
+        continue;
       }
       if (std::find(seen.begin(), seen.end(), key) != seen.end())
         fail(entry.first, "the key '" + key + "' comes twice");
@@ -134,8 +143,21 @@ class MapFileReader {
     fail(node, "mode: expected trinary, scale or raw");
   }
 
+  // The image; one that is not there, as after a move of the map from another machine, is sought beside the file.
+  std::string image_file(const YAML::Node& named) const {
+    namespace fs = std::filesystem;
+    const std::string given = text(named, "image"), file = beside(file_, given);
+    std::error_code error;
+    const auto is_there = [&](const std::string& path) { return Confinement::allows(path) && fs::exists(path, error); };
+    const std::string near = beside(file_, fs::path(given).filename().string());
+    if (is_there(file) || near == file || !is_there(near)) return file;
+    tell(named, "'" + given + "', which is not there,", "is read from beside the map");
+    return near;
+  }
+
   const std::string& contents_;
   const std::string& file_;
+  LeftOut& left_out_;
 };
 
 Cell cell_of(const MapFile& map, int grey) {
@@ -149,12 +171,13 @@ Cell cell_of(const MapFile& map, int grey) {
 }  // namespace
 
 OccupancyGrid read_map_server_map(const std::string& yaml_file) {
-  return parse_map_server_map(file_contents(yaml_file, "a map_server YAML file", yaml_bytes_max), yaml_file);
+  LeftOut left_out;
+  return parse_map_server_map(file_contents(yaml_file, "a map_server YAML file", yaml_bytes_max), yaml_file, left_out);
 }
 
-OccupancyGrid parse_map_server_map(const std::string& contents, const std::string& yaml_file) {
-  const MapFile map = MapFileReader(contents, yaml_file).read();
-  const GreyImage image = read_grey_image(beside(yaml_file, map.image));
+OccupancyGrid parse_map_server_map(const std::string& contents, const std::string& yaml_file, LeftOut& left_out) {
+  const MapFile map = MapFileReader(contents, yaml_file, left_out).read();
+  const GreyImage image = read_grey_image(map.image);
   std::array<Cell, 256> cells;
   for (int grey = 0; grey < 256; ++grey) cells[static_cast<std::size_t>(grey)] = cell_of(map, grey);
   OccupancyGrid grid(image.width, image.height, map.resolution_m, map.origin);

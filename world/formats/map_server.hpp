@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Maps of ROS's map_server: a YAML file that names an image and defines the meaning of its grey values.
 //
-//   image            PGM or PNG, relative to the YAML file             (required)
+//   image            PGM or PNG, relative to the YAML file; if it is
+//                    not there, the file of its name beside it         (required)
 //   resolution       metres a pixel                                    (required)
 //   origin           [x, y, yaw] of the image's lower left corner      (required)
 //   negate           0: dark is occupied (default), 1: light is
@@ -17,13 +18,15 @@
 #include <string>
 
 #include "core/occupancy_grid.hpp"
+#include "world/formats/left_out.hpp"
 
 namespace waitpoint::world {
 
-/// Reads the map described by `yaml_file`. BadInput, naming the file and line, for a missing or malformed file, an
-/// unknown, duplicate or missing key, a value out of range; and naming the image for an unusable image.
+/// Reads the contents of such a file; `yaml_file` is its name, for messages and the path of the image. Other keys are
+/// left out. BadInput, naming the file and line, for a malformed file, a duplicate or missing key, a value out of
+/// range; and naming the image for an unusable image.
+OccupancyGrid parse_map_server_map(const std::string& contents, const std::string& yaml_file, LeftOut& left_out);
+/// Reads the file of that name, without its warnings.
 OccupancyGrid read_map_server_map(const std::string& yaml_file);
-/// Reads the contents of such a file; `yaml_file` is its name, for messages and the path of the image.
-OccupancyGrid parse_map_server_map(const std::string& contents, const std::string& yaml_file);
 
 }  // namespace waitpoint::world

@@ -63,7 +63,7 @@ WorldFile read_world_file(const std::string& file, double height_m) {
   switch (*format) {
     case WorldFormat::segments: world.obstacles = parse_segments(contents, file, height_m, left_out); break;
     case WorldFormat::map_server:
-      world.grid = parse_map_server_map(contents, file);
+      world.grid = parse_map_server_map(contents, file, left_out);
       world.obstacles = obstacles_of(*world.grid, "map", 0, height_m, file);
       break;
     case WorldFormat::sdf: {
