@@ -12,6 +12,7 @@
 
 #include "core/confinement.hpp"
 #include "core/error.hpp"
+#include "core/exact_math.hpp"
 #include "world/formats/beside.hpp"
 #include "world/formats/included_files.hpp"
 #include "world/formats/limits.hpp"
@@ -176,7 +177,7 @@ class SdfReader {
     }
     const std::string uri = xml_->text(xml_->required(mesh, "uri")), file = found_file(uri);
     std::error_code error;
-    if (!std::filesystem::is_regular_file(file, error)) {
+    if (file.empty() || !std::filesystem::is_regular_file(file, error)) {
       return tell(mesh, "the <mesh> '" + uri + "'", "is left out: there is no such file");
     }
     if (!reads_meshes_like(file)) {
@@ -243,12 +244,13 @@ class SdfReader {
     included_.leave();
   }
 
-  // The file of a URI, or the model of a folder; empty for a model:// that is not found.
+  // The file of a URI, or the model of a folder; empty for a model:// that is not found, and for other schemes.
   std::string found_file(const std::string& uri) const {
     namespace fs = std::filesystem;
     std::error_code error;
     constexpr std::string_view file_scheme = "file://";
     if (!uri.starts_with(model_scheme)) {
+      if (uri.find("://") != uri.npos && !uri.starts_with(file_scheme)) return "";
       const std::string path = uri.starts_with(file_scheme) ? uri.substr(file_scheme.size()) : uri;
       const std::string file = beside(xml_->file(), path);
       Confinement::require_allowed(file);
@@ -264,15 +266,18 @@ class SdfReader {
     return "";
   }
 
-  // The file of an <include>'s <uri>; empty for a model that may be missing.
+  // The file of an <include>'s <uri>; empty, with a warning, for one that is not on this machine.
   std::string included_file(const Element& element) {
     const std::string uri = xml_->text(element);
-    if (std::string file = found_file(uri); !file.empty()) return file;
-    const std::string model = uri.substr(model_scheme.size());
-    if (model != "sun" && model != "ground_plane") {
-      xml_->fail(element, "there is no '" + uri + "': expected it beside the file, in 'models' or in '../models'");
+    std::string file = found_file(uri);
+    if (!file.empty()) return file;
+    if (uri == "model://sun" || uri == "model://ground_plane") {
+      tell(element, "'" + uri + "'", "is left out");
+    } else if (uri.starts_with(model_scheme)) {
+      tell(element, "'" + uri + "'", "is left out: it is not beside the file, in 'models' or in '../models'");
+    } else {
+      tell(element, "'" + uri + "'", "is left out: only files are read");
     }
-    tell(element, "'" + uri + "'", "is left out");
     return "";
   }
 
@@ -287,13 +292,11 @@ class SdfReader {
       tell(*element, "an element with a <pose> in a named frame", "is left out");
       return false;
     }
-    if (const char* degrees = element->Attribute("degrees");
-        degrees != nullptr && std::string_view(degrees) == "true") {
-      tell(*element, "an element with a <pose> in degrees", "is left out");
-      return false;
-    }
     if (XmlReader::text_or_nothing(*element).empty()) return true;
-    const std::array<double, 6> p = xml_->numbers<6>(*element);
+    std::array<double, 6> p = xml_->numbers<6>(*element);
+    const char* degrees = element->Attribute("degrees");
+    const bool in_degrees = degrees != nullptr && std::string_view(degrees) == "true";
+    for (std::size_t i = 3; in_degrees && i < 6; ++i) p[i] = p[i] / 180 * exact::pi;
     for (std::size_t i = 3; i < 6; ++i)
       if (std::fabs(p[i]) > angle_rad_max) xml_->fail(*element, "expected angles in radians in <pose>");
     pose = compose(outer, space_pose({p[0], p[1], p[2]}, p[3], p[4], p[5]));

@@ -10,8 +10,9 @@
 // Poses are "x y z roll pitch yaw", each in the frame of the parent element. A solid becomes an upright shape
 // (world/formats/upright.hpp), with a warning if it is tilted or a sphere. A <uri> is a path relative to the file, with
 // or without "file://"; "model://NAME" is searched for beside the file, in the folder `models` there and in
-// `../models`; "model://sun" and "model://ground_plane", which are in every world, may be missing. In a model's folder,
-// model.sdf is read. Meshes with a missing or unsupported file are left out with a warning.
+// `../models`. In a model's folder, model.sdf is read. Models of model:// that are missing, those of other schemes
+// (https://fuel...), and meshes with a missing or unsupported file are left out with a warning; a path that leads
+// nowhere is an error.
 //
 // Everything else (<visual>, <inertial>, <light>, <state>, ...) is left out with a warning.
 #pragma once
