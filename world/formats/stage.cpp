@@ -19,6 +19,8 @@ namespace waitpoint::world {
 namespace {
 
 constexpr int dark_below = 128;  // of 255
+// Floor plans are written so for a plane world, where height means nothing.
+constexpr double flat_height_m = 2;
 
 // An axis-parallel box of a model, in the model's units.
 struct Part {
@@ -61,18 +63,18 @@ class StageReader {
         {"position",
          {"name", "pose", "size", "origin", "drive", "velocity_bounds", "acceleration_bounds", "obstacle_return",
           "ranger_return", "wheelbase"}},
-        {"ranger", {"name", "pose", "size", "update_interval"}},
+        {"ranger", {"name", "pose", "size", "update_interval", "scount", "sview"}},
+        {"laser", {"name", "pose", "size", "update_interval", "samples", "fov", "range_max", "range_min"}},
         {"sensor", {"pose", "range", "fov", "samples"}},
         {"block", {"points", "z"}}};
     const auto names = read.find(kind);
     if (names == read.end() || (kind == "block" && property.starts_with("point["))) return true;
+    if (kind == "ranger" && (property.starts_with("spose[") || property.starts_with("sview["))) return true;
     return std::find(names->second.begin(), names->second.end(), property) != names->second.end();
   }
 
   void read_thing(const StageThing& thing, const StageFrame& outer) {
-    if (++thing_count_ > stage_thing_count_max) {
-      refuse(thing.place, "expected at most " + std::to_string(stage_thing_count_max) + " things in the world");
-    }
+    count_stage_thing(thing, thing_count_);
     if (thing.built_in == "model") {
       tell_unread(thing);
       read_model(thing, outer);
@@ -90,7 +92,11 @@ class StageReader {
 
   void read_model(const StageThing& model, const StageFrame& outer) {
     const StageFrame frame = stage_frame(model, outer);
-    const StageSize size = stage_size(model);
+    StageSize size = stage_size(model);
+    if (size.z_m == 0) {
+      size.z_m = flat_height_m;
+      tell(model, "a model of height 0", "is taken as 2 m high");
+    }
     if (is_there(model)) {
       const std::string name =
           model.find(StageKey::name) != nullptr ? stage_text(*model.find(StageKey::name)) : std::string(model.type);
@@ -117,8 +123,8 @@ class StageReader {
   bool is_there(const StageThing& thing) {
     const StageProperty* bodies = thing.find(StageKey::obstacle_return);
     const StageProperty* beams = thing.find(StageKey::ranger_return);
-    const bool stops_bodies = bodies == nullptr || stage_numbers(*bodies, 1, 1)[0] > 0;
-    const bool stops_beams = beams == nullptr || stage_numbers(*beams, 1, 1)[0] >= 0;
+    const bool stops_bodies = bodies == nullptr || stage_return(*bodies) > 0;
+    const bool stops_beams = beams == nullptr || stage_return(*beams) >= 0;
     if (stops_bodies != stops_beams) {
       const StagePlace& place = (stops_bodies ? beams : bodies)->place;
       left_out_.add(*place.file, place.line, stops_bodies ? "a 'ranger_return' below 0" : "an 'obstacle_return' of 0",
@@ -171,7 +177,7 @@ class StageReader {
     if (model.base != nullptr) add_blocks(*model.base, parts);
     for (const StageThing& thing : model.things) {
       if (thing.built_in != "block") continue;
-      if (++thing_count_ > stage_thing_count_max) refuse(thing.place, "expected fewer things in the world");
+      count_stage_thing(thing, thing_count_);
       parts.push_back(read_block(thing));
     }
   }

@@ -6,12 +6,9 @@
 #include "world/formats/distinct_names.hpp"
 #include "world/formats/left_out.hpp"
 #include "world/formats/robot_origin.hpp"
-#include "world/formats/stage_values.hpp"
+#include "world/formats/stage_ranger.hpp"
 
 namespace waitpoint::world {
-
-/// The limit of things in a file; the things of a type count at each use.
-inline constexpr std::size_t stage_thing_count_max = std::size_t{1} << 20;
 
 struct StageRobot {
   BodyDescription body;  ///< without its name
@@ -35,10 +32,6 @@ class StageRobotReader {
   void read_carried(const StageThing& holder, const StageFrame& top, StageRobot& robot);
   void read_ranger(const StageThing& ranger, const StageFrame& frame, StageRobot& robot);
   void name_lasers(const StageThing& ranger, std::size_t count, RobotOrigin& origin);
-  void read_sensors(const StageThing& ranger, const StageFrame& frame, Duration period,
-                    std::vector<LaserDescription>& lasers);
-  LaserDescription read_sensor(const StageThing& sensor, const StageFrame& frame, Duration period);
-  void count(const StageThing& thing);
 
   LeftOut& left_out_;
   std::size_t& thing_count_;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include "core/error.hpp"
 #include "core/nearest_name.hpp"
@@ -15,9 +16,19 @@ namespace {
 
 constexpr int nesting_max = 64;
 constexpr std::size_t definition_count_max = 10000;
-constexpr std::array<std::string_view, 14> built_in_types = {
-    "actuator", "blinkenlight", "block",    "blobfinder", "bumper", "camera", "fiducial",
-    "gripper",  "model",        "position", "ranger",     "sensor", "wifi",   "window"};
+constexpr std::array<std::string_view, 15> built_in_types = {
+    "actuator", "blinkenlight", "block",    "blobfinder", "bumper", "camera", "fiducial", "gripper",
+    "laser",    "model",        "position", "ranger",     "sensor", "wifi",   "window"};
+
+// Names of earlier versions of Stage for a type, until a file defines its own.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 2> old_names = {
+    {{"map", "model"}, {"sonar", "ranger"}}};
+
+std::string_view present_name(std::string_view type) {
+  for (const auto& [old, present] : old_names)
+    if (type == old) return present;
+  return type;
+}
 
 struct Token {
   enum class Kind { word, text, open, close, list_open, list_close, end };
@@ -91,10 +102,11 @@ class Tokens {
   void advance_word() {
     constexpr std::string_view ends = " \t\r\n()[]\"#";
     std::size_t end = std::min(rest_.find_first_of(ends), rest_.size());
-    // "point[0]" is one word.
-    if (end < rest_.size() && rest_[end] == '[') {
+    // "point[0]" is one word, and so is "polygon[0].point[1]".
+    while (end < rest_.size() && rest_[end] == '[') {
       const std::size_t closing = rest_.find_first_not_of("0123456789", end + 1);
-      if (closing != rest_.npos && closing > end + 1 && rest_[closing] == ']') end = closing + 1;
+      if (closing == rest_.npos || closing == end + 1 || rest_[closing] != ']') break;
+      end = std::min(rest_.find_first_of(ends, closing + 1), rest_.size());
     }
     next_.kind = Token::Kind::word;
     next_.text = rest_.substr(0, end);
@@ -174,8 +186,9 @@ class StageParser {
       thing.depth = thing.base->depth + 1;
       thing.nesting = thing.base->nesting;
       if (thing.depth > nesting_max) in.fail(type, "expected types derived from types at most 64 deep");
-    } else if (std::find(built_in_types.begin(), built_in_types.end(), type.text) != built_in_types.end()) {
-      thing.built_in = type.text;
+    } else if (const auto built_in = std::find(built_in_types.begin(), built_in_types.end(), present_name(type.text));
+               built_in != built_in_types.end()) {
+      thing.built_in = *built_in;
     } else {
       in.fail(type, "there is no type " + Tokens::described(type) + hint(type.text));
     }
@@ -238,6 +251,15 @@ class StageParser {
   StageText& text_;
   IncludedFiles included_;
 };
+
+const StageProperty* StageThing::find_named(std::string_view name) const {
+  for (const StageThing* at = this; at != nullptr; at = at->base) {
+    const auto found = std::find_if(at->properties.rbegin(), at->properties.rend(),
+                                    [&](const StageProperty& property) { return property.name == name; });
+    if (found != at->properties.rend()) return &*found;
+  }
+  return nullptr;
+}
 
 StageText::StageText(const std::string& contents, const std::string& file) {
   StageParser(*this, contents, file).read_file(contents, file);

@@ -40,32 +40,23 @@ enum class StageKey {
   points,
   pose,
   range,
+  range_max,
+  range_min,
   ranger_return,
   samples,
+  scount,
   size,
+  sview,
   update_interval,
   velocity_bounds,
   wheelbase,
   z,
 };
-inline constexpr std::array<std::string_view, 18> stage_keys = {"acceleration_bounds",
-                                                                "bitmap",
-                                                                "boundary",
-                                                                "drive",
-                                                                "fov",
-                                                                "name",
-                                                                "obstacle_return",
-                                                                "origin",
-                                                                "points",
-                                                                "pose",
-                                                                "range",
-                                                                "ranger_return",
-                                                                "samples",
-                                                                "size",
-                                                                "update_interval",
-                                                                "velocity_bounds",
-                                                                "wheelbase",
-                                                                "z"};
+inline constexpr std::array<std::string_view, 22> stage_keys = {
+    "acceleration_bounds", "bitmap",          "boundary",  "drive",  "fov",   "name",
+    "obstacle_return",     "origin",          "points",    "pose",   "range", "range_max",
+    "range_min",           "ranger_return",   "samples",   "scount", "size",  "sview",
+    "update_interval",     "velocity_bounds", "wheelbase", "z"};
 
 struct StageProperty {
   std::string_view name;
@@ -86,6 +77,8 @@ struct StageThing {
 
   /// Null if the property is not given.
   const StageProperty* find(StageKey key) const { return known[static_cast<std::size_t>(key)]; }
+  /// Any property, such as "spose[2]": its last mention here or in its type; null if it is not given.
+  const StageProperty* find_named(std::string_view name) const;
 };
 
 /// Not movable: its parts refer to each other.

@@ -11,10 +11,11 @@
 namespace waitpoint::world {
 namespace {
 
+std::string_view without_plus(std::string_view text) { return text.substr(text.starts_with('+') ? 1 : 0); }
+
 double number(const StageProperty& property, std::string_view text) {
-  if (text.starts_with('+')) text.remove_prefix(1);
   double value = 0;
-  if (!parse_number(text, value) || std::fabs(value) > coordinate_m_max) {
+  if (!parse_number(without_plus(text), value) || std::fabs(value) > coordinate_m_max) {
     refuse(property.place, "expected numbers within 100000 in '" + std::string(property.name.substr(0, 40)) + "'");
   }
   return value;
@@ -49,6 +50,13 @@ std::vector<double> stage_numbers(const StageProperty& property, std::size_t siz
   return values;
 }
 
+double stage_return(const StageProperty& property) {
+  double value = 0;
+  if (property.values.size() != 1 || !parse_number(without_plus(property.values[0]), value))
+    refuse(property.place, "expected a number in '" + std::string(property.name) + "'");
+  return value;
+}
+
 std::string stage_text(const StageProperty& property) {
   if (property.values.size() != 1 || property.values[0].empty()) {
     refuse(property.place, "expected a text in '" + std::string(property.name) + "'");
@@ -81,9 +89,8 @@ StageSize stage_size(const StageThing& thing) {
   const StageProperty* property = thing.find(StageKey::size);
   if (property == nullptr) return size;
   const std::vector<double> values = stage_numbers(*property, 2, 3);
-  for (const double value : values)
-    if (!(value > 0)) refuse(property->place, "expected a positive size");
   size = {values[0], values[1], values.size() == 3 ? values[2] : size.z_m};
+  if (!(size.x_m > 0 && size.y_m > 0 && size.z_m >= 0)) refuse(property->place, "expected a positive size");
   return size;
 }
 

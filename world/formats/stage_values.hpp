@@ -27,6 +27,8 @@ struct StageSize {
 double stage_number(const StageProperty& property, double low, double high);
 /// A list of `size_min` to `size_max` numbers, none beyond coordinate_m_max.
 std::vector<double> stage_numbers(const StageProperty& property, std::size_t size_min, std::size_t size_max);
+/// The strength of a return to a sensor: one number of any size.
+double stage_return(const StageProperty& property);
 /// The one word or text.
 std::string stage_text(const StageProperty& property);
 double stage_number_or(const StageThing& thing, StageKey key, double low, double high, double otherwise);
@@ -35,7 +37,7 @@ double stage_number_or(const StageThing& thing, StageKey key, double low, double
 StageFrame stage_frame(const StageThing& thing, const StageFrame& outer);
 /// The centre of the thing in its own frame: `origin`.
 Pose stage_origin(const StageThing& thing);
-/// `size`, all positive; 0.1 m each by default.
+/// `size`, positive, but its height may be 0; 0.1 m each by default.
 StageSize stage_size(const StageThing& thing);
 
 }  // namespace waitpoint::world

@@ -173,6 +173,46 @@ TEST(Stage, SensorsOfOneSampleAtOnePlaceAreOneLaser) {
   EXPECT_EQ(lasers("pose [0 0 0 60] samples 2 fov 10").size(), 3u);
 }
 
+TEST(Stage, RangersAndLasersOfEarlierVersionsMeanTheSame) {
+  const ReadStage read = stage_world(
+      "define sick laser( range_max 10 fov 90 samples 91 size [0.1 0.1 0.2] )\n"
+      "define ring ranger( scount 2 spose[0] [0.1 0.2 90] spose[1] [0.1 -0.2 -90] sview [0 3 15] sview[1] [0 4 15] )\n"
+      "position( sick( pose [0.05 0 0 180] ) ring() sonar( scount 1 spose[0] [0 0 0] ) laser() )\n");
+  const std::vector<LaserDescription>& lasers = read.bodies.at(0).lasers;
+  ASSERT_EQ(lasers.size(), 5u);
+  EXPECT_EQ(lasers[0].beams, 91u);
+  EXPECT_EQ(lasers[0].field_of_view_rad, degrees(90));
+  EXPECT_EQ(lasers[0].range_max_m, 10);
+  EXPECT_EQ(lasers[0].mount.x, 0.05);
+  EXPECT_EQ(lasers[1].mount, (Pose{0.1, 0.2, degrees(90)}));
+  EXPECT_EQ(lasers[1].range_max_m, 3);
+  EXPECT_EQ(lasers[2].mount, (Pose{0.1, -0.2, degrees(-90)}));
+  EXPECT_EQ(lasers[2].range_max_m, 4);
+  EXPECT_EQ(lasers[3].range_max_m, 5);
+  EXPECT_EQ(lasers[4].beams, 180u);
+  EXPECT_EQ(lasers[4].range_max_m, 8);
+  EXPECT_TRUE(read.warnings.empty());
+  EXPECT_TRUE(rejects_stage("position( ranger( scount 2 spose[0] [0 0 0] ) )", "a.world:1: ", "expected spose[1]"));
+}
+
+TEST(Stage, AMapOfEarlierVersionsIsAModel) {
+  const ReadStage read = stage_world("map( name \"hall\" size [4 3] polygon[0].point[1] [1 2] )\n");
+  EXPECT_EQ(read.obstacles.at(0).name, "hall");
+  EXPECT_EQ(read.warnings, std::vector<std::string>{"a.world:1: 'polygon[0].point[1]' is left out"});
+}
+
+TEST(Stage, AFlatFloorPlanHasWalls) {
+  const ReadStage read = stage_world("model( size [4 3 0] )\n");
+  EXPECT_EQ(read.obstacles.at(0).shape.z_high_m, 2);
+  EXPECT_EQ(read.warnings, std::vector<std::string>{"a.world:1: a model of height 0 is taken as 2 m high"});
+  EXPECT_TRUE(rejects_stage("position( size [1 1 0] )", "a.world:1: ", "a positive height"));
+}
+
+TEST(Stage, AReturnMayBeAnyNumber) {
+  EXPECT_EQ(stage_world("model( ranger_return 1000000 )").obstacles.size(), 1u);
+  EXPECT_TRUE(rejects_stage("model( ranger_return bright )", "a.world:1: ", "expected a number in 'ranger_return'"));
+}
+
 TEST(Stage, ADriveIsTheBasesKind) {
   const ReadStage read = stage_world(
       "define omni position( drive \"omni\" velocity_bounds [-0.5 0.5 -0.5 0.5 0 0 -60 60] )\nomni()\n"
