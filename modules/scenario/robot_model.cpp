@@ -10,14 +10,35 @@
 #include "world/formats/upright.hpp"
 
 namespace waitpoint::scenario {
+namespace {
+
+// Empty values are text, too: most namespaces are.
+world::XacroArguments read_arguments(const YamlNode& node) {
+  if (node.kind != YamlNode::Kind::map) throw node.written.bad("expected arguments to be a map of names and values");
+  world::XacroArguments arguments;
+  for (const YamlEntry& entry : node.entries) {
+    if (entry.value.kind == YamlNode::Kind::list || entry.value.kind == YamlNode::Kind::map)
+      throw entry.written.bad("expected " + entry.key + " to be a text, found " + described(entry.value));
+    arguments.emplace(entry.key, entry.value.text);
+  }
+  return arguments;
+}
+
+}  // namespace
 
 std::optional<RobotModel> read_robot_model(const YamlMap& robot) {
   const YamlNode* named = robot.find("urdf");
   if (named == nullptr) return std::nullopt;
+  world::XacroArguments arguments;
+  if (named->kind == YamlNode::Kind::map) {
+    const YamlMap map(*named, "the urdf", {"file", "arguments"});
+    if (const YamlNode* given = map.find("arguments")) arguments = read_arguments(*given);
+    named = &map.require("file");
+  }
   const std::string file = named->written.resolve(read_text(*named, "urdf")).string();
   world::LeftOut left_out;
   RobotModel model;
-  model.robot = world::parse_urdf(file_contents(file, "a URDF", world::tree_bytes_max), file, left_out);
+  model.robot = world::parse_urdf(file_contents(file, "a URDF", world::tree_bytes_max), file, left_out, arguments);
   model.warnings = left_out.warnings();
   return model;
 }

@@ -12,13 +12,12 @@
 #include <utility>
 
 #include "core/confinement.hpp"
-#include "core/exact_math.hpp"
 #include "world/formats/beside.hpp"
+#include "world/formats/enclosing_solid.hpp"
 #include "world/formats/limits.hpp"
 #include "world/formats/mesh_file.hpp"
 #include "world/formats/upright.hpp"
 #include "world/formats/xml_reader.hpp"
-#include "world/planar/outline.hpp"
 
 namespace waitpoint::world {
 namespace {
@@ -26,18 +25,7 @@ namespace {
 using Element = XmlReader::Element;
 
 constexpr std::size_t link_count_max = 10'000;
-constexpr double thickness_least_m = 1e-4;
 constexpr int folders_up_max = 32;
-// The sides of a polygon about a disc; and the ratio of areas below which a prism replaces a box or a cylinder.
-constexpr int round_sides = 24;
-constexpr double much_tighter = 0.9;
-
-double area_m2(const ConvexPolygon& polygon) {
-  const std::span<const ConvexPolygon::Side> sides = polygon.sides();
-  double twice_m2 = 0;
-  for (std::size_t i = 0; i < sides.size(); ++i) twice_m2 += cross(sides[i].start, sides[(i + 1) % sides.size()].start);
-  return 0.5 * twice_m2;
-}
 
 struct Link {
   const Element* element;
@@ -49,16 +37,30 @@ struct Link {
 class UrdfReader {
  public:
   UrdfReader(const std::string& contents, const std::string& file, LeftOut& left_out)
-      : xml_(contents, file, "robot"), left_out_(left_out) {}
+      : xml_(contents, file, "robot"),
+        left_out_(left_out),
+        xacro_(contents.find("<xacro:") == contents.npos ? ""
+                                                         : "; xacro's elements are not expanded, run xacro first") {}
 
   UrdfRobot read() {
     robot_.name = xml_.text(xml_.root(), "name");
     read_links();
     read_joints();
     place(root(), {});
+    read_solids("collision");
+    if (solids_.empty()) {
+      read_solids("visual");
+      if (!solids_.empty()) tell(xml_.root(), "a <robot> without <collision>", "has the shape of its <visual>");
+    }
     if (solids_.empty())
-      xml_.fail(xml_.root(), "expected a <collision> in some <link>: the robot has no collision geometry");
-    robot_.shape = solids_.size() == 1 ? solids_[0] : around_all();
+      xml_.fail(xml_.root(), "expected a <collision> or a <visual> in some <link>: the robot has no geometry" + xacro_);
+    if (solids_.size() == 1) {
+      robot_.shape = solids_[0];
+    } else {
+      const EnclosingSolid about = enclosing_solid(solids_);
+      robot_.shape = about.shape;
+      tell(xml_.root(), "a <robot> of several solids", "is taken as " + std::string(about.name));
+    }
     stand_on_floor();
     return std::move(robot_);
   }
@@ -86,14 +88,14 @@ class UrdfReader {
         leave_out(*child);
       }
     }
-    if (links_.empty()) xml_.fail(xml_.root(), "expected a <link> in <robot>");
+    if (links_.empty()) xml_.fail(xml_.root(), "expected a <link> in <robot>" + xacro_);
   }
 
   std::size_t link_of(const Element& joint, const char* end) const {
     const Element& element = xml_.required(joint, end);
     const std::string name = xml_.text(element, "link");
     const auto found = numbers_.find(name);
-    if (found == numbers_.end()) xml_.fail(element, "expected a link of the robot, found '" + name + "'");
+    if (found == numbers_.end()) xml_.fail(element, "expected a link of the robot, found '" + name + "'" + xacro_);
     return found->second;
   }
 
@@ -115,7 +117,7 @@ class UrdfReader {
       if (links_[i].joint != nullptr) continue;
       if (found != links_.size()) {
         xml_.fail(*links_[i].element, "expected one root: neither '" + links_[found].name + "' nor '" + links_[i].name +
-                                          "' is the child of a joint");
+                                          "' is the child of a joint" + xacro_);
       }
       found = i;
     }
@@ -130,7 +132,7 @@ class UrdfReader {
       const auto [number, frame] = open[next];
       const Link& link = links_[number];
       robot_.frames.push_back({link.name, frame});
-      read_solids(link, frame);
+      placed_.push_back(link.element);
       for (const std::size_t child : link.children) open.emplace_back(child, origin(*links_[child].joint, frame));
     }
     if (open.size() == links_.size()) return;
@@ -142,17 +144,20 @@ class UrdfReader {
     xml_.fail(*apart.joint, "expected a tree of links, found a circle");
   }
 
-  void read_solids(const Link& link, const SpacePose& frame) {
-    for (const Element* child = link.element->FirstChildElement(); child != nullptr;
-         child = child->NextSiblingElement()) {
-      if (std::string_view(child->Name()) != "collision") {
-        leave_out(*child);
-        continue;
+  // The shapes of all elements of that name in the links.
+  void read_solids(std::string_view kind) {
+    for (std::size_t i = 0; i < placed_.size(); ++i) {
+      for (const Element* child = placed_[i]->FirstChildElement(); child != nullptr;
+           child = child->NextSiblingElement()) {
+        if (child->Name() == kind) {
+          const Element& geometry = xml_.required(*child, "geometry");
+          const Element* shape = geometry.FirstChildElement();
+          if (shape == nullptr) xml_.fail(geometry, "expected a shape in <geometry>");
+          read_shape(*shape, origin(*child, robot_.frames[i].pose));
+        } else if (kind == "collision") {
+          leave_out(*child);
+        }
       }
-      const Element& geometry = xml_.required(*child, "geometry");
-      const Element* shape = geometry.FirstChildElement();
-      if (shape == nullptr) xml_.fail(geometry, "expected a shape in <geometry>");
-      read_shape(*shape, origin(*child, frame));
     }
   }
 
@@ -201,25 +206,9 @@ class UrdfReader {
       tell(mesh, "a <mesh>", "is taken as the upright prism over its convex outline");
       solids_.push_back(*hull);
     } else {
-      solids_.push_back(thin_box(mesh, corners, pose));
+      tell(mesh, "a <mesh>", "is taken as the box about it");
+      solids_.push_back(enclosing_box(corners, pose));
     }
-  }
-
-  // The bounding box of a mesh that is thin in some direction.
-  Shape thin_box(const Element& mesh, const std::vector<SpaceVector>& corners, const SpacePose& pose) {
-    SpaceVector low = corners[0], high = corners[0];
-    for (const SpaceVector& c : corners) {
-      low = {std::min(low.x, c.x), std::min(low.y, c.y), std::min(low.z, c.z)};
-      high = {std::max(high.x, c.x), std::max(high.y, c.y), std::max(high.z, c.z)};
-    }
-    SpacePose middle = pose;
-    middle.position = pose.position + pose.turned(0.5 * (low + high));
-    const SpaceVector size = high + -1 * low;
-    tell(mesh, "a <mesh>", "is taken as the box about it");
-    // A box must not be flat.
-    return upright_box(middle, {std::max(size.x, thickness_least_m), std::max(size.y, thickness_least_m),
-                                std::max(size.z, thickness_least_m)})
-        .shape;
   }
 
   // Empty for a package that is not found.
@@ -257,65 +246,6 @@ class UrdfReader {
     return pose;
   }
 
-  Shape around_all() {
-    Bounds bounds = bounds_of(outline_of(solids_[0]));
-    double radius_m = 0;
-    Shape all;
-    all.z_low_m = solids_[0].z_low_m;
-    all.z_high_m = solids_[0].z_high_m;
-    for (const Shape& solid : solids_) {
-      const Outline outline = outline_of(solid);
-      const Bounds own = bounds_of(outline);
-      bounds = {{std::min(bounds.low.x, own.low.x), std::min(bounds.low.y, own.low.y)},
-                {std::max(bounds.high.x, own.high.x), std::max(bounds.high.y, own.high.y)}};
-      for (const Point p : core_points(outline))
-        radius_m = std::max(radius_m, exact::hypot(p.x, p.y) + outline.radius_m);
-      all.z_low_m = std::min(all.z_low_m, solid.z_low_m);
-      all.z_high_m = std::max(all.z_high_m, solid.z_high_m);
-    }
-    all.length_m = bounds.high.x - bounds.low.x;
-    all.width_m = bounds.high.y - bounds.low.y;
-    const double round_m2 = exact::pi * radius_m * radius_m, box_m2 = all.length_m * all.width_m;
-    const bool is_round = round_m2 <= box_m2;
-    if (const std::optional<PlacedPolygon> hull = hull_around_all();
-        hull && area_m2(*hull->polygon) < much_tighter * std::min(round_m2, box_m2)) {
-      all.kind = Shape::Kind::prism;
-      all.pose = {hull->origin.x, hull->origin.y, 0};
-      all.length_m = 2 * hull->polygon->half_size().x;
-      all.width_m = 2 * hull->polygon->half_size().y;
-      all.polygon = hull->polygon;
-      tell(xml_.root(), "a <robot> of several solids", "is taken as the upright prism over the convex outline of them");
-      return all;
-    }
-    if (is_round) {
-      all.kind = Shape::Kind::cylinder;
-      all.radius_m = radius_m;
-    } else {
-      all.pose = {0.5 * (bounds.low.x + bounds.high.x), 0.5 * (bounds.low.y + bounds.high.y), 0};
-    }
-    tell(xml_.root(), "a <robot> of several solids",
-         is_round ? "is taken as the upright cylinder about them" : "is taken as the upright box about them");
-    return all;
-  }
-
-  // The convex hull of the projection; cylinders as polygons.
-  std::optional<PlacedPolygon> hull_around_all() const {
-    std::vector<Point> corners;
-    for (const Shape& solid : solids_) {
-      const Outline outline = outline_of(solid);
-      if (outline.radius_m == 0) {
-        for (const Point p : core_points(outline)) corners.push_back(p);
-        continue;
-      }
-      const double corner_m = outline.radius_m / exact::cos(exact::pi / round_sides);
-      for (int i = 0; i < round_sides; ++i) {
-        const auto [s, c] = exact::sincos(2 * exact::pi * i / round_sides);
-        corners.push_back(outline.centre + corner_m * Point{c, s});
-      }
-    }
-    return hull_of(std::move(corners), thickness_least_m);
-  }
-
   void stand_on_floor() {
     const double below_m = -std::min(robot_.shape.z_low_m, 0.0);
     robot_.shape.z_low_m += below_m;
@@ -326,7 +256,9 @@ class UrdfReader {
   XmlReader xml_;
   LeftOut& left_out_;
   UrdfRobot robot_;
+  std::string xacro_;  // the end of messages about what a file lacks
   std::vector<Link> links_;
+  std::vector<const Element*> placed_;          // the links of the frames
   std::map<std::string, std::size_t> numbers_;  // of the links, by name
   std::vector<Shape> solids_;
   std::size_t mesh_count_ = 0;
@@ -334,8 +266,9 @@ class UrdfReader {
 
 }  // namespace
 
-UrdfRobot parse_urdf(const std::string& contents, const std::string& file, LeftOut& left_out) {
-  return UrdfReader(contents, file, left_out).read();
+UrdfRobot parse_urdf(const std::string& contents, const std::string& file, LeftOut& left_out,
+                     const XacroArguments& arguments) {
+  return UrdfReader(with_xacro_arguments(contents, file, arguments, left_out), file, left_out).read();
 }
 
 }  // namespace waitpoint::world

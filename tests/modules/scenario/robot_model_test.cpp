@@ -41,6 +41,23 @@ TEST_F(RobotModelOfAScenario, gives_shape_and_lasers_their_places) {
   EXPECT_NEAR(laser.height_m, 0.4, 1e-12);  // the body stands on the floor, not in it
 }
 
+TEST_F(RobotModelOfAScenario, takes_the_arguments_of_xacro) {
+  folder_.write("rover.urdf", R"(<robot name="rover">
+    <link name="${namespace}base"><collision><geometry><box size="${length} 0.4 0.2"/></geometry></collision></link>
+    </robot>)");
+  const auto read_with = [&](const std::string& arguments) {
+    std::string text = changed(own_shape, "urdf: {file: rover.urdf, arguments: " + arguments + "}");
+    text.replace(text.find(own_mount), own_mount.size(), "frame: base");
+    return read_scenario(folder_.write("s.yaml", text)).robots.at(0).body.shape.length_m;
+  };
+  EXPECT_EQ(read_with("{namespace: '', length: 0.7}"), 0.7);
+  EXPECT_EQ(read_with("{namespace: , length: 0.8}"), 0.8) << "an empty value";
+  EXPECT_NE(
+      message_of<BadInput>([&] { read_with("{namespace: [a], length: 1}"); }).find("expected namespace to be a text"),
+      std::string::npos);
+  EXPECT_NE(message_of<BadInput>([&] { read_with("[a]"); }).find("expected arguments to be a map"), std::string::npos);
+}
+
 TEST_F(RobotModelOfAScenario, that_cannot_be_meant_is_one_line) {
   EXPECT_NE(complaint("frame: mst").find("there is no link 'mst' in the urdf, did you mean 'mast'?"), std::string::npos)
       << complaint("frame: mst");

@@ -132,10 +132,49 @@ TEST(Urdf, WhatItDoesNotKnowIsTold) {
   EXPECT_EQ(read.warnings[3], "r.urdf:5: the <mesh> 'arm.stl' is left out: there is no such file");
 }
 
+TEST(Urdf, ARobotWithoutCollisionHasTheShapeOfItsVisual) {
+  const ReadRobot read =
+      robot_of(link("base", "<visual><origin xyz='0.1 0 0.2'/><geometry>" + hull + "</geometry></visual>"));
+  EXPECT_EQ(read.robot.shape.pose.position(), (Point{0.1, 0}));
+  EXPECT_EQ(read.robot.shape.radius_m, 0.2);
+  EXPECT_EQ(read.warnings.back(), "r.urdf:1: a <robot> without <collision> has the shape of its <visual>");
+}
+
+TEST(Urdf, ArgumentsOfXacroStandForTheirValues) {
+  const std::string text =
+      "<robot name='r'>\n<xacro:arg name='mast' default='mast'/><xacro:property name='radius' value='0.2'/>\n" +
+      link("${namespace}base", collision("<cylinder radius='${radius}' length='0.3'/>")) + link("$(arg mast)") +
+      joint("${ namespace }base", "$(arg mast)") + "<gazebo reference='${2 * radius}'/></robot>";
+  const auto read = [&](const XacroArguments& arguments) {
+    LeftOut left_out;
+    ReadRobot result;
+    result.robot = parse_urdf(text, "r.urdf", left_out, arguments);
+    result.warnings = left_out.warnings();
+    return result;
+  };
+  const ReadRobot given = read({{"namespace", ""}, {"mast", "a<b&\""}, {"radius", "0.25"}});
+  EXPECT_EQ(given.robot.frames[0].link, "base");
+  EXPECT_EQ(given.robot.frames[1].link, "a<b&\"");
+  EXPECT_EQ(given.robot.shape.radius_m, 0.25);
+  EXPECT_EQ(given.warnings.front(), "r.urdf:6: '${2 * radius}' remains as it is: expressions are the task of xacro");
+
+  const ReadRobot own = read({});
+  EXPECT_EQ(own.robot.frames[0].link, "${namespace}base") << "no value";
+  EXPECT_EQ(own.robot.frames[1].link, "mast");
+  EXPECT_EQ(own.robot.shape.radius_m, 0.2);
+  EXPECT_EQ(own.warnings.front(),
+            "r.urdf:3: '${namespace}' remains as it is: it has no value in the urdf's 'arguments'");
+  EXPECT_TRUE(complains([&] { read({{"namespac", "a"}}); }, "r.urdf: ", "did you mean 'namespace'?"));
+}
+
+TEST(Urdf, AFileThatNeedsXacroSaysSo) {
+  EXPECT_TRUE(rejects_urdf("<xacro:include filename='base.xacro'/>", "r.urdf:1", "run xacro first"));
+}
+
 TEST(Urdf, BadInputIsOneLineAtItsPlace) {
   const std::string base = link("base", collision(hull));
   EXPECT_TRUE(rejects_urdf("", "r.urdf:1", "expected a <link>"));
-  EXPECT_TRUE(rejects_urdf(link("base"), "r.urdf:1", "the robot has no collision geometry"));
+  EXPECT_TRUE(rejects_urdf(link("base"), "r.urdf:1", "the robot has no geometry"));
   EXPECT_TRUE(rejects_urdf(base + base, "r.urdf:3", "'base' is there already"));
   EXPECT_TRUE(rejects_urdf(base + link("arm"), "r.urdf:3", "neither 'base' nor 'arm' is the child of a joint"));
   EXPECT_TRUE(rejects_urdf(base + joint("base", "arm"), "r.urdf:3", "expected a link of the robot, found 'arm'"));
