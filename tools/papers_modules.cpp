@@ -4,6 +4,7 @@
 #ifndef WAITPOINT_REAL_THREADS
 #include "modules/meeting/meeting.hpp"
 #endif
+#include "modules/locate/locate.hpp"
 #include "modules/ndd/ndd.hpp"
 #include "modules/pom/pom.hpp"
 #include "modules/rflex/rflex.hpp"
@@ -21,6 +22,7 @@ std::vector<genom::ModuleType> papers_modules() {
 
 std::vector<genom::ModuleType> shipped_modules() {
   std::vector<genom::ModuleType> types = papers_modules();
+  types.push_back(genom::module_type<locate::Locate>("locate"));
   types.push_back(genom::module_type<wander::Wander>("wander"));
 #ifndef WAITPOINT_REAL_THREADS
   types.push_back(genom::module_type<meeting::MeetingModule>("meeting"));

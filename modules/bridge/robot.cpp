@@ -8,6 +8,7 @@
 #include "modules/control/controller.hpp"
 #include "modules/control/parser.hpp"
 #include "modules/executive/executive.hpp"
+#include "modules/executive/known_space.hpp"
 #include "modules/genom/module.hpp"
 #include "modules/plan/executor.hpp"
 #include "modules/plan/plan_reader.hpp"
@@ -48,7 +49,7 @@ Robot::Robot(const scenario::RobotScenario& scenario, std::span<const genom::Mod
              io::Network* network, std::uint64_t seed)
     : scenario_(scenario), world_(world), body_(body), bridge_(std::in_place, scenario, world, body, names_) {
   for (const std::string& name : scenario.processors) names_.add_processor(name);
-  make_modules(types, network);
+  make_modules(types, network, {known, &known->map()});
   if (!scenario.goals.empty() || scenario.script) make_executive(std::move(known), seed);
   if (scenario.plan != nullptr) make_plan();
   connect();
@@ -71,7 +72,8 @@ Robot::~Robot() {
   }
 }
 
-void Robot::make_modules(std::span<const genom::ModuleType> types, io::Network* network) {
+void Robot::make_modules(std::span<const genom::ModuleType> types, io::Network* network,
+                         const std::shared_ptr<const OccupancyGrid>& known_map) {
   for (const scenario::ModuleScenario& module : scenario_.modules) {
     if (!module.enabled) continue;
     const auto type = std::find_if(types.begin(), types.end(), [&](const auto& t) { return t.name == module.type; });
@@ -80,7 +82,7 @@ void Robot::make_modules(std::span<const genom::ModuleType> types, io::Network* 
       for (const genom::ModuleType& t : types) known.push_back(t.name);
       throw module.written.bad("unknown module type '" + module.type + "'" + did_you_mean(module.type, known));
     }
-    genom::ModuleSetup setup{names_, module.name, genom::Settings(module.settings), network};
+    genom::ModuleSetup setup{names_, module.name, genom::Settings(module.settings), network, known_map};
     std::unique_ptr<genom::Module> made;
     const std::string doing = "constructing module " + module.name + " of robot " + scenario_.name;
     const Doing construction(doing.c_str());

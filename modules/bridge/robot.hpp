@@ -112,7 +112,8 @@ class Robot {
   RobotResult result() const;
 
  private:
-  void make_modules(std::span<const genom::ModuleType> types, io::Network* network);
+  void make_modules(std::span<const genom::ModuleType> types, io::Network* network,
+                    const std::shared_ptr<const OccupancyGrid>& known_map);
   void make_executive(std::shared_ptr<const executive::KnownSpace> known, std::uint64_t seed);
   bool has_script_below_plan() const { return plan_ != nullptr && executive_ != nullptr; }
   void make_procedures(const tcl::Library& library);

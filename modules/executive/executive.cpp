@@ -61,8 +61,9 @@ void Executive::start_modules() {
   client_.call("rflex", "SetPos", start_);
   client_.call("pom", "SetPos", start_);
   client_.send("sick", "ContinuousShot");
-  // A robot without SLAM relies on its odometry.
-  if (names_.find_module("segloc") != nullptr) client_.send("segloc", "Localise", start_);
+  // A robot without localisation relies on its odometry.
+  for (const char* module : {"segloc", "locate"})
+    if (names_.find_module(module) != nullptr) client_.send(module, "Localise", start_);
   client_.send("rflex", "TrackSpeedStart");
 }
 

@@ -22,6 +22,7 @@
 #include <string>
 #include <vector>
 
+#include "core/occupancy_grid.hpp"
 #include "modules/genom/control_task.hpp"
 #include "modules/genom/execution_task.hpp"
 #include "modules/genom/module_data.hpp"
@@ -43,6 +44,8 @@ struct ModuleSetup {
   Settings settings;  ///< from the scenario
   /// For sockets to other robots and named mailboxes (fibers/io); null without a network.
   io::Network* network = nullptr;
+  /// The planner's map before the run; null without one.
+  std::shared_ptr<const OccupancyGrid> known_map = nullptr;
 };
 
 class Module {

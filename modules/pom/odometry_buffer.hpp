@@ -5,9 +5,11 @@
 #include <vector>
 
 #include "core/time.hpp"
-#include "modules/pom/uncertain_pose.hpp"
+#include "modules/posters/uncertain_pose.hpp"
 
 namespace waitpoint::pom {
+
+using posters::UncertainPose;
 
 class OdometryBuffer {
  public:

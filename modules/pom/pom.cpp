@@ -22,7 +22,8 @@ Pom::Pom(genom::ModuleSetup& setup)
       fix_parameters_(read<FixParameters>(setup.settings)),
       fusing_(add_task("fusing", {.period_ms = 40ms, .delay_ms = 10ms, .cost_us = 200us})),
       odometry_(read_poster<posters::Odometry>("rflex.odometry")),
-      localisation_(read_poster<posters::Localisation>("segloc.localisation", false)),
+      localisations_{{{segloc, read_poster<posters::Localisation>("segloc.localisation", false), {}},
+                      {locate, read_poster<posters::Localisation>("locate.localisation", false), {}}}},
       gps_(fix_parameters_.gps ? &read_poster<posters::PositionFix>("rflex.gps") : nullptr),
       position_(add_poster<posters::FusedPosition>("position", fusing_)) {
   fusing_.set_permanent([this] { fuse(); });
@@ -57,17 +58,28 @@ void Pom::fuse() {
   posters::Odometry odometry;
   if (odometry_.read(odometry) == PosterStatus::empty) return;
   fusion_->add_odometry(odometry.position);
-  posters::Localisation localisation;
-  if (localisation_.read(localisation) == PosterStatus::ok && localisation.position.date != localised_) {
-    localised_ = localisation.position.date;
-    fusion_->add_absolute(segloc, localisation.position);
+  bool lost = false;
+  for (Source& source : localisations_) {
+    posters::Localisation localisation;
+    if (source.poster.read(localisation) != PosterStatus::ok) continue;
+    lost = lost || localisation.lost;
+    if (localisation.position.date == source.date || localisation.lost) continue;
+    source.date = localisation.position.date;
+    if (localisation.restarts == source.restarts) {
+      fusion_->add_absolute(source.number, localisation.position);
+    } else {
+      source.restarts = localisation.restarts;
+      fusion_->reset(source.date, {localisation.position.pose, localisation.position.covariance});
+    }
   }
   posters::PositionFix fix;
   if (gps_ != nullptr && gps_->read(fix) == PosterStatus::ok && fix.number != fix_number_) {
     fix_number_ = fix.number;
     fusion_->add_fix(receiver, fix.date, fix_at(fix.position, fix_parameters_), fix_parameters_.gps_gate);
   }
-  position_.write(fusion_->at(threads::now()));
+  posters::FusedPosition position = fusion_->at(threads::now());
+  if (lost && position.state == posters::FusionState::good) position.state = posters::FusionState::uncertain;
+  position_.write(position);
 }
 
 }  // namespace waitpoint::pom

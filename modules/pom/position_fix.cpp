@@ -6,6 +6,11 @@
 #include <limits>
 
 namespace waitpoint::pom {
+
+using posters::congruent;
+using posters::greatest_deviation_m;
+using posters::Matrix3;
+using posters::operator+;
 namespace {
 
 /// The difference between a fix and the antenna of a pose: h = p + R(heading) a,

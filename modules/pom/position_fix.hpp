@@ -8,9 +8,11 @@
 #pragma once
 
 #include "core/fields.hpp"
-#include "modules/pom/uncertain_pose.hpp"
+#include "modules/posters/uncertain_pose.hpp"
 
 namespace waitpoint::pom {
+
+using posters::UncertainPose;
 
 struct FixParameters {
   bool gps = false;                                 ///< true: the robot's receiver is a source

@@ -7,6 +7,9 @@
 
 namespace waitpoint::pom {
 
+using posters::greatest_deviation_m;
+using posters::operator*;
+
 PositionFusion::PositionFusion(const FusionParameters& parameters, const UncertainPose& start)
     : parameters_(parameters), odometry_(odometry_count_max), base_{Time(), start} {
   on_.fill(true);

@@ -37,16 +37,21 @@ struct Odometry {
   }
 };
 
-/// From `segloc`: the pose in the map frame, matched against the segment map, at the date of the scan used.
+/// From `segloc`: the pose in the map frame, matched against the segment map, at the date of the scan used. From
+/// `locate`: matched against the known map, by echoes in place of segments.
 struct Localisation {
   PositionEstimate position;
   std::uint32_t matched = 0;   ///< segments of the scan matched to the map
   std::uint32_t observed = 0;  ///< segments of the scan
+  bool lost = false;           ///< the pose is unknown, and not to be used
+  std::uint32_t restarts = 0;  ///< how often the pose was found anew: poses before are of no use
 
   static void fields(auto field) {
     field("position", &Localisation::position);
     field("matched", &Localisation::matched);
     field("observed", &Localisation::observed);
+    field("lost", &Localisation::lost, added);
+    field("restarts", &Localisation::restarts, added);
   }
 };
 

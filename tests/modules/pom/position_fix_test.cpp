@@ -13,6 +13,8 @@
 namespace waitpoint::pom {
 namespace {
 
+using posters::Matrix3;
+
 constexpr Matrix3 diagonal(double xx, double yy, double hh) { return {xx, 0, 0, 0, yy, 0, 0, 0, hh}; }
 TEST(PositionFix, CountsByItsVarianceOnEachAxisAndLeavesTheHeading) {
   const UncertainPose prior = {{1, 2, 0.5}, diagonal(4, 1, 0.01)};

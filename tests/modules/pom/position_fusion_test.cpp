@@ -12,6 +12,8 @@
 namespace waitpoint::pom {
 namespace {
 
+using posters::Matrix3;
+
 using posters::FusedPosition;
 using posters::FusionState;
 using posters::PositionEstimate;
@@ -137,7 +139,7 @@ TEST(PositionFusion, ErrorsAreAsLargeAsTheCovarianceSays) {
     for (const PositionEstimate& o : drive.odometry) fusion.add_odometry(o);
     for (const PositionEstimate& fix : drive.fixes) fusion.add_absolute(0, fix);
     const PositionEstimate fused = fusion.at(drive.odometry.back().date).position;
-    nees += disagreement({fused.pose, fused.covariance}, {drive.truth.back(), {}}) / drives;
+    nees += disagreement(UncertainPose{fused.pose, fused.covariance}, UncertainPose{drive.truth.back(), {}}) / drives;
     error += length(fused.pose.position() - drive.truth.back().position()) / drives;
   }
   EXPECT_NEAR(nees, 3, 0.35);

@@ -26,7 +26,7 @@ class Pom : public waitpoint::genom::Module {
         position_(add_poster<posters::FusedPosition>("position", fusing_)) {
     fusing_.set_permanent([this] { fuse(); });
     add_control<posters::KnownPose>("SetPos", [this](const posters::KnownPose& known, waitpoint::genom::Nothing&) {
-      pom::UncertainPose pose;
+      posters::UncertainPose pose;
       pose.pose = known.pose;
       pose.covariance[0] = pose.covariance[4] = known.position_deviation_m * known.position_deviation_m;
       pose.covariance[8] = known.heading_deviation_rad * known.heading_deviation_rad;

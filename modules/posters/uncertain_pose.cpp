@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "modules/pom/uncertain_pose.hpp"
+#include "modules/posters/uncertain_pose.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-namespace waitpoint::pom {
+namespace waitpoint::posters {
 namespace {
 
 constexpr Matrix3 identity = {1, 0, 0, 0, 1, 0, 0, 0, 1};
@@ -119,4 +119,4 @@ double greatest_deviation_m(const Matrix3& c) {
   return std::sqrt(std::max(0.0, mean + std::sqrt(half * half + c[1] * c[1])));
 }
 
-}  // namespace waitpoint::pom
+}  // namespace waitpoint::posters

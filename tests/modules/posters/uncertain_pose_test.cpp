@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "modules/pom/uncertain_pose.hpp"
+#include "modules/posters/uncertain_pose.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 
 #include "core/random.hpp"
 
-namespace waitpoint::pom {
+namespace waitpoint::posters {
 namespace {
 
 constexpr Matrix3 covariance_a = {0.0004, 0.0001, 0.00005, 0.0001, 0.0009, -0.0001, 0.00005, -0.0001, 0.0004};
@@ -91,4 +91,4 @@ TEST(UncertainPose, GreatestDeviationIsTheEllipsesLongAxis) {
 }
 
 }  // namespace
-}  // namespace waitpoint::pom
+}  // namespace waitpoint::posters

@@ -13,7 +13,7 @@
 
 #include "core/pose.hpp"
 
-namespace waitpoint::pom {
+namespace waitpoint::posters {
 
 using Matrix3 = std::array<double, 9>;  ///< row by row
 
@@ -58,4 +58,4 @@ UncertainPose fuse_correlated(const UncertainPose& prior, const UncertainPose& m
 /// The standard deviation along the longest axis of the position's error ellipse.
 double greatest_deviation_m(const Matrix3& covariance);
 
-}  // namespace waitpoint::pom
+}  // namespace waitpoint::posters

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "modules/locate/locate.hpp"
+
+namespace waitpoint::locate {
+
+using genom::Nothing;
+using genom::State;
+using namespace std::chrono_literals;
+
+namespace {
+constexpr double square(double value) { return value * value; }
+}  // namespace
+
+Parameters Locate::read(genom::Settings& settings) {
+  Parameters parameters;
+  settings.read(parameters);
+  settings.check_not_negative(parameters);
+  check(parameters);
+  return parameters;
+}
+
+Locate::Locate(genom::ModuleSetup& setup)
+    : Module(setup, 27),
+      parameters_(read(setup.settings)),
+      map_(setup.known_map),
+      locating_(add_task("locating", {.period_ms = 20ms, .delay_ms = {}, .cost_us = {}})),
+      echoes_(read_poster<posters::Echoes>("sick.echoes")),
+      odometry_(read_poster<posters::Odometry>("rflex.odometry")),
+      localisation_poster_(add_poster<posters::Localisation>("localisation", locating_)),
+      search_cost_us_(200ms) {
+  if (map_ == nullptr) throw BadInput("locate", "expected a known map");
+  setup.settings.read_one("search_cost_us", search_cost_us_);
+  const auto run = [this](auto&) {
+    locate();
+    return State::exec;
+  };
+  auto& localise = add_activity<posters::KnownPose>("Localise", locating_,
+                                                    {.start =
+                                                         [this](auto& activity) {
+                                                           start(activity.input);
+                                                           return State::exec;
+                                                         },
+                                                     .exec = run},
+                                                    {"Localise", "Find"});
+  auto& find = add_activity<Nothing>("Find", locating_,
+                                     {.start =
+                                          [this](auto&) {
+                                            start(std::nullopt);
+                                            return State::exec;
+                                          },
+                                      .exec = run},
+                                     {"Localise", "Find"});
+  localise.cost = find.cost = 1ms;
+  setup.settings.read_one("localise_cost_us", localise.cost);
+  setup.settings.read_one("find_cost_us", find.cost);
+  add_control<Nothing>("Stop", [](const Nothing&, Nothing&) { return genom::ok; }, {"Localise", "Find"});
+}
+
+void Locate::start(const std::optional<posters::KnownPose>& known) {
+  if (surfaces_ == nullptr) surfaces_ = std::make_unique<const MapSurfaces>(*map_);
+  tracker_.reset();
+  finder_.reset();
+  odometry_at_tracker_.reset();
+  if (!known) return;
+  posters::UncertainPose pose = {known->pose, {}};
+  pose.covariance[0] = pose.covariance[4] = square(known->position_deviation_m);
+  pose.covariance[8] = square(known->heading_deviation_rad);
+  tracker_.emplace(surfaces_->fine, parameters_.tracking, pose);
+}
+
+void Locate::locate() {
+  posters::Odometry odometry;
+  if (odometry_.read(odometry) == genom::PosterStatus::empty) return;
+  trail_.add(odometry.position.date, odometry.position.pose);
+  if (!odometry_at_tracker_) odometry_at_tracker_ = odometry.position.pose;
+  if (echoes_.read(scan_) == genom::PosterStatus::empty || scan_.scan.number == number_) return;
+  // A scan is used once the odometry has passed its date.
+  if (scan_.scan.date > odometry.position.date) return;
+  number_ = scan_.scan.number;
+  matching::surface_of(scan_, {}, points_);
+  const Pose then = trail_.at(scan_.scan.date);
+  localisation_.position.date = scan_.scan.date;
+  localisation_.observed = static_cast<std::uint32_t>(points_.size());
+  if (tracker_) {
+    track(then);
+  } else {
+    find(then);
+  }
+  localisation_poster_.write(localisation_);
+}
+
+void Locate::track(const Pose& odometry) {
+  tracker_->predict(between(*odometry_at_tracker_, odometry));
+  odometry_at_tracker_ = odometry;
+  tracker_->update(points_);
+  localisation_.position.pose = tracker_->estimate().pose;
+  localisation_.position.covariance = tracker_->estimate().covariance;
+  localisation_.matched = static_cast<std::uint32_t>(tracker_->explained() * static_cast<double>(points_.size()));
+  localisation_.lost = tracker_->lost();
+  if (localisation_.lost) tracker_.reset();
+}
+
+void Locate::find(const Pose& odometry) {
+  localisation_.lost = true;
+  localisation_.matched = 0;
+  if (!finder_) finder_.emplace(*surfaces_, parameters_.finding);
+  const Finding finding = finder_->look(odometry, points_);
+  if (finding != Finding::unchanged && finding != Finding::too_little) threads::compute(search_cost_us_);
+  if (finding != Finding::found) return;
+  posters::UncertainPose pose = {finder_->pose(), {}};
+  pose.covariance[0] = pose.covariance[4] = square(0.05);
+  pose.covariance[8] = square(0.02);
+  tracker_.emplace(surfaces_->fine, parameters_.tracking, pose);
+  finder_.reset();
+  odometry_at_tracker_ = odometry;
+  localisation_.lost = false;
+  ++localisation_.restarts;
+  localisation_.position.pose = pose.pose;
+  localisation_.position.covariance = pose.covariance;
+}
+
+}  // namespace waitpoint::locate

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Parameters of localisation on a known map. The defaults suit a SICK LMS and raw wheel odometry in a building.
+#pragma once
+
+#include "core/error.hpp"
+#include "core/fields.hpp"
+#include "modules/matching/refinement.hpp"
+#include "modules/matching/surface.hpp"
+
+namespace waitpoint::locate {
+
+struct TrackingParameters {
+  // Random errors of the odometry.
+  double travel_noise_m_per_sqrt_m = 0.03;
+  double drift_noise_rad_per_sqrt_m = 0.03;
+  double turn_noise_rad_per_sqrt_rad = 0.04;
+  // Neighbouring echoes share errors, of the wall and of its cells on the map: the information of all echoes together
+  // counts as that of this share of them, and the position is never surer than the floors.
+  double independent_share = 0.1;
+  double position_floor_m = 0.01;
+  double heading_floor_rad = 0.004;
+  double explained_min = 0.4;     ///< share of the echoes that the map must explain for a scan to be used
+  std::uint32_t lost_scans = 10;  ///< consecutive scans below it after which the robot is lost
+  std::uint32_t rest_scans = 5;   ///< a robot at rest uses every so many scans
+  double rest_m = 0.02, rest_rad = 0.01;
+
+  static void fields(auto field) {
+    using P = TrackingParameters;
+    field("travel_noise_m_per_sqrt_m", &P::travel_noise_m_per_sqrt_m);
+    field("drift_noise_rad_per_sqrt_m", &P::drift_noise_rad_per_sqrt_m);
+    field("turn_noise_rad_per_sqrt_rad", &P::turn_noise_rad_per_sqrt_rad);
+    field("independent_share", &P::independent_share);
+    field("position_floor_m", &P::position_floor_m);
+    field("heading_floor_rad", &P::heading_floor_rad);
+    field("explained_min", &P::explained_min);
+    field("lost_scans", &P::lost_scans);
+    field("rest_scans", &P::rest_scans);
+    field("rest_m", &P::rest_m);
+    field("rest_rad", &P::rest_rad);
+  }
+};
+
+struct FindingParameters {
+  double view_turn_rad = 0.35;   ///< a scan is added to the panorama after so much turn,
+  double view_travel_m = 0.4;    ///< or travel
+  std::uint32_t views_min = 4;   ///< of a panorama that is searched for
+  std::uint32_t views_max = 30;  ///< beyond them, the oldest view is forgotten
+  double score_min = 0.5;        ///< of a place: the mean score of the panorama's points, from 0 to 1
+  double rival_share = 0.9;      ///< a place is ambiguous if the map explains this share as much at another
+  double explained_min = 0.75;   ///< share of the panorama that the map explains at the place
+
+  static void fields(auto field) {
+    using P = FindingParameters;
+    field("view_turn_rad", &P::view_turn_rad);
+    field("view_travel_m", &P::view_travel_m);
+    field("views_min", &P::views_min);
+    field("views_max", &P::views_max);
+    field("score_min", &P::score_min);
+    field("rival_share", &P::rival_share);
+    field("explained_min", &P::explained_min);
+  }
+};
+
+struct Parameters {
+  TrackingParameters tracking;
+  FindingParameters finding;
+
+  static void fields(auto field) {
+    field("tracking", &Parameters::tracking);
+    field("finding", &Parameters::finding);
+  }
+};
+
+/// Throws BadInput for invalid values.
+inline void check(const Parameters& p) {
+  const auto share = [](const char* key, double value) {
+    if (!(value > 0 && value <= 1)) throw BadInput(key, "expected a share from 0 to 1");
+  };
+  share("tracking.independent_share", p.tracking.independent_share);
+  share("tracking.explained_min", p.tracking.explained_min);
+  share("finding.score_min", p.finding.score_min);
+  share("finding.rival_share", p.finding.rival_share);
+  share("finding.explained_min", p.finding.explained_min);
+  if (!(p.tracking.position_floor_m > 0 && p.tracking.heading_floor_rad > 0))
+    throw BadInput("tracking.position_floor_m, tracking.heading_floor_rad", "expected more than 0");
+  if (p.finding.views_min < 1 || p.finding.views_max < p.finding.views_min || p.finding.views_max > 1000)
+    throw BadInput("finding.views_min, finding.views_max", "expected 1 <= views_min <= views_max <= 1000");
+}
+
+}  // namespace waitpoint::locate
