@@ -114,7 +114,7 @@ void Locate::find(const Pose& odometry) {
   finder_.reset();
   odometry_at_tracker_ = odometry;
   localisation_.lost = false;
-  ++localisation_.restarts;
+  ++localisation_.jumps;
   localisation_.position.pose = pose.pose;
   localisation_.position.covariance = pose.covariance;
 }

@@ -7,7 +7,7 @@
 //            either.
 //
 // A robot that is lost, since the map explains its scans no longer, is found again as one whose pose is unknown; it has
-// to turn or to drive for that. Meanwhile `localisation.lost` is set; `localisation.restarts` counts the findings.
+// to turn or to drive for that. Meanwhile `localisation.lost` is set; `localisation.jumps` counts the findings.
 #pragma once
 
 #include <memory>

@@ -65,10 +65,10 @@ void Pom::fuse() {
     lost = lost || localisation.lost;
     if (localisation.position.date == source.date || localisation.lost) continue;
     source.date = localisation.position.date;
-    if (localisation.restarts == source.restarts) {
+    if (localisation.jumps == source.jumps) {
       fusion_->add_absolute(source.number, localisation.position);
-    } else {
-      source.restarts = localisation.restarts;
+    } else {  // a pose found elsewhere than the fusion leads contradicts all that was fused
+      source.jumps = localisation.jumps;
       fusion_->reset(source.date, {localisation.position.pose, localisation.position.covariance});
     }
   }

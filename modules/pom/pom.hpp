@@ -43,7 +43,7 @@ class Pom : public genom::Module {
     std::uint32_t number;
     genom::PosterLink<posters::Localisation>& poster;
     Time date;
-    std::uint32_t restarts = 0;
+    std::uint32_t jumps = 0;
   };
 
   FusionParameters parameters_;

@@ -37,21 +37,20 @@ struct Odometry {
   }
 };
 
-/// From `segloc`: the pose in the map frame, matched against the segment map, at the date of the scan used. From
-/// `locate`: matched against the known map, by echoes in place of segments.
+/// From `segloc` and `locate`: the pose in the map frame, matched against the map, at the date of the scan used.
 struct Localisation {
   PositionEstimate position;
-  std::uint32_t matched = 0;   ///< segments of the scan matched to the map
-  std::uint32_t observed = 0;  ///< segments of the scan
-  bool lost = false;           ///< the pose is unknown, and not to be used
-  std::uint32_t restarts = 0;  ///< how often the pose was found anew: poses before are of no use
+  std::uint32_t matched = 0;   ///< segments, or points, of the scan matched to the map
+  std::uint32_t observed = 0;  ///< segments, or points, of the scan
+  bool lost = false;           ///< the pose is not known: not to be used
+  std::uint32_t jumps = 0;     ///< how often the robot was found elsewhere than where it was thought to be
 
   static void fields(auto field) {
     field("position", &Localisation::position);
     field("matched", &Localisation::matched);
     field("observed", &Localisation::observed);
     field("lost", &Localisation::lost, added);
-    field("restarts", &Localisation::restarts, added);
+    field("jumps", &Localisation::jumps, added);
   }
 };
 

@@ -109,6 +109,8 @@ typedef struct ODOMETRY {
 typedef struct LOCALISATION {
   POSITION_ESTIMATE position;
   uint32_t matched, observed;
+  bool lost;
+  uint32_t jumps;
 } LOCALISATION;
 typedef struct FUSED_POSITION {
   POSITION_ESTIMATE position;

@@ -10,6 +10,9 @@ using namespace std::chrono_literals;
 namespace {
 // Readers of the map poll it rarely; exporting so large a poster with every scan would be too often.
 constexpr std::uint32_t scans_per_map = 20;
+// The change to points: below this share of scans held by segments, as a running mean over so many.
+constexpr double held_min = 0.4, held_scans = 20;
+constexpr std::size_t early_max = 64;
 }  // namespace
 
 Parameters Segloc::read(genom::Settings& settings) {
@@ -26,6 +29,7 @@ Segloc::Segloc(genom::ModuleSetup& setup)
       slam_(add_task("slam", {.period_ms = 20ms, .delay_ms = {}, .cost_us = {}})),
       segments_(read_poster<posters::Segments>("sick.segments")),
       odometry_(read_poster<posters::Odometry>("rflex.odometry")),
+      echoes_(read_poster<posters::Echoes>("sick.echoes", false)),
       localisation_(add_poster<posters::Localisation>("localisation", slam_)),
       map_poster_(add_poster<posters::SegmentMap>("map", slam_)) {
   auto& localise = add_activity<posters::KnownPose>("Localise", slam_,
@@ -40,6 +44,7 @@ Segloc::Segloc(genom::ModuleSetup& setup)
                                                            return State::exec;
                                                          }},
                                                     {"Localise"});
+  setup.settings.read_one("points", point_parameters_);
   localise.cost = 1ms;
   setup.settings.read_one("localise_cost_us", localise.cost);
   add_control<Nothing>("Stop", [](const Nothing&, Nothing&) { return genom::ok; }, {"Localise"});
@@ -52,6 +57,9 @@ void Segloc::start(const posters::KnownPose& input) {
   pose.covariance[8] = input.heading_deviation_rad * input.heading_deviation_rad;
   filter_.emplace(parameters_, pose);
   odometry_at_filter_.reset();
+  points_.reset();
+  early_.clear();
+  held_ = 1;
 }
 
 void Segloc::localise() {
@@ -64,13 +72,83 @@ void Segloc::localise() {
   if (scan_.date > odometry.position.date) return;
   number_ = scan_.number;
 
+  if (points_ != nullptr && scan_of_points_->scan.number != scan_.number &&
+      (echoes_.read(*scan_of_points_) != genom::PosterStatus::ok || scan_of_points_->scan.number != scan_.number)) {
+    return;  // its echoes are gone already
+  }
   const Pose then = trail_.at(scan_.date);
-  filter_->predict({between(*odometry_at_filter_, then), {}});
+  if (points_ == nullptr)
+    use_segments(then);
+  else
+    use_points(then);
   odometry_at_filter_ = then;
+}
+
+void Segloc::use_segments(const Pose& then) {
+  filter_->predict({between(*odometry_at_filter_, then), {}});
   const Observed observed = filter_->observe(scan_);
   const PoseEstimate estimate = filter_->position();
   localisation_.write({{scan_.date, estimate.pose, estimate.covariance}, observed.matched, observed.segments});
   if (scans_++ % scans_per_map == 0) export_map();
+  if (early_.size() < early_max) early_.push_back({scan_.date, estimate.pose});
+  if (filter_->astray())
+    change_to_points(true);
+  else if (!held_by_segments(observed))
+    change_to_points(false);
+}
+
+// Two matched segments hold the pose, if they are not parallel, which most are not.
+bool Segloc::held_by_segments(const Observed& observed) {
+  held_ += ((observed.matched >= 2 ? 1.0 : 0.0) - held_) / held_scans;
+  return held_ >= held_min;
+}
+
+void Segloc::change_to_points(bool lost) {
+  if (!echoes_.connected()) return;
+  std::vector<matching::SurfacePoint> known;
+  for (const Landmark& landmark : filter_->landmarks()) {
+    const Line& line = landmark.line;
+    for (const auto& s : landmark.seen.stretches()) {
+      for (double place = s.low_m; place <= s.high_m; place += point_parameters_.cell_m)
+        known.push_back({line.at(place), {-line.normal.x, -line.normal.y}});
+    }
+  }
+  points_ = std::make_unique<PointMap>(point_parameters_, filter_->position().pose, std::move(known), lost);
+  scan_of_points_ = std::make_unique<posters::Echoes>();
+  filter_.reset();
+}
+
+void Segloc::use_points(const Pose& then) {
+  matching::SurfaceParameters surface;
+  surface.range_m_max = point_parameters_.range_m_max;
+  matching::surface_of(*scan_of_points_, surface, surface_);
+  points_->observe(scan_.date, between(*odometry_at_filter_, then), surface_);
+  posters::Localisation told;
+  told.position = {scan_.date, points_->pose(), points_->covariance()};
+  told.observed = static_cast<std::uint32_t>(surface_.size());
+  told.matched = static_cast<std::uint32_t>(points_->explained() * static_cast<double>(surface_.size()) + 0.5);
+  told.lost = points_->lost();
+  told.jumps = points_->jumps();
+  localisation_.write(told);
+  if (scans_++ % scans_per_map == 0) export_points();
+}
+
+std::vector<posters::StampedPose> Segloc::corrected() const {
+  if (points_ == nullptr) return {};
+  std::vector<posters::StampedPose> poses = early_;
+  const std::vector<posters::StampedPose> later = points_->corrected();
+  poses.insert(poses.end(), later.begin(), later.end());
+  return poses;
+}
+
+// The segments of the present scan, at the pose that it has on the map of points.
+void Segloc::export_points() {
+  map_.date = scan_.date;
+  map_.items.clear();
+  const Pose here = points_->pose();
+  for (const posters::Segment& segment : scan_.items)
+    map_.items.push_back({transform(here, segment.start), transform(here, segment.end)});
+  map_poster_.write(map_);
 }
 
 void Segloc::export_map() {

@@ -68,6 +68,8 @@ class SegmentMapFilter {
   Observed observe(const posters::Segments& segments);
 
   PoseEstimate position() const;
+  /// The segments near landmarks have not matched for so long that the pose must be wrong.
+  bool astray() const { return lost_ > parameters_.lost_updates_max; }
   const OdometryCalibration& calibration() const { return calibration_; }
 
   const std::vector<Landmark>& landmarks() const { return landmarks_; }
