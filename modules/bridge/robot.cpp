@@ -5,6 +5,7 @@
 
 #include "core/doing.hpp"
 #include "core/nearest_name.hpp"
+#include "modules/bridge/derived_settings.hpp"
 #include "modules/control/controller.hpp"
 #include "modules/control/parser.hpp"
 #include "modules/executive/executive.hpp"
@@ -25,12 +26,6 @@ void at(const scenario::Location& written, Function&& function) {
   } catch (const BadInput& error) {
     throw written.bad(error.what());
   }
-}
-
-double radius_m(const world::Shape& shape) {
-  const Point centre = shape.pose.position();
-  if (shape.kind == world::Shape::Kind::cylinder) return length(centre) + shape.radius_m;
-  return length(centre) + 0.5 * exact::hypot(shape.length_m, shape.width_m);
 }
 
 std::string report_text(const executive::GoalRecord& record) {
@@ -83,6 +78,7 @@ void Robot::make_modules(std::span<const genom::ModuleType> types, io::Network* 
       throw module.written.bad("unknown module type '" + module.type + "'" + did_you_mean(module.type, known));
     }
     genom::ModuleSetup setup{names_, module.name, genom::Settings(module.settings), network, known_map};
+    derive_settings(scenario_, module, setup.settings);
     std::unique_ptr<genom::Module> made;
     const std::string doing = "constructing module " + module.name + " of robot " + scenario_.name;
     const Doing construction(doing.c_str());
@@ -106,8 +102,8 @@ void Robot::make_modules(std::span<const genom::ModuleType> types, io::Network* 
 
 void Robot::make_executive(std::shared_ptr<const executive::KnownSpace> known, std::uint64_t seed) {
   executive::Parameters parameters;
-  parameters.planning.robot_radius_m = radius_m(scenario_.body.shape);
   genom::Settings settings(scenario_.executive);
+  derive_outline(robot_outline(scenario_.body.shape), settings, "planning.");
   settings.read(parameters);
   settings.check_not_negative(parameters);
   constexpr double leg_least_m = 0.05;

@@ -25,7 +25,8 @@
 namespace waitpoint::executive {
 
 struct PlanningParameters {
-  double robot_radius_m = 0.26;
+  double robot_radius_m = 0.26;         ///< of the smallest disc about the robot's centre that holds it
+  Bounded<Point, 64> footprint;         ///< corners of its outline, convex, counter-clockwise; none: it is that disc
   double clearance_m = 0.05;            ///< least clearance to each side; such passages are used if necessary
   double preferred_clearance_m = 0.55;  ///< beyond the radius; no extra cost from here on
   double explained_m = 0.25;            ///< an echo this close to a mapped obstacle is not marked
@@ -36,6 +37,7 @@ struct PlanningParameters {
 
   static void fields(auto field) {
     field("robot_radius_m", &PlanningParameters::robot_radius_m);
+    field("footprint", &PlanningParameters::footprint);
     field("clearance_m", &PlanningParameters::clearance_m);
     field("preferred_clearance_m", &PlanningParameters::preferred_clearance_m);
     field("explained_m", &PlanningParameters::explained_m);

@@ -69,6 +69,19 @@ bool Settings::has(const std::string& key) const {
   return std::any_of(settings_.begin(), settings_.end(), [&](const Setting& s) { return s.key == key; });
 }
 
+void Settings::derive(const std::string& key, double value, const std::string& from) {
+  constexpr double tolerance = 1e-6;
+  const auto at = std::find_if(settings_.begin(), settings_.end(), [&](const Setting& s) { return s.key == key; });
+  if (at == settings_.end()) {
+    settings_.push_back({key, waitpoint::number_text(value), "", 0});
+    used_.push_back(true);
+    return;
+  }
+  double set = 0;
+  if (parse_number(at->text, set) && !(std::fabs(set - value) <= tolerance))
+    refuse(*at, number_text(value) + " by " + from + ", or left out");
+}
+
 bool Settings::has_any(const std::string& key) const {
   return std::any_of(settings_.begin(), settings_.end(),
                      [&](const Setting& s) { return s.key == key || s.key.starts_with(key + "."); });

@@ -29,6 +29,9 @@ class Settings {
   }
 
   bool has(const std::string& key) const;
+  /// Adds a number that follows from something else, described by `from`; a module need not read it. If the key is set,
+  /// to more than a millionth beside it, BadInput at the setting.
+  void derive(const std::string& key, double value, const std::string& from);
   /// Throws BadInput "expected KEY to be `expected`, found ..." at a setting, which must be set.
   [[noreturn]] void reject(const std::string& key, const std::string& expected) const;
 

@@ -9,7 +9,8 @@
 namespace waitpoint::ndd {
 
 struct Parameters {
-  double robot_radius_m = 0.26;
+  double robot_radius_m = 0.26;  ///< of the smallest disc about the robot's centre that holds it
+  Bounded<Point, 64> footprint;  ///< corners of its outline, convex, counter-clockwise; none: it is that disc
   double v_m_s_max = 0.9, w_rad_s_max = 1.5;
   double braking_m_s2 = 0.9;           ///< assumed deceleration, slightly less than the base's limit
   double reaction_s = 0.25;            ///< from an obstacle's motion to braking: scan, decision and command periods
@@ -32,6 +33,7 @@ struct Parameters {
 
   static void fields(auto field) {
     field("robot_radius_m", &Parameters::robot_radius_m);
+    field("footprint", &Parameters::footprint);
     field("v_m_s_max", &Parameters::v_m_s_max);
     field("w_rad_s_max", &Parameters::w_rad_s_max);
     field("braking_m_s2", &Parameters::braking_m_s2);
