@@ -28,6 +28,8 @@ void at(const scenario::Location& written, Function&& function) {
   }
 }
 
+constexpr Duration replan_period_unknown = std::chrono::milliseconds(200);
+
 std::string report_text(const executive::GoalRecord& record) {
   switch (record.state) {
     case executive::GoalState::ahead: return "";
@@ -104,6 +106,7 @@ void Robot::make_executive(std::shared_ptr<const executive::KnownSpace> known, s
   executive::Parameters parameters;
   genom::Settings settings(scenario_.executive);
   derive_outline(robot_outline(scenario_.body.shape), settings, "planning.");
+  if (!known->is_known()) parameters.replan_ms = replan_period_unknown;
   settings.read(parameters);
   settings.check_not_negative(parameters);
   constexpr double leg_least_m = 0.05;

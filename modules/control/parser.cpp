@@ -11,7 +11,7 @@
 namespace waitpoint::control {
 namespace {
 
-using Kind = Expression::Kind;
+using Operator = Expression::Kind;
 
 constexpr int depth_max = 100;
 constexpr std::size_t operands_max = 1000;
@@ -21,14 +21,14 @@ constexpr std::pair<std::string_view, Relation> relations[] = {
     {"<", Relation::less},       {"<=", Relation::less_equal},    {"==", Relation::equal},
     {"!=", Relation::not_equal}, {">=", Relation::greater_equal}, {">", Relation::greater}};
 constexpr std::pair<std::string_view, double> time_units[] = {{"s", 1}, {"ms", 1e-3}, {"us", 1e-6}};
-constexpr std::pair<std::string_view, Kind> of_expressions[] = {
-    {"past", Kind::past}, {"always", Kind::always}, {"never", Kind::never}, {"since", Kind::since}};
-constexpr std::pair<std::string_view, Kind> of_patterns[] = {{"request", Kind::requested},
-                                                             {"running", Kind::running},
-                                                             {"succeeded", Kind::succeeded},
-                                                             {"failed", Kind::failed},
-                                                             {"duration", Kind::lasting}};
-constexpr std::pair<std::string_view, Kind> of_posters[] = {{"given", Kind::given}, {"age", Kind::aged}};
+constexpr std::pair<std::string_view, Operator> of_expressions[] = {
+    {"past", Operator::past}, {"always", Operator::always}, {"never", Operator::never}, {"since", Operator::since}};
+constexpr std::pair<std::string_view, Operator> of_patterns[] = {{"request", Operator::requested},
+                                                                 {"running", Operator::running},
+                                                                 {"succeeded", Operator::succeeded},
+                                                                 {"failed", Operator::failed},
+                                                                 {"duration", Operator::lasting}};
+constexpr std::pair<std::string_view, Operator> of_posters[] = {{"given", Operator::given}, {"age", Operator::aged}};
 
 template <class Table>
 auto find(const Table& table, std::string_view word) {
@@ -37,7 +37,7 @@ auto find(const Table& table, std::string_view word) {
 
 std::size_t dots(std::string_view word) { return static_cast<std::size_t>(std::count(word.begin(), word.end(), '.')); }
 
-Expression joined(Kind kind, std::vector<Expression> operands, Place place) {
+Expression joined(Operator kind, std::vector<Expression> operands, Place place) {
   if (operands.size() == 1) return std::move(operands.front());
   Expression whole;
   whole.kind = kind;
@@ -48,7 +48,7 @@ Expression joined(Kind kind, std::vector<Expression> operands, Place place) {
 
 Expression negated(Expression operand) {
   Expression whole;
-  whole.kind = Kind::negation;
+  whole.kind = Operator::negation;
   whole.place = operand.place;
   whole.operands.push_back(std::move(operand));
   return whole;
@@ -56,7 +56,7 @@ Expression negated(Expression operand) {
 
 Expression running(const RequestPattern& pattern) {
   Expression whole;
-  whole.kind = Kind::running;
+  whole.kind = Operator::running;
   whole.pattern = pattern;
   whole.place = pattern.place;
   return whole;
@@ -151,7 +151,7 @@ class Parser {
       Expression forbidden = condition();
       std::vector<Expression> both = when;
       both.push_back(std::move(forbidden));
-      check.forbidden = joined(Kind::conjunction, std::move(both), check.place);
+      check.forbidden = joined(Operator::conjunction, std::move(both), check.place);
       while (!accept("}")) action(check);
       rules.checks.push_back(std::move(check));
     }
@@ -188,10 +188,10 @@ class Parser {
         std::vector<Expression> two;
         two.push_back(running(patterns[j]));
         two.push_back(running(patterns[i]));
-        pairs.push_back(joined(Kind::conjunction, std::move(two), place));
+        pairs.push_back(joined(Operator::conjunction, std::move(two), place));
       }
     }
-    return joined(Kind::disjunction, std::move(pairs), place);
+    return joined(Operator::disjunction, std::move(pairs), place);
   }
 
   void action(Check& check) {
@@ -214,7 +214,7 @@ class Parser {
   }
 
   template <class Next>
-  Expression chain(const char* sign, Kind kind, Next next) {
+  Expression chain(const char* sign, Operator kind, Next next) {
     const Place place = token_.place;
     std::vector<Expression> operands;
     do operands.push_back(next());
@@ -224,8 +224,8 @@ class Parser {
 
   Expression expression() {
     if (++depth_ > depth_max) refuse("at most " + std::to_string(depth_max) + " nested expressions");
-    Expression whole =
-        chain("||", Kind::disjunction, [this] { return chain("&&", Kind::conjunction, [this] { return operand(); }); });
+    Expression whole = chain("||", Operator::disjunction,
+                             [this] { return chain("&&", Operator::conjunction, [this] { return operand(); }); });
     --depth_;
     return whole;
   }
@@ -246,7 +246,7 @@ class Parser {
     }
     Expression whole;
     whole.place = token_.place;
-    const auto as = [&](Kind kind) {
+    const auto as = [&](Operator kind) {
       whole.kind = kind;
       take();
       expect("(");
@@ -256,7 +256,7 @@ class Parser {
     } else if (const auto* const found = find(of_expressions, token_.text); found != std::end(of_expressions)) {
       as(found->second);
       whole.operands.push_back(expression());
-      if (whole.kind == Kind::since) {
+      if (whole.kind == Operator::since) {
         expect(",");
         whole.operands.push_back(expression());
       }
@@ -265,14 +265,14 @@ class Parser {
       as(of->second);
       whole.pattern = pattern();
       expect(")");
-      if (whole.kind == Kind::lasting) whole.time = longer();
+      if (whole.kind == Operator::lasting) whole.time = longer();
     } else if (const auto* const about = find(of_posters, token_.text); about != std::end(of_posters)) {
       as(about->second);
       whole.poster = word("a poster, such as rflex.odometry", 1, 1).text;
       expect(")");
-      if (whole.kind == Kind::aged) whole.time = longer();
+      if (whole.kind == Operator::aged) whole.time = longer();
     } else {
-      whole.kind = Kind::comparison;
+      whole.kind = Operator::comparison;
       whole.comparison = comparison("an expression, such as running(ndd.GoTo) or a poster's field", 2);
     }
     return whole;

@@ -10,6 +10,14 @@ using namespace std::chrono_literals;
 
 namespace {
 constexpr Duration look_period = 500ms;
+constexpr Duration survey_period = 50ms;
+
+posters::GoToInput first_of(std::span<const Point> via_points) {
+  posters::GoToInput input;
+  for (const Point point : via_points.first(std::min(via_points.size(), posters::via_point_count_max)))
+    input.via.push_back(point);
+  return input;
+}
 }  // namespace
 
 Executive::Executive(genom::NameSpace& names, const Parameters& parameters, std::shared_ptr<const KnownSpace> known,
@@ -20,31 +28,34 @@ Executive::Executive(genom::NameSpace& names, const Parameters& parameters, std:
       planner_(std::move(known), parameters.planning),
       mission_(planner_, parameters.mission, goals, random),
       start_(start),
-      looks_(parameters.mark_range_m) {}
+      looks_(parameters.mark_range_m) {
+  if (parameters_.replan_ms > Duration()) surveyor_.emplace(planner_.space().map(), parameters_.seen_range_m);
+}
 
 void Executive::connect() {
   for (const char* module : {"rflex", "sick", "pom", "ndd"})
     if (names_.find_module(module) == nullptr)
       throw BadInput("the executive", std::string("needs the module '") + module + "'");
   looks_.connect(names_);
+  if (surveyor_) surveyor_->connect(names_);
 }
 
 void Executive::run() {
   start_modules();
   wait_for_position();
   // A separate statement: the order of evaluation of arguments differs between compilers, and the read may take time.
-  Point here = position();
+  Point here = place_of_planning();
   const Order* order = planned(mission_.start(threads::now(), here));
   while (order->kind != Order::Kind::finished && !stopping_) {
     if (order->kind == Order::Kind::wait) {
-      threads::this_thread::sleep_until(order->until);
-      here = position();
+      wait_until(order->until);
+      here = place_of_planning();
       order = planned(mission_.waited(threads::now(), here));
       continue;
     }
     const std::optional<genom::Report> report = drive(order->via_points);
     if (!report) break;
-    here = position();
+    here = place_of_planning();
     order = planned(*report == genom::ok ? mission_.arrived(threads::now(), here)
                                          : mission_.blocked(threads::now(), here, looks_.seen()));
   }
@@ -77,26 +88,59 @@ void Executive::stop_modules() {
   client_.call("sick", "Stop");
 }
 
-Point Executive::position() const { return looks_.position(); }
+void Executive::look() {
+  if (surveyor_)
+    surveyor_->look();
+  else
+    looks_.look();
+}
 
-// Sends the via points and waits for the final report, recording echoes meanwhile; nothing if stopped. Via points
-// beyond one request's capacity follow in the next.
+// Where to plan from, with what has been seen until now.
+Point Executive::place_of_planning() {
+  if (surveyor_) {
+    surveyor_->look();
+    planner_.space().see(surveyor_->seen());
+  }
+  return looks_.position();
+}
+
+void Executive::wait_until(Time until) {
+  if (!surveyor_) return threads::this_thread::sleep_until(until);
+  while (threads::now() < until && !stopping_) {
+    threads::this_thread::sleep_for(survey_period);
+    surveyor_->look();
+  }
+}
+
+// The via points to follow: `via_points`, or those of a better route, which `ndd` has got.
+std::span<const Point> Executive::reroute(std::span<const Point> via_points) {
+  if (threads::now() < next_plan_) return via_points;
+  next_plan_ = threads::now() + parameters_.replan_ms;
+  const Point here = place_of_planning();
+  const Order* const order = mission_.replanned(here);
+  threads::compute(parameters_.plan_cost_us);
+  if (order == nullptr || !client_.send("ndd", "Reroute", first_of(order->via_points))) return via_points;
+  return order->via_points;
+}
+
+// Sends the via points and waits for the final report, looking meanwhile; nothing if stopped. Via points beyond one
+// request's capacity follow in the next.
 std::optional<genom::Report> Executive::drive(std::span<const Point> via_points) {
   looks_.clear();
+  const Duration period = surveyor_ ? survey_period : look_period;
   while (!via_points.empty()) {
-    GoToInput input;
-    const std::size_t count = std::min(via_points.size(), posters::via_point_count_max);
-    for (const Point point : via_points.first(count)) input.via.push_back(point);
     std::optional<std::uint32_t> request;
-    while (!(request = client_.send("ndd", "GoTo", input))) threads::this_thread::sleep_for(look_period);
+    while (!(request = client_.send("ndd", "GoTo", first_of(via_points)))) threads::this_thread::sleep_for(look_period);
     std::optional<genom::Reply> reply;
     while (!reply || reply->send_id != *request || !reply->final) {
       if (stopping_) return std::nullopt;
-      reply = client_.receive(look_period);
-      if (!reply) looks_.look();
+      reply = client_.receive(period);
+      if (reply) continue;
+      look();
+      if (surveyor_) via_points = reroute(via_points);
     }
     if (reply->report != genom::ok) return reply->report;
-    via_points = via_points.subspan(count);
+    via_points = via_points.subspan(std::min(via_points.size(), posters::via_point_count_max));
   }
   return genom::ok;
 }

@@ -6,6 +6,11 @@
 #include <cstdlib>
 
 namespace waitpoint::executive {
+namespace {
+
+std::int32_t half_cells_to_edge(std::int32_t cells) { return std::max(0, 2 * std::abs(cells) - 1); }
+
+}  // namespace
 
 FreeSpace::FreeSpace(std::shared_ptr<const KnownSpace> known, const PlanningParameters& parameters)
     : known_(std::move(known)), parameters_(parameters) {
@@ -37,7 +42,8 @@ double FreeSpace::clearance_m(CellIndex c) const {
 }
 
 std::uint32_t FreeSpace::cell_cost(CellIndex c) const {
-  return cost_[std::min(clearance_square(c), preferred_square_)];
+  const std::uint32_t unseen = seen_ != nullptr && !known_->is_known() && !seen_->seen(c) ? unseen_cell_cost : 0;
+  return cost_[std::min(clearance_square(c), preferred_square_)] + unseen;
 }
 
 // An exact traversal: in half cells, boundaries between cells are at odd numbers of steps, and the side of
@@ -60,22 +66,27 @@ bool FreeSpace::clear_line(CellIndex a, CellIndex b, std::uint16_t least_square)
 void FreeSpace::mark(std::span<const Point> echoes) {
   for (const Point echo : echoes) {
     const std::optional<CellIndex> c = map().cell_at(echo);
-    if (!c || known_->clearances()[index(*c)] < explained_square_ || clearance_square(*c) == 0) continue;
+    if (!c || explained(*c) || clearance_square(*c) == 0) continue;
     if (!marked()) marks_ = {map().width(), map().height(), square_half_cells_max};
     push_away(*c);
   }
 }
 
+// An obstacle has no effect beyond the preferred clearance.
+std::int32_t FreeSpace::reach_cells() const {
+  std::int32_t reach = 0;
+  while (half_cells_to_edge(reach) * half_cells_to_edge(reach) < preferred_square_) ++reach;
+  return reach;
+}
+
 void FreeSpace::push_away(CellIndex obstacle) {
-  const auto edge = [](std::int32_t cells) { return std::max(0, 2 * std::abs(cells) - 1); };
-  std::int32_t reach = 0;  // an obstacle has no effect beyond the preferred clearance
-  while (edge(reach) * edge(reach) < preferred_square_) ++reach;
+  const std::int32_t reach = reach_cells();
   const CellIndex low = {std::max(0, obstacle.x - reach), std::max(0, obstacle.y - reach)};
   const CellIndex high = {std::min(map().width() - 1, obstacle.x + reach),
                           std::min(map().height() - 1, obstacle.y + reach)};
   for (std::int32_t row = low.y; row <= high.y; ++row) {
     for (std::int32_t column = low.x; column <= high.x; ++column) {
-      const std::int32_t dx = edge(column - obstacle.x), dy = edge(row - obstacle.y);
+      const std::int32_t dx = half_cells_to_edge(column - obstacle.x), dy = half_cells_to_edge(row - obstacle.y);
       std::uint16_t& square = marks_(column, row);
       square = static_cast<std::uint16_t>(std::min<std::int32_t>(square, dx * dx + dy * dy));
     }
@@ -83,5 +94,31 @@ void FreeSpace::push_away(CellIndex obstacle) {
 }
 
 void FreeSpace::forget() { marks_ = {}; }
+
+void FreeSpace::see(const SeenMap& seen) {
+  seen_ = &seen;
+  CellIndex low = {map().width(), map().height()}, high = {-1, -1};
+  const auto is_obstacle = [&](CellIndex c) { return seen.occupied(c) && !explained(c); };
+  for (const CellIndex c : seen.ever_occupied()) {
+    if (!is_obstacle(c)) continue;
+    low = {std::min(low.x, c.x), std::min(low.y, c.y)};
+    high = {std::max(high.x, c.x), std::max(high.y, c.y)};
+  }
+  const std::int32_t reach = reach_cells();
+  low = {std::max(0, low.x - reach), std::max(0, low.y - reach)};
+  high = {std::min(map().width() - 1, high.x + reach), std::min(map().height() - 1, high.y + reach)};
+  seen_low_ = low;
+  seen_width_ = std::max(0, high.x - low.x + 1);
+  seen_height_ = std::max(0, high.y - low.y + 1);
+  const std::size_t count = static_cast<std::size_t>(seen_width_) * static_cast<std::size_t>(seen_height_);
+  seen_cells_.assign(count, Cell::free);
+  seen_squares_.resize(count);
+  if (count == 0) return;
+  for (const CellIndex c : seen.ever_occupied())
+    if (is_obstacle(c))
+      seen_cells_[static_cast<std::size_t>(c.y - low.y) * static_cast<std::size_t>(seen_width_) +
+                  static_cast<std::size_t>(c.x - low.x)] = Cell::occupied;
+  DistanceTransform().run(seen_cells_, seen_width_, seen_height_, seen_squares_);
+}
 
 }  // namespace waitpoint::executive

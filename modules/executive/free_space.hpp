@@ -20,6 +20,7 @@
 #include "core/occupancy_grid.hpp"
 #include "modules/executive/distance_transform.hpp"
 #include "modules/executive/known_space.hpp"
+#include "modules/executive/seen_map.hpp"
 #include "modules/executive/tiled_grid.hpp"
 
 namespace waitpoint::executive {
@@ -64,7 +65,8 @@ class FreeSpace {
   std::uint16_t clearance_square(CellIndex c) const {
     if (!map().contains(c)) return 0;
     const std::uint16_t known = known_->clearances()[index(c)];
-    return marked() ? std::min(known, marks_(c.x, c.y)) : known;
+    const std::uint16_t mapped = marked() ? std::min(known, marks_(c.x, c.y)) : known;
+    return seen_ == nullptr ? mapped : std::min(mapped, seen_square(c));
   }
   /// The distance from a cell's centre to the nearest obstacle, capped at 127 cells.
   double clearance_m(CellIndex c) const;
@@ -74,7 +76,7 @@ class FreeSpace {
   bool passable(CellIndex c) const { return clearance_square(c) >= hard_square_; }
   /// The cost of entering a passable cell, per fifth of its length; `least_cell_cost` in the open.
   std::uint32_t cell_cost(CellIndex c) const;
-  static constexpr std::uint32_t least_cell_cost = 16, greatest_cell_cost = 80;
+  static constexpr std::uint32_t least_cell_cost = 16, greatest_cell_cost = 80, unseen_cell_cost = 8;
 
   /// True if all cells touched by the segment between two cells' centres have at least this clearance.
   bool clear_line(CellIndex a, CellIndex b, std::uint16_t least_square) const;
@@ -85,17 +87,37 @@ class FreeSpace {
   void forget();
   bool marked() const { return !marks_.empty(); }
 
+  /// Takes over the obstacles that the robot has seen, in the place of those taken over before; those near mapped
+  /// obstacles, which explain them, are left out. On a map that is not known, cells that the robot has not seen then
+  /// cost more by unseen_cell_cost. `seen` is borrowed.
+  void see(const SeenMap& seen);
+  bool has_seen() const { return seen_ != nullptr; }
+
  private:
   std::size_t index(CellIndex c) const {
     return static_cast<std::size_t>(c.y) * static_cast<std::size_t>(map().width()) + static_cast<std::size_t>(c.x);
   }
   void push_away(CellIndex obstacle);
+  bool explained(CellIndex c) const { return known_->clearances()[index(c)] < explained_square_; }
+  std::int32_t reach_cells() const;
+  std::uint16_t seen_square(CellIndex c) const {
+    const std::int32_t x = c.x - seen_low_.x, y = c.y - seen_low_.y;
+    if (x < 0 || y < 0 || x >= seen_width_ || y >= seen_height_) return square_half_cells_max;
+    return seen_squares_[static_cast<std::size_t>(y) * static_cast<std::size_t>(seen_width_) +
+                         static_cast<std::size_t>(x)];
+  }
 
   std::shared_ptr<const KnownSpace> known_;
   PlanningParameters parameters_;
   std::uint16_t hard_square_ = 0, preferred_square_ = 0, explained_square_ = 0;
   TiledGrid<std::uint16_t> marks_;  // squared clearances from marks; empty without marks
   std::vector<std::uint8_t> cost_;  // by squared clearance, up to preferred_square_
+  // What the robot has seen: squared clearances in a window about it; null: nothing.
+  const SeenMap* seen_ = nullptr;
+  CellIndex seen_low_;
+  std::int32_t seen_width_ = 0, seen_height_ = 0;
+  std::vector<Cell> seen_cells_;
+  std::vector<std::uint16_t> seen_squares_;
 };
 
 }  // namespace waitpoint::executive

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A known map and the clearance of its cells. Independent of the robot's size, hence shared by all robots with the same
-// map.
+// The map that a robot is given, and the clearance of its cells. Independent of the robot's size, hence shared by all
+// robots with the same map.
 #pragma once
 
 #include <cstdint>
@@ -15,15 +15,18 @@ class KnownSpace {
  public:
   using Clearances = std::vector<std::uint16_t, LargePages<std::uint16_t>>;
 
-  explicit KnownSpace(OccupancyGrid map) : map_(std::move(map)) {}
+  /// `is_known` false: cells without an obstacle are not known to be free.
+  explicit KnownSpace(OccupancyGrid map, bool is_known = true) : map_(std::move(map)), is_known_(is_known) {}
 
   const OccupancyGrid& map() const { return map_; }
+  bool is_known() const { return is_known_; }
   /// For each cell, row by row: the squared distance from its centre to the nearest obstacle, in half cells; 0 for
   /// occupied or unknown cells. Computed on first use: robots without goals need only the map.
   const Clearances& clearances() const;
 
  private:
   OccupancyGrid map_;
+  bool is_known_;
   mutable Clearances clearances_;
 };
 

@@ -9,14 +9,16 @@ namespace {
 constexpr std::size_t looks_kept = 20;  // of two a second: slightly longer than the patience of `ndd`
 }  // namespace
 
+void connect_for_executive(const genom::NameSpace& names, genom::PosterLinkBase& link) {
+  genom::PosterBase* poster = names.find_poster(link.name());
+  if (poster == nullptr || !link.connect(*poster))
+    throw BadInput("the executive",
+                   "reads poster '" + link.name() + "', which no module of this robot writes with that type");
+}
+
 void Looks::connect(const genom::NameSpace& names) {
-  for (genom::PosterLinkBase* link :
-       {static_cast<genom::PosterLinkBase*>(&position_), static_cast<genom::PosterLinkBase*>(&echoes_)}) {
-    genom::PosterBase* poster = names.find_poster(link->name());
-    if (poster == nullptr || !link->connect(*poster))
-      throw BadInput("the executive",
-                     "reads poster '" + link->name() + "', which no module of this robot writes with that type");
-  }
+  connect_for_executive(names, position_);
+  connect_for_executive(names, echoes_);
 }
 
 bool Looks::have_begun() const {

@@ -12,6 +12,9 @@
 
 namespace waitpoint::executive {
 
+/// Connects a poster that the executive reads; a missing one, or one of another type, is BadInput.
+void connect_for_executive(const genom::NameSpace& names, genom::PosterLinkBase& link);
+
 class Looks {
  public:
   /// Echoes beyond `range_m_max` are left out.

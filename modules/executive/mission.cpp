@@ -5,6 +5,15 @@
 #include <limits>
 
 namespace waitpoint::executive {
+namespace {
+
+/// True if no obstacle that goes away can change it.
+bool is_final(PlanOutcome outcome) {
+  return outcome == PlanOutcome::goal_outside || outcome == PlanOutcome::goal_occupied ||
+         outcome == PlanOutcome::goal_unknown;
+}
+
+}  // namespace
 
 Mission::Mission(RoutePlanner& planner, const MissionParameters& parameters, const std::vector<Point>& goals,
                  const RandomStream& random)
@@ -46,6 +55,18 @@ const Order& Mission::blocked(Time now, Point robot, std::span<const Point> echo
   return wait(now);
 }
 
+const Order* Mission::replanned(Point robot) {
+  WAITPOINT_CHECK(current_ < goals_.size(), "replanning without a goal");
+  planner_.plan(robot, goals_[current_].goal, other_);
+  if (other_.outcome != PlanOutcome::found) return nullptr;
+  const std::uint32_t rest = planner_.remaining_cost(path_, robot);
+  if (rest != ShortestPath::unreachable && other_.cost > (1 - parameters_.better_by) * rest) return nullptr;
+  std::swap(plan_, other_);
+  path_ = planner_.path();
+  order_.via_points = plan_.via_points;
+  return &order_;
+}
+
 const Order& Mission::make_for_goal(Time now, Point robot) {
   for (std::size_t left = 0; current_ < goals_.size(); leave_goal(now, GoalState::no_route)) {
     if (left++ == goals_.size()) return wait(now);  // rounds of goals without routes take time, too
@@ -55,6 +76,9 @@ const Order& Mission::make_for_goal(Time now, Point robot) {
       planner_.plan(robot, goals_[current_].goal, plan_);
     }
     if (plan_.outcome == PlanOutcome::found) return drive();
+    // What the robot has seen may move away, or turn out to be nothing.
+    if (planner_.space().has_seen() && !is_final(plan_.outcome) && goals_[current_].tries < parameters_.tries_max)
+      return wait(now);
   }
   order_.kind = Order::Kind::finished;
   order_.via_points.clear();
@@ -63,6 +87,7 @@ const Order& Mission::make_for_goal(Time now, Point robot) {
 
 const Order& Mission::drive() {
   ++goals_[current_].tries;
+  path_ = planner_.path();
   order_.kind = Order::Kind::drive;
   order_.via_points = plan_.via_points;
   return order_;

@@ -24,6 +24,7 @@ struct MissionParameters {
   double wait_s_min = 2, wait_s_max = 8;
   double detour_max = 3;     ///< a detour longer by this factor is not taken at first: wait instead
   double detour_m_min = 15;  ///< unless it is no longer than this
+  double better_by = 0.05;   ///< in motion, another route is taken if it costs less by this part
 
   static void fields(auto field) {
     field("rounds", &MissionParameters::rounds);
@@ -32,6 +33,7 @@ struct MissionParameters {
     field("wait_s_max", &MissionParameters::wait_s_max);
     field("detour_max", &MissionParameters::detour_max);
     field("detour_m_min", &MissionParameters::detour_m_min);
+    field("better_by", &MissionParameters::better_by);
   }
 };
 
@@ -77,6 +79,10 @@ class Mission {
   /// The order after blocked motion; `echoes` are the visible obstacle points in the map frame.
   const Order& blocked(Time now, Point robot, std::span<const Point> echoes);
 
+  /// In motion, on a map that changes: the order of a better route to the present goal, or null to keep the present
+  /// one. A route with a cell that is no longer passable is given up for any other.
+  const Order* replanned(Point robot);
+
   const std::vector<GoalRecord>& goals() const { return goals_; }
   /// Index of the current goal; the number of goals when finished.
   std::size_t current() const { return current_; }
@@ -95,7 +101,8 @@ class Mission {
   std::size_t current_ = 0;
   std::uint32_t rounds_begun_ = 1;
   std::uint64_t draws_ = 0;
-  Plan plan_;
+  Plan plan_, other_;
+  std::vector<CellIndex> path_;  // of plan_
   Order order_;
 };
 

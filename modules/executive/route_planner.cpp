@@ -38,22 +38,47 @@ void RoutePlanner::plan(Point start, Point goal, Plan& plan) {
   plan.outcome = check_goal(goal);
   if (plan.outcome != PlanOutcome::found) return;
   const std::optional<CellIndex> start_cell = space_.map().cell_at(start), goal_cell = space_.map().cell_at(goal);
-  CellIndex from = start_cell.value_or(CellIndex());
-  if (!start_cell) {
-    plan.outcome = PlanOutcome::start_outside;
-  } else if (!space_.passable(*start_cell) && !escape(*start_cell, from)) {
-    plan.outcome = PlanOutcome::start_blocked;
-  } else {
+  CellIndex from = start_cell ? *start_cell : edge_at(start);
+  if (!space_.passable(from) && !escape(from, from))
+    plan.outcome = start_cell ? PlanOutcome::start_blocked : PlanOutcome::start_outside;
+  if (plan.outcome == PlanOutcome::found) {
     plan.cost = search_.find(space_, from, *goal_cell, path_);
     if (plan.cost == ShortestPath::unreachable) plan.outcome = PlanOutcome::unreachable;
   }
   if (plan.outcome != PlanOutcome::found) return;
   pull_via_cells(space_, path_, via_);
-  if (from != *start_cell) plan.via_points.push_back(space_.map().centre(from));
+  if (from != start_cell) plan.via_points.push_back(space_.map().centre(from));
   for (std::size_t i = 1; i + 1 < via_.size(); ++i) plan.via_points.push_back(space_.map().centre(via_[i]));
   plan.via_points.push_back(goal);
   Point last = start;
   for (const Point p : plan.via_points) plan.length_m += length(p - last), last = p;
+}
+
+// The cell of the map nearest to a point outside.
+CellIndex RoutePlanner::edge_at(Point outside) const {
+  const OccupancyGrid& map = space_.map();
+  const Point p = between(map.origin(), {outside.x, outside.y, 0}).position();
+  const auto clamped = [&](double at_m, int cells) {
+    return static_cast<int>(std::clamp(std::floor(at_m / map.resolution_m()), 0.0, static_cast<double>(cells - 1)));
+  };
+  return {clamped(p.x, map.width()), clamped(p.y, map.height())};
+}
+
+std::uint32_t RoutePlanner::remaining_cost(std::span<const CellIndex> path, Point robot) const {
+  const auto from_robot = [&](CellIndex c) {
+    const Point d = space_.map().centre(c) - robot;
+    return dot(d, d);
+  };
+  std::size_t nearest = 0;
+  for (std::size_t i = 1; i < path.size(); ++i)
+    if (from_robot(path[i]) < from_robot(path[nearest])) nearest = i;
+  std::uint32_t cost = 0;
+  for (std::size_t i = nearest + 1; i < path.size(); ++i) {
+    if (!space_.passable(path[i])) return ShortestPath::unreachable;
+    const bool is_diagonal = path[i].x != path[i - 1].x && path[i].y != path[i - 1].y;
+    cost += space_.cell_cost(path[i]) * (is_diagonal ? ShortestPath::diagonal_step : ShortestPath::straight_step);
+  }
+  return cost;
 }
 
 // The nearest passable cell in sight. The start itself may lie in a mark (an echo displaced by a position error), so

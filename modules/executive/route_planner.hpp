@@ -9,7 +9,7 @@ namespace waitpoint::executive {
 
 enum class PlanOutcome : std::uint8_t {
   found,
-  start_outside,   ///< the start is outside the map
+  start_outside,   ///< the start is outside the map, and its edge is closed there
   start_blocked,   ///< no passable cell near the start is in sight
   goal_outside,    ///< the goal is outside the map
   goal_occupied,   ///< the goal lies in an obstacle
@@ -36,8 +36,12 @@ class RoutePlanner {
   RoutePlanner(OccupancyGrid map, const PlanningParameters& parameters) : space_(std::move(map), parameters) {}
 
   /// Plans with the known map and its marks. From an impassable start the route first goes to the nearest passable cell
-  /// in sight. The plan's memory is reused.
+  /// in sight; from one outside the map, to the map's nearest cell, or one in its sight. The plan's memory is reused.
   void plan(Point start, Point goal, Plan& plan);
+
+  /// The cost of what remains of a path of cells, from that nearest to `robot` on, as of now; unreachable if a cell of
+  /// it is no longer passable.
+  std::uint32_t remaining_cost(std::span<const CellIndex> path, Point robot) const;
 
   /// The state of a goal by the known map and its marks: `found` if it is valid, or one of the goal_ outcomes.
   PlanOutcome check_goal(Point goal) const;
@@ -49,6 +53,7 @@ class RoutePlanner {
 
  private:
   bool escape(CellIndex start, CellIndex& free) const;
+  CellIndex edge_at(Point outside) const;
 
   FreeSpace space_;
   ShortestPath search_;

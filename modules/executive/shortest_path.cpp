@@ -34,7 +34,8 @@ std::uint32_t least_cost(CellIndex a, CellIndex b) {
 std::uint32_t ShortestPath::find(const FreeSpace& space, CellIndex start, CellIndex goal,
                                  std::vector<CellIndex>& path) {
   // A step raises the priority by its cost plus the increase of the lower bound.
-  static_assert(std::size_t{diagonal_step} * (FreeSpace::greatest_cell_cost + FreeSpace::least_cell_cost) <
+  static_assert(std::size_t{diagonal_step} *
+                    (FreeSpace::greatest_cell_cost + FreeSpace::unseen_cell_cost + FreeSpace::least_cell_cost) <
                 bucket_count);
   WAITPOINT_CHECK(space.passable(start) && space.passable(goal), "a way from or to a cell that is not passable");
   path.clear();

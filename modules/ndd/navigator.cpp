@@ -71,6 +71,15 @@ void Navigator::go(Time now, const posters::PositionEstimate& position, std::spa
   last_target_.reset();
 }
 
+bool Navigator::reroute(const posters::PositionEstimate& position, std::span<const Point> via_points) {
+  if (route_.empty()) return false;
+  const Point here = position.pose.position();
+  const double before_m = route_.remaining_m(here);
+  route_.start(here, via_points);
+  watch_.lengthen(route_.remaining_m(here) - before_m);
+  return true;
+}
+
 Decision Navigator::decide(Time now, const posters::PositionEstimate& position) {
   if (route_.empty() || trail_.empty() || scan_date_ < Time()) return {};
   const Pose robot = in_map(position);

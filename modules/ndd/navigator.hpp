@@ -47,6 +47,8 @@ class Navigator {
 
   /// Starts a route of via points in the map frame.
   void go(Time now, const posters::PositionEstimate& position, std::span<const Point> via_points);
+  /// Replaces the present route by another one to the same goal, in motion. False without a route.
+  bool reroute(const posters::PositionEstimate& position, std::span<const Point> via_points);
   void stop() { route_.clear(); }
 
   /// The command for the next control period. `position` is in the map frame, of any date within the odometry trail.

@@ -58,6 +58,11 @@ Ndd::Ndd(genom::ModuleSetup& setup)
   go_to.cost = 2ms;
   setup.settings.read_one("goto_cost_us", go_to.cost);
   add_control<Nothing>("Stop", [](const Nothing&, Nothing&) { return genom::ok; }, {"GoTo"});
+  add_control<GoToInput>("Reroute", [this](const GoToInput& input, Nothing&) {
+    if (input.via.empty()) return report(genom::StandardReport::control_codel_error);
+    const bool is_driving = navigator_.reroute(position_.position, {input.via.begin(), input.via.size()});
+    return is_driving ? genom::ok : own_report(static_cast<std::uint16_t>(NavigationReport::not_driving));
+  });
 }
 
 void Ndd::perceive() {

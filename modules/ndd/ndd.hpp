@@ -5,6 +5,7 @@
 //   writes   ndd.speed (the reference that rflex tracks)
 //   requests GoTo: follow via points; the last is the goal. Ends with `ok` at rest there, or with the report `blocked`.
 //            A new GoTo replaces the previous one; Stop ends it.
+//            Reroute: other via points for the active GoTo, without a halt
 #pragma once
 
 #include "modules/genom/module.hpp"

@@ -17,6 +17,8 @@ class ProgressWatch {
     best_m_ = std::numeric_limits<double>::infinity();
     since_ = now;
   }
+  /// The way became longer by `by_m` without motion: by another route.
+  void lengthen(double by_m) { best_m_ += by_m; }
   /// Updates the remaining way; false once there has been no progress for longer than `patience`.
   bool progressing(Time now, double remaining_m) {
     if (remaining_m <= best_m_ - step_m_ || best_m_ == std::numeric_limits<double>::infinity()) {

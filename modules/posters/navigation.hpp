@@ -20,7 +20,7 @@ struct KnownPose {
   }
 };
 
-/// Input of GoTo: points of the map frame in order; the last is the goal.
+/// Input of GoTo and Reroute: points of the map frame in order; the last is the goal.
 struct GoToInput {
   Bounded<Point, via_point_count_max> via;
 
@@ -31,6 +31,7 @@ struct GoToInput {
 enum class NavigationReport : std::uint16_t {
   blocked = 100,      ///< no progress for too long
   no_position = 101,  ///< the robot's position is unknown
+  not_driving = 102,  ///< Reroute: there is no active GoTo
 };
 
 }  // namespace waitpoint::posters

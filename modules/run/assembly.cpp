@@ -28,11 +28,14 @@ class KnownMaps {
     const world::Shape shape = raised(robot.body.shape, robot.body.start_height_m);
     const std::pair heights(shape.z_low_m, shape.z_high_m);
     auto& map = maps_[heights];
-    if (map == nullptr) map = std::make_shared<const executive::KnownSpace>(known_map(scenario_, file_, robot));
+    if (map == nullptr)
+      map = std::make_shared<const executive::KnownSpace>(known_map(scenario_, file_, robot), is_known());
     return map;
   }
 
  private:
+  bool is_known() const { return !scenario_.map || scenario_.map->known; }
+
   const scenario::Scenario& scenario_;
   const world::WorldFile* file_;
   std::map<std::pair<double, double>, std::shared_ptr<const executive::KnownSpace>> maps_;
@@ -53,7 +56,7 @@ Assembly::Assembly(const scenario::Scenario& scenario, std::span<const genom::Mo
   KnownMaps maps(scenario, file.get());
   scenario::check_on_map(
       scenario, [&](const scenario::RobotScenario& robot) -> const OccupancyGrid& { return maps.of(robot)->map(); },
-      file != nullptr && file->grid);
+      file != nullptr && file->grid && scenario.map->known);
   scenario::check_starts(scenario, world::start_overlaps(description));
   check_rendezvous(scenario);
   make_world(description, seed, make);

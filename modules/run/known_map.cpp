@@ -13,21 +13,29 @@ namespace {
 /// The extent of a floor.
 class Extent {
  public:
-  void hold(const world::Bounds& bounds) {
-    bounds_ = empty_
-                  ? bounds
-                  : world::Bounds{{std::min(bounds_.low.x, bounds.low.x), std::min(bounds_.low.y, bounds.low.y)},
-                                  {std::max(bounds_.high.x, bounds.high.x), std::max(bounds_.high.y, bounds.high.y)}};
-    empty_ = false;
+  void hold(const world::Bounds& bounds) { bounds_ = bounds_ ? united(*bounds_, bounds) : bounds; }
+  void hold(Point point, double margin_m) { hold(around(point, margin_m)); }
+  /// A start or goal outside what is held so far lies in the open, with a margin.
+  void hold_if_outside(Point point, double margin_m) {
+    if (!bounds_ || !bounds_->contains(around(point, 0))) outside_.push_back(around(point, margin_m));
   }
-  void hold(Point point, double margin_m) {
-    hold({{point.x - margin_m, point.y - margin_m}, {point.x + margin_m, point.y + margin_m}});
+  world::Bounds bounds() const {
+    std::optional<world::Bounds> all = bounds_;
+    for (const world::Bounds& each : outside_) all = all ? united(*all, each) : each;
+    return all.value_or(world::Bounds{{0, 0}, {1, 1}});
   }
-  world::Bounds bounds() const { return empty_ ? world::Bounds{{0, 0}, {1, 1}} : bounds_; }
 
  private:
-  world::Bounds bounds_;
-  bool empty_ = true;
+  static world::Bounds around(Point p, double margin_m) {
+    return {{p.x - margin_m, p.y - margin_m}, {p.x + margin_m, p.y + margin_m}};
+  }
+  static world::Bounds united(const world::Bounds& a, const world::Bounds& b) {
+    return {{std::min(a.low.x, b.low.x), std::min(a.low.y, b.low.y)},
+            {std::max(a.high.x, b.high.x), std::max(a.high.y, b.high.y)}};
+  }
+
+  std::optional<world::Bounds> bounds_;
+  std::vector<world::Bounds> outside_;
 };
 
 void hold(Extent& extent, const std::vector<world::MeshObstacle>& meshes) {
@@ -42,10 +50,16 @@ OccupancyGrid grid_around(const scenario::Scenario& scenario, const world::World
   if (map != nullptr) {
     hold(extent, map->meshes);
     for (const world::Obstacle& obstacle : map->obstacles) extent.hold(bounds_of(outline_of(obstacle.shape)));
-    for (const scenario::RobotScenario& robot : scenario.robots) {
-      extent.hold(robot.body.start.position(), drawn_margin_m);
-      for (const scenario::Goal& goal : robot.goals) extent.hold(goal.position, drawn_margin_m);
-    }
+  }
+  const auto hold_place = [&](Point place) {
+    if (map != nullptr)
+      extent.hold(place, drawn_margin_m);
+    else
+      extent.hold_if_outside(place, drawn_margin_m);
+  };
+  for (const scenario::RobotScenario& robot : scenario.robots) {
+    hold_place(robot.body.start.position());
+    for (const scenario::Goal& goal : robot.goals) hold_place(goal.position);
   }
   const auto [low, high] = extent.bounds();
   // The map is a grid: the extent of the shapes must fit into one.
@@ -63,7 +77,8 @@ OccupancyGrid grid_around(const scenario::Scenario& scenario, const world::World
 
 OccupancyGrid known_map(const scenario::Scenario& scenario, const world::WorldFile* map,
                         const scenario::RobotScenario& robot) {
-  const bool has_cells = map != nullptr && map->grid;
+  const bool is_known = map == nullptr || scenario.map->known;
+  const bool has_cells = is_known && map != nullptr && map->grid;
   OccupancyGrid grid = has_cells ? *map->grid : grid_around(scenario, map);
   const world::Shape body = raised(robot.body.shape, robot.body.start_height_m);
   std::vector<world::Shape> known;
@@ -72,14 +87,14 @@ OccupancyGrid known_map(const scenario::Scenario& scenario, const world::WorldFi
       if (obstacle.known && heights_overlap(body, obstacle.shape)) known.push_back(obstacle.shape);
   };
   add(scenario.shapes);
-  if (map != nullptr && !has_cells) add(map->obstacles);
+  if (map != nullptr && is_known && !has_cells) add(map->obstacles);
   world::draw(known, grid);
   const auto draw = [&](const std::vector<world::MeshObstacle>& meshes) {
     for (const world::MeshObstacle& obstacle : meshes)
       if (obstacle.known) world::draw(*obstacle.mesh, body.z_low_m, body.z_high_m, grid);
   };
   draw(scenario.meshes);
-  if (map != nullptr) draw(map->meshes);
+  if (map != nullptr && is_known) draw(map->meshes);
   return grid;
 }
 

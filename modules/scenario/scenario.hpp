@@ -47,6 +47,7 @@ struct MapFile {
   static constexpr double height_default_m = 2;
 
   std::filesystem::path file;           ///< resolved
+  bool known = true;                    ///< false: the robots plan without it
   std::optional<double> height_m = {};  ///< height of obstacles without one in the file; none: height_default_m
   Location written;
   /// Null until read().

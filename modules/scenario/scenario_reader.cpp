@@ -47,9 +47,10 @@ Expectation read_expectation(const YamlNode& node) {
 MapFile read_map(const YamlNode& node) {
   if (node.kind == YamlNode::Kind::scalar)
     return {.file = node.written.resolve(read_text(node, "map")), .written = node.written};
-  const YamlMap map(node, "the map", {"file", "height_m"});
+  const YamlMap map(node, "the map", {"file", "height_m", "known"});
   const YamlNode& file = map.require("file");
   MapFile result = {.file = file.written.resolve(read_text(file, "file")), .written = file.written};
+  map.read("known", result.known);
   if (map.has("height_m")) result.height_m = map.number("height_m", length_number);
   return result;
 }

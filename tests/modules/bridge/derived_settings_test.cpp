@@ -26,17 +26,24 @@ scenario::RobotScenario robot_with_laser_at(const Pose& mount) {
   return robot;
 }
 
+scenario::ModuleScenario module(const std::string& name, const std::string& type) {
+  scenario::ModuleScenario module;
+  module.name = name;
+  module.type = type;
+  return module;
+}
+
 double number(genom::Settings& settings, const std::string& key) {
   double value = -1;
   settings.read_one(key, value);
   return value;
 }
 
-std::string complaint(const scenario::RobotScenario& robot, const std::string& module, const std::string& key,
+std::string complaint(const scenario::RobotScenario& robot, const std::string& name, const std::string& key,
                       const std::string& text) {
   genom::Settings settings({{key, text, "robot.yaml", 12}});
   try {
-    derive_settings(robot, {.name = module, .type = module}, settings);
+    derive_settings(robot, module(name, name), settings);
   } catch (const BadInput& bad) {
     return bad.what();
   }
@@ -53,13 +60,13 @@ TEST(RobotOutline, IsADiscForACylinderAndTheCornersOfABoxAboutTheRobotsOrigin) {
   ASSERT_EQ(outline.corners.size(), 4u);
   EXPECT_NEAR(outline.radius_m, exact::hypot(0.5, 0.3), 1e-12);
   for (std::size_t i = 0; i < 4; ++i)  // counter-clockwise
-    EXPECT_GT(cross(outline.corners[(i + 1) % 4] - outline.corners[i], outline.corners[i] - Point{0.1, 0}), -1e-12);
+    EXPECT_GT(cross(outline.corners[i] - Point{0.1, 0}, outline.corners[(i + 1) % 4] - outline.corners[i]), 0);
 }
 
 TEST(DerivedSettings, OfNddAreTheRobotsOutline) {
   const scenario::RobotScenario robot = robot_with_laser_at({});
   genom::Settings settings;
-  derive_settings(robot, {.name = "ndd", .type = "ndd"}, settings);
+  derive_settings(robot, module("ndd", "ndd"), settings);
   EXPECT_NEAR(number(settings, "robot_radius_m"), 0.5 * exact::hypot(0.42, 0.43), 1e-12);
   EXPECT_NEAR(std::abs(number(settings, "footprint.0.x")), 0.21, 1e-12);
   EXPECT_NEAR(std::abs(number(settings, "footprint.3.y")), 0.215, 1e-12);
@@ -68,18 +75,18 @@ TEST(DerivedSettings, OfNddAreTheRobotsOutline) {
 TEST(DerivedSettings, OfSickAreTheMountOfTheLaserThatTheBridgeConnects) {
   const scenario::RobotScenario robot = robot_with_laser_at({0.2, -0.1, exact::pi / 2});
   genom::Settings settings;
-  derive_settings(robot, {.name = "sick", .type = "sick"}, settings);
+  derive_settings(robot, module("sick", "sick"), settings);
   EXPECT_EQ(number(settings, "mount_x_m"), 0.2);
   EXPECT_EQ(number(settings, "mount_y_m"), -0.1);
   EXPECT_NEAR(number(settings, "mount_heading_deg"), 90, 1e-9);
   genom::Settings other;
-  derive_settings(robot, {.name = "rear", .type = "sick"}, other);
+  derive_settings(robot, module("rear", "sick"), other);
   EXPECT_FALSE(other.has("mount_x_m"));
 }
 
 TEST(DerivedSettings, NeedNotBeReadByTheModule) {
   genom::Settings settings;
-  derive_settings(robot_with_laser_at({}), {.name = "ndd", .type = "ndd"}, settings);
+  derive_settings(robot_with_laser_at({}), module("ndd", "ndd"), settings);
   settings.check_all_used();
 }
 

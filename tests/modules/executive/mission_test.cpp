@@ -93,6 +93,19 @@ TEST_F(MissionTest, GivesUpAfterTheTriesAllowed) {
   EXPECT_EQ(mission.current(), 1u);
 }
 
+TEST_F(MissionTest, InMotionAnotherRouteIsTakenOnlyIfItIsBetterByAPart) {
+  parameters.better_by = 0.05;
+  Mission mission(planner, parameters, {{5, 2.3}}, random);
+  mission.start(seconds(0), {1, 2.3});
+  EXPECT_EQ(mission.replanned({1, 2.3}), nullptr);
+  planner.space().mark(in_the_upper_door);
+  const Order* const order = mission.replanned({2, 2.3});
+  ASSERT_NE(order, nullptr);
+  EXPECT_EQ(order->via_points.back(), (Point{5, 2.3}));
+  EXPECT_EQ(mission.replanned({2, 2.3}), nullptr);  // it is the present one now
+  EXPECT_EQ(mission.goals()[0].tries, 1u);
+}
+
 // An obstacle on the way to one goal is most likely still there on the way to the next.
 TEST_F(MissionTest, MarksOutliveTheGoal) {
   Mission mission(planner, parameters, {{5, 2.3}, {1, 2.3}}, random);

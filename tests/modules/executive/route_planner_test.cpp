@@ -103,6 +103,29 @@ TEST(RoutePlanner, EveryReasonIsTold) {
   EXPECT_EQ(outcome({70, 1}, inside), PlanOutcome::start_outside);
 }
 
+TEST(RoutePlanner, FromBeyondTheEdgeOfTheMapTheRouteBeginsAtItsNearestCell) {
+  RoutePlanner planner(test::drawn_map(std::vector<std::string>(40, std::string(60, ' ')), 0.05), {});
+  Plan plan;
+  planner.plan({3.8, 1.01}, {0.5, 1}, plan);  // the map ends at x = 3
+  ASSERT_EQ(plan.outcome, PlanOutcome::found);
+  EXPECT_LT(length(plan.via_points.front() - Point{2.975, 1.025}), 1e-9);
+  EXPECT_GT(plan.length_m, 3.2);
+}
+
+TEST(RoutePlanner, WhatRemainsOfARouteCostsTheLessTheFartherTheRobotIs) {
+  RoutePlanner planner(test::drawn_map(two_rooms(20), 0.05), {});
+  Plan plan;
+  planner.plan({0.625, 2.525}, {5.525, 0.725}, plan);
+  const std::vector<CellIndex> path = planner.path();
+  EXPECT_EQ(planner.remaining_cost(path, {0.625, 2.525}), plan.cost);
+  EXPECT_LT(planner.remaining_cost(path, planner.space().map().centre(path[path.size() / 2])), plan.cost);
+  EXPECT_EQ(planner.remaining_cost(path, {5.525, 0.725}), 0u);
+  const Point on_the_route = planner.space().map().centre(path[path.size() / 2]);
+  planner.space().mark(std::vector<Point>{on_the_route});
+  ASSERT_TRUE(planner.space().marked());
+  EXPECT_EQ(planner.remaining_cost(path, {0.625, 2.525}), ShortestPath::unreachable);
+}
+
 TEST(RoutePlanner, StartInTheInflationIsLeftOnItsOwnSideOfTheWall) {
   RoutePlanner planner(test::drawn_map(two_rooms(20), 0.05), {});
   Plan plan;

@@ -80,6 +80,28 @@ TEST(Navigation, IntermediateViaPointsArePassedWithoutStopping) {
   EXPECT_TRUE(loop.run(10));
 }
 
+TEST(Navigation, AnotherRouteIsTakenInMotionWithoutAHalt) {
+  const Shapes shapes;
+  ClosedLoop loop(shapes, 1);
+  DrivenRobot& robot = loop.add({}, {0, 0, 0});
+  EXPECT_FALSE(robot.navigator.reroute({}, std::vector<Point>{{5, 1}}));
+  for (int i = 0; i < 20; ++i) loop.step();
+  loop.go(robot, {{8, 0}});
+  while (robot.pose.x < 3) loop.step();
+  posters::PositionEstimate position;
+  position.date = loop.now();
+  position.pose = robot.pose;
+  EXPECT_TRUE(robot.navigator.reroute(position, std::vector<Point>{{6, 1.5}, {9, 2}}));
+  double slowest = 1;
+  while (robot.pose.x < 7 && loop.now().seconds() < 30) {
+    loop.step();
+    slowest = std::min(slowest, robot.v_m_s);
+  }
+  EXPECT_GT(slowest, 0.5);
+  EXPECT_TRUE(loop.run(10));
+  EXPECT_LT(length(robot.pose.position() - Point{9, 2}), 0.15);
+}
+
 TEST(Navigation, DoesNotOscillateInCorridors) {
   struct Expected {
     double width_m, speed_m_s;

@@ -154,6 +154,11 @@ TEST_F(ScenarioReader, paths_are_relative_to_the_file_that_names_them) {
   EXPECT_EQ(in_short.map->written.line, 6);
 }
 
+TEST_F(ScenarioReader, a_map_may_be_one_that_the_robots_do_not_know) {
+  EXPECT_TRUE(read(changed("  step_ms: 5", "  map: {file: maps/m.yaml}")).map->known);
+  EXPECT_FALSE(read(changed("  step_ms: 5", "  map: {file: maps/m.yaml, known: false}")).map->known);
+}
+
 TEST_F(ScenarioReader, a_medium_has_its_values_and_defaults) {
   EXPECT_FALSE(read(valid_scenario).medium.has_value());
   const auto with = [&](std::string_view medium) {

@@ -227,7 +227,8 @@ TEST_F(ShippedModules, HaveTheDescribedReports) {
   const std::map<std::string, std::map<std::string, int>> codes = {
       {"ndd",
        {{"BLOCKED", static_cast<int>(NavigationReport::blocked)},
-        {"NO_POSITION", static_cast<int>(NavigationReport::no_position)}}},
+        {"NO_POSITION", static_cast<int>(NavigationReport::no_position)},
+        {"NOT_DRIVING", static_cast<int>(NavigationReport::not_driving)}}},
       {"rflex",
        {{"NO_GYRO", static_cast<int>(CalibrationReport::no_gyro)},
         {"MOVED", static_cast<int>(CalibrationReport::moved)}}}};
