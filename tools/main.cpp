@@ -26,6 +26,7 @@
 #include "tools/output/output_file.hpp"
 #include "tools/papers_modules.hpp"
 #include "tools/ranks/launcher.hpp"
+#include "tools/replay/replay.hpp"
 #include "tools/run/run.hpp"
 #include "tools/run/run_watchdog.hpp"
 #include "tools/tcl_library.hpp"
@@ -73,6 +74,7 @@ int carry_out(int argc, const char* const* argv, std::vector<genom::ModuleType> 
     if (const auto* run = std::get_if<tools::RunOptions>(&options))
       return run->check ? tools::self_check(*run, types) : tools::run(*run, types);
     if (const auto* checked = std::get_if<tools::CheckOptions>(&options)) return check(*checked, types);
+    if (const auto* replay = std::get_if<tools::ReplayOptions>(&options)) return tools::replay_log(*replay, types);
     if (const auto* plan = std::get_if<tools::PlanOptions>(&options)) return tools::show_plan(*plan);
     if (const auto* generated = std::get_if<tools::GenomOptions>(&options)) return tools::genom(*generated);
     if (const auto* debug = std::get_if<tools::DebugOptions>(&options)) tools::debug(*debug);

@@ -73,6 +73,7 @@ Options read_options(int argc, const char* const* argv, const std::string& versi
   GenomOptions generated;
   std::optional<Command> genom;
   add_genom(line, generated, genom);
+  ReplayArguments replay(line);
   line.footer(
       "See waitpoint COMMAND --help. Exit status: 0 success, 1 a failed expectation of the scenario or a deadlock,\n"
       "2 bad input, 130 stopped by a signal.");
@@ -101,11 +102,12 @@ Options read_options(int argc, const char* const* argv, const std::string& versi
   if (exec.parsed()) return exec.options(program);
   if (plan.parsed()) return PlanOptions{plan_file, plan_picture};
   if (genom->parsed()) return generated;
+  if (replay.parsed()) return replay.options();
   if (check.parsed()) {
     const std::filesystem::path scenario = find_scenario(checked.file);
     return CheckOptions{scenario, checked.confinement.folders(scenario), checked.assignments};
   }
-  throw BadInput("command line", "expected a command, run, check, plan, explore, exec or genom; see waitpoint --help");
+  throw BadInput("command line", "expected a command, run, check, plan, explore, exec, genom or replay; see waitpoint --help");
 }
 
 }  // namespace waitpoint::tools

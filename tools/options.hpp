@@ -12,6 +12,7 @@
 #include "tools/gdb/debug.hpp"
 #include "tools/genom/genom.hpp"
 #include "tools/plan/plan_command.hpp"
+#include "tools/replay/replay_options.hpp"
 #include "tools/run/run_options.hpp"
 
 namespace waitpoint::tools {
@@ -29,7 +30,7 @@ struct ShownText {
 };
 
 using Options = std::variant<RunOptions, CheckOptions, ExploreOptions, ExecOptions, DebugOptions, PlanOptions,
-                             GenomOptions, ShownText>;
+                             GenomOptions, ReplayOptions, ShownText>;
 
 /// Reads the arguments, and WAITPOINT_SEED unless --seed is given. Throws BadInput, one line, for invalid arguments.
 /// `version` is the text of --version.

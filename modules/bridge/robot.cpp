@@ -6,6 +6,7 @@
 #include "core/doing.hpp"
 #include "core/nearest_name.hpp"
 #include "modules/bridge/derived_settings.hpp"
+#include "modules/bridge/module_making.hpp"
 #include "modules/control/controller.hpp"
 #include "modules/control/parser.hpp"
 #include "modules/executive/executive.hpp"
@@ -73,31 +74,9 @@ void Robot::make_modules(std::span<const genom::ModuleType> types, io::Network* 
                          const std::shared_ptr<const OccupancyGrid>& known_map) {
   for (const scenario::ModuleScenario& module : scenario_.modules) {
     if (!module.enabled) continue;
-    const auto type = std::find_if(types.begin(), types.end(), [&](const auto& t) { return t.name == module.type; });
-    if (type == types.end()) {
-      std::vector<std::string_view> known;
-      for (const genom::ModuleType& t : types) known.push_back(t.name);
-      throw module.written.bad("unknown module type '" + module.type + "'" + did_you_mean(module.type, known));
-    }
     genom::ModuleSetup setup{names_, module.name, genom::Settings(module.settings), network, known_map};
     derive_settings(scenario_, module, setup.settings);
-    std::unique_ptr<genom::Module> made;
-    const std::string doing = "constructing module " + module.name + " of robot " + scenario_.name;
-    const Doing construction(doing.c_str());
-    // Errors of settings have a line of their own; others get the module's.
-    try {
-      made = type->make(setup);
-      setup.settings.check_all_used();
-      made->check_costs(setup.settings);
-    } catch (const BadInput& error) {
-      if (error.line() > 0 || error.file().starts_with("--set")) throw;
-      throw module.written.bad(error.what());
-    } catch (const std::exception& error) {
-      throw std::runtime_error(doing + " threw an exception: " + error.what());
-    } catch (...) {
-      throw std::runtime_error(doing + " threw an exception of unknown type");
-    }
-    modules_.push_back(std::move(made));
+    modules_.push_back(make_module(module, types, scenario_.name, setup));
     module_scenarios_.push_back(&module);
   }
 }

@@ -48,6 +48,13 @@ class PosterBase {
   Duration latency() const { return latency_; }
   void set_latency(Duration latency) { latency_ = latency; }
 
+  /// For the writer, a device that keeps its next value until this one is taken: true if it has been read, other than
+  /// as text or by numbers, since its last write. No event in simulation.
+  bool was_read() const {
+    const threads::observer_lock guard(mutex_);
+    return was_read_;
+  }
+
   /// Adds the memory that every access touches; for a large value only its beginning.
   virtual void add_to(WorkingSet& set) const = 0;
 
@@ -66,6 +73,7 @@ class PosterBase {
   std::uint64_t writes_ = 0;
   Time date_;
   Duration latency_;
+  mutable bool was_read_ = false;
 };
 
 template <HasFields T>
@@ -92,6 +100,7 @@ class Poster : public PosterBase {
     const std::lock_guard guard(mutex_);
     value_ = value;
     ++writes_;
+    was_read_ = false;
     date_ = threads::now();
     threads::record(name_hash_, value);
   }
@@ -100,6 +109,7 @@ class Poster : public PosterBase {
   PosterStatus read(T& value, Time* date = nullptr) const {
     const std::lock_guard guard(mutex_);
     if (writes_ == 0) return PosterStatus::empty;
+    was_read_ = true;
     value = value_;
     if (date != nullptr) *date = date_;
     return PosterStatus::ok;

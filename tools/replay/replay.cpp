@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/replay/replay.hpp"
+
+#include <unistd.h>
+
+#include <array>
+#include <cstdio>
+#include <optional>
+#include <string_view>
+
+#include "modules/logs/log_file.hpp"
+#include "modules/playback/playback.hpp"
+#include "tools/command/interruption.hpp"
+#include "tools/output/output_file.hpp"
+#include "tools/output/progress.hpp"
+#include "tools/output/recorders.hpp"
+#include "tools/replay/relations.hpp"
+#include "tools/replay/replay_summary.hpp"
+#include "tools/replay/replayed_robot.hpp"
+#include "tools/replay/trajectory_file.hpp"
+#include "tools/run/run_watchdog.hpp"
+
+namespace waitpoint::tools {
+namespace {
+
+using playback::PoseSource;
+
+constexpr Duration second = std::chrono::seconds(1);
+constexpr int status_interrupted = 130;
+constexpr std::array<std::string_view, 3> names_of_sources = {"segloc", "pom", "odometry"};  // by PoseSource
+
+/// The files, opened before the run.
+struct Files {
+  explicit Files(const ReplayOptions& options) {
+    const auto open = [](std::optional<OutputFile>& file, const std::optional<std::filesystem::path>& name) {
+      if (name) file.emplace(*name);
+    };
+    open(trajectory, options.trajectory);
+    open(summary, options.summary);
+    if (options.digests) digests.emplace(*options.digests);
+    if (options.events) events.emplace(*options.events);
+  }
+
+  std::optional<OutputFile> trajectory, summary;
+  std::optional<DigestRecorder> digests;
+  std::optional<EventRecorder> events;
+};
+
+std::string text_of(RunEnd end, bool interrupted) {
+  if (interrupted) return "interrupted";
+  switch (end) {
+    case RunEnd::time_reached: return "time limit";
+    case RunEnd::ended: return "finished";
+    case RunEnd::deadlock: return "deadlock";
+    case RunEnd::no_progress: return "no progress";
+  }
+  return "";
+}
+
+PoseSource source_of(const ReplayOptions& options, const playback::Playback& playback) {
+  if (options.pose) {
+    if (!playback.has(*options.pose))
+      throw BadInput("--pose", "expected poses of a module that runs, found '" +
+                                   std::string(names_of_sources[static_cast<std::size_t>(*options.pose)]) + "'");
+    return *options.pose;
+  }
+  for (const PoseSource source : {PoseSource::segloc, PoseSource::pom})
+    if (playback.has(source)) return source;
+  return PoseSource::odometry;
+}
+
+/// In windows of a second, between which progress is shown and signals are polled.
+RunEnd carry_out(playback::Playback& playback, Time until, Files& files, Time& reached, bool& interrupted) {
+  Progress progress(stderr, isatty(STDERR_FILENO) != 0, playback.last().since_start());
+  RunEnd end = RunEnd::time_reached;
+  for (std::int64_t k = 1; end == RunEnd::time_reached && reached < until; ++k) {
+    interrupted = interruption() != 0;
+    if (interrupted) break;
+    reached = std::min(until, Time() + second * k);
+    end = playback.run_before(reached);
+    if (files.digests) files.digests->record(playback.simulation(), k);
+    progress.update(reached, playback.player().scans(), playback.scans());
+  }
+  progress.finish();
+  return end;
+}
+
+}  // namespace
+
+int replay_log(const ReplayOptions& options, std::span<const genom::ModuleType> types) {
+  heed_signals();
+  const RunWatchdog watchdog(RunWatchdog::usual_limit_s);
+  ReplayResult result;
+  if (options.relations) result.relations = read_relations(*options.relations);
+  const scenario::RobotScenario robot = replayed_robot(options);
+  const logs::SensorLog log = logs::read_log(options.log, options.choice);
+  playback::Playback playback(log, robot, types, {});
+  const PoseSource source = source_of(options, playback);
+  Files files(options);
+  if (files.events) files.events->watch(playback.simulation());
+
+  const double start_s = wall_clock_s();
+  Time reached;
+  bool interrupted = false;
+  const Time until = options.until ? Time() + *options.until : Time::max();
+  const RunEnd end = carry_out(playback, until, files, reached, interrupted);
+  result.wall_s = wall_clock_s() - start_s;
+  result.outcome = text_of(end, interrupted);
+  result.simulated = std::min(reached, playback.last()).since_start();
+  result.digest = playback.simulation().digest();
+  result.events = playback.simulation().scheduler().events();
+  result.pose_source = names_of_sources[static_cast<std::size_t>(source)];
+  result.trajectory = playback.trajectory(source);
+
+  const std::string text = replay_text(log, playback, result);
+  if (options.summary && is_standard_output(*options.summary))
+    std::fputs(text.c_str(), stderr);
+  else
+    write_standard_output(text);
+  if (files.summary) {
+    files.summary->write(replay_json(log, playback, result));
+    files.summary->commit();
+  }
+  if (files.trajectory) {
+    files.trajectory->write(trajectory_text(*options.trajectory, log, result.trajectory,
+                                            playback.trajectory(PoseSource::odometry)));
+    files.trajectory->commit();
+  }
+  if (files.digests) files.digests->finish();
+  if (files.events) files.events->finish();
+  if (const std::string& trouble = playback.simulation().trouble(); !trouble.empty())
+    std::fprintf(stderr, "waitpoint: %s\n", trouble.c_str());
+  if (interrupted) return status_interrupted;
+  return end == RunEnd::deadlock || end == RunEnd::no_progress ? 1 : 0;
+}
+
+}  // namespace waitpoint::tools

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/replay/replay_summary.hpp"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "core/exact_math.hpp"
+#include "core/number_text.hpp"
+
+namespace waitpoint::tools {
+namespace {
+
+double length_m(const std::vector<playback::StampedPose>& trajectory) {
+  double sum = 0;
+  for (std::size_t i = 1; i < trajectory.size(); ++i)
+    sum += length(trajectory[i].pose.position() - trajectory[i - 1].pose.position());
+  return sum;
+}
+
+std::string line(const char* name, const std::string& text) { return fmt::format("  {:<18}{}\n", name, text); }
+
+std::string errors_text(const RelationErrors& errors) {
+  constexpr double degree = exact::pi / 180;
+  return fmt::format("{} of {}: {:.3f} m +- {:.3f}, {:.2f} deg +- {:.2f}", errors.used, errors.given,
+                     errors.translation_m.mean, errors.translation_m.deviation, errors.rotation_rad.mean / degree,
+                     errors.rotation_rad.deviation / degree);
+}
+
+std::string stamps_text(const logs::PlayingOrder& order) {
+  std::vector<std::string> parts;
+  if (order.late > 0) parts.push_back(fmt::format("{} written late", order.late));
+  if (order.equal > 0) parts.push_back(fmt::format("{} not after the one before", order.equal));
+  if (order.set_back > 0) parts.push_back("the clock set back " + counted(order.set_back, "time"));
+  return fmt::format("{}", fmt::join(parts, ", "));
+}
+
+}  // namespace
+
+std::string replay_text(const logs::SensorLog& log, const playback::Playback& playback, const ReplayResult& result) {
+  std::string text = fmt::format("{}: {} after {:.1f} s of the log\n\n", log.file, result.outcome,
+                                 result.simulated.seconds());
+  text += line("scans", fmt::format("{} of {} ({}), at most {:.3f} s after their dates", playback.player().scans(),
+                                    log.scans.size(), log.laser, playback.player().greatest_delay().seconds()));
+  if (const std::string stamps = stamps_text(playback.order()); !stamps.empty()) text += line("stamps", stamps);
+  std::string left_out;
+  for (const auto& [type, count] : log.left_out)
+    left_out += fmt::format("{}{} {}", left_out.empty() ? "" : ", ", count, type);
+  if (!left_out.empty()) text += line("left out", left_out);
+  text += line("trajectory", fmt::format("{} poses of {}, {:.1f} m", result.trajectory.size(), result.pose_source,
+                                         length_m(result.trajectory)));
+  if (!result.relations.empty()) {
+    using namespace std::chrono_literals;
+    text += line("relations", errors_text(relation_errors(result.relations, result.trajectory)));
+    text += line("within 20 s", errors_text(relation_errors(result.relations, result.trajectory, 20s)));
+  }
+  text += line("events", fmt::format("{}", result.events));
+  text += line("speed", fmt::format("{:.1f} times real time ({:.2f} s)",
+                                    result.wall_s > 0 ? result.simulated.seconds() / result.wall_s : 0, result.wall_s));
+  return text + "\n" + line("digest", to_string(result.digest));
+}
+
+std::string replay_json(const logs::SensorLog& log, const playback::Playback& playback, const ReplayResult& result) {
+  nlohmann::ordered_json object;
+  object["log"] = log.file;
+  object["format"] = log.format;
+  object["laser"] = log.laser;
+  object["outcome"] = result.outcome;
+  object["simulated_s"] = result.simulated.seconds();
+  object["scans"] = playback.player().scans();
+  object["scans_of_log"] = log.scans.size();
+  object["scan_delay_max_s"] = playback.player().greatest_delay().seconds();
+  object["stamps_late"] = playback.order().late;
+  object["stamps_equal"] = playback.order().equal;
+  object["clock_set_back"] = playback.order().set_back;
+  object["left_out"] = log.left_out;
+  object["pose"] = result.pose_source;
+  object["poses"] = result.trajectory.size();
+  object["trajectory_m"] = length_m(result.trajectory);
+  if (!result.relations.empty())
+    object["relations"] = nlohmann::ordered_json::parse(relations_json(result.relations, result.trajectory));
+  object["events"] = result.events;
+  object["wall_s"] = result.wall_s;
+  object["digest"] = to_string(result.digest);
+  return object.dump(2) + "\n";
+}
+
+}  // namespace waitpoint::tools
