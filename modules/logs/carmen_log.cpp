@@ -25,7 +25,9 @@ constexpr double same_m = 0.011, same_rad = 0.011;
 constexpr std::array<std::string_view, 8> scan_types = {"ROBOTLASER1", "FLASER",      "RAWLASER1", "LASER_READING",
                                                         "RLASER",      "ROBOTLASER2", "RAWLASER2", "LASER"};
 
-bool is_scan(std::string_view type) { return std::find(scan_types.begin(), scan_types.end(), type) != scan_types.end(); }
+bool is_scan(std::string_view type) {
+  return std::find(scan_types.begin(), scan_types.end(), type) != scan_types.end();
+}
 
 /// The words of one line, one after another.
 class Words {
@@ -226,7 +228,8 @@ void Parser::take_plain_scan(Record& record, bool has_two_poses, Words& words) {
 void Parser::choose_scans() {
   std::string_view chosen = choice_.scan;
   for (const std::string_view type : scan_types)
-    if (chosen.empty() && std::any_of(records_.begin(), records_.end(), [&](const Record& r) { return r.type == type; }))
+    if (chosen.empty() &&
+        std::any_of(records_.begin(), records_.end(), [&](const Record& r) { return r.type == type; }))
       chosen = type;
   std::string_view host;
   for (Record& record : records_) {
@@ -248,7 +251,8 @@ void Parser::choose_scans() {
                               (chosen.empty() ? "FLASER, ROBOTLASER1, LASER_READING" : std::string(chosen)) +
                               (choice_.robot.empty() ? "" : " of '" + choice_.robot + "'") + "), found none");
   log_.laser = chosen;
-  const bool has_poses = std::all_of(log_.scans.begin(), log_.scans.end(), [](const auto& scan) { return scan.odometry; });
+  const bool has_poses =
+      std::all_of(log_.scans.begin(), log_.scans.end(), [](const auto& scan) { return scan.odometry; });
   if (!has_poses && log_.odometry.empty()) throw BadInput(name_, "expected odometry (ODOM), found none");
 }
 

@@ -13,7 +13,7 @@ using namespace std::chrono_literals;
 constexpr Duration set_back_least = 1s, apart_most = 24h, least_step = 1us;
 
 struct Entry {
-  Time stamp;
+  Time stamp;  // then the date
   std::uint64_t place;
   const LoggedScan* scan;          // or null
   const LoggedOdometry* odometry;  // or null
@@ -27,20 +27,34 @@ std::vector<Entry> in_order_of_the_log(const SensorLog& log) {
   return entries;
 }
 
-void sort_by_stamp(std::vector<Entry>& entries, PlayingOrder& order) {
-  Duration moved;
-  Time greatest = entries.front().stamp;
+// Replaces the stamps by dates.
+void date_in_order_of_the_log(std::vector<Entry>& entries, const std::string& file, PlayingOrder& order) {
+  Time before = entries.front().stamp, date, greatest;
   for (Entry& entry : entries) {
-    entry.stamp += moved;
-    if (greatest - entry.stamp > set_back_least) {
-      ++order.set_back;
-      moved += greatest - entry.stamp;
-      entry.stamp = greatest;
+    const Duration since = entry.stamp - before;
+    before = entry.stamp;
+    if (since > apart_most || greatest - date > since + set_back_least) {
+      ++order.clock_set;
+      date = greatest;
+    } else {
+      date += since;
     }
-    order.late += entry.stamp < greatest ? 1 : 0;
-    greatest = std::max(greatest, entry.stamp);
+    order.late += date < greatest ? 1 : 0;
+    greatest = std::max(greatest, date);
+    if (greatest - Time() > apart_most)
+      throw BadInput(file, "expected a log of at most a day, found a stamp of " + to_string(entry.stamp));
+    entry.stamp = date;
   }
+}
+
+void sort_by_date(std::vector<Entry>& entries) {
   std::stable_sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) { return a.stamp < b.stamp; });
+  std::vector<Time> scans;
+  for (const Entry& entry : entries)
+    if (entry.scan != nullptr) scans.push_back(entry.stamp);
+  std::erase_if(entries, [&](const Entry& entry) {
+    return entry.odometry != nullptr && std::binary_search(scans.begin(), scans.end(), entry.stamp);
+  });
 }
 
 /// The odometry's pose at a stamp that grows from call to call.
@@ -49,6 +63,8 @@ class OdometryAt {
   explicit OdometryAt(const std::vector<Entry>& entries) {
     for (const Entry& entry : entries)
       if (entry.odometry != nullptr) reports_.push_back({entry.stamp, entry.odometry->pose});
+    std::stable_sort(reports_.begin(), reports_.end(),
+                     [](const Report& a, const Report& b) { return a.stamp < b.stamp; });
   }
   Pose operator()(Time stamp) {
     WAITPOINT_CHECK(!reports_.empty(), "a scan without odometry in a log without odometry");
@@ -76,12 +92,10 @@ PlayingOrder playing_order(const SensorLog& log) {
   PlayingOrder order;
   std::vector<Entry> entries = in_order_of_the_log(log);
   if (entries.empty()) return order;
-  sort_by_stamp(entries, order);
-  const Time first = entries.front().stamp;
-  if (entries.back().stamp - first > apart_most)
-    throw BadInput(log.file, "expected stamps within a day, found " + to_string(first) + " and " +
-                                 to_string(entries.back().stamp));
+  date_in_order_of_the_log(entries, log.file, order);
   OdometryAt odometry_at(entries);
+  sort_by_date(entries);
+  const Time first = entries.front().stamp;
   for (const Entry& entry : entries) {
     Played played;
     played.date = Time() + (entry.stamp - first);

@@ -21,8 +21,8 @@ struct LoggedScan {
   std::uint64_t place = 0;  ///< its position among all records of the log
   double first_angle_rad = 0, angle_step_rad = 0;
   double range_max_m = 0;  ///< readings from here on are no echoes
-  std::vector<float> range_m;
-  std::optional<Pose> odometry;  ///< recorded with the scan
+  std::vector<float> range_m = {};
+  std::optional<Pose> odometry = {};  ///< recorded with the scan
 };
 
 struct LoggedOdometry {
@@ -42,9 +42,9 @@ struct SensorLog {
 
 /// What to take from a log that has several of a kind; empty: the only one, or the format's default.
 struct LogChoice {
-  std::string scan;      ///< record type or topic
-  std::string odometry;  ///< topic
-  std::string robot;     ///< CARMEN: the host of the records
+  std::string scan = {};      ///< record type or topic
+  std::string odometry = {};  ///< topic
+  std::string robot = {};     ///< CARMEN: the host of the records
 };
 
 }  // namespace waitpoint::logs

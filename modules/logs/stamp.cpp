@@ -9,7 +9,7 @@
 namespace waitpoint::logs {
 
 std::optional<Time> parse_stamp(std::string_view text) {
-  constexpr double seconds_max = 9e9;
+  constexpr double seconds_max = 4e9;  // differences of two fit a Duration, too
   double seconds = 0;
   if (!parse_number(text, seconds) || !(std::fabs(seconds) < seconds_max)) return std::nullopt;
   const std::size_t point = std::min(text.find('.'), text.size());

@@ -5,8 +5,8 @@
 // No scan is lost: the record after a scan is written when the modules have read that scan and the base's report
 // before it, which may be later than its date. Reports without a scan replace one another, as those of a base do.
 //
-// A report has the base's accumulated travel, sideways travel and turn. They are such that dead reckoning, which adds up
-// arcs from one report that it reads to the next, comes to the pose of the log's odometry: each report is calculated
+// A report has the base's accumulated travel, sideways travel and turn. They are such that dead reckoning, which adds
+// up arcs from one report that it reads to the next, comes to the pose of the log's odometry: each report is calculated
 // from the last one that was read.
 #pragma once
 

@@ -8,6 +8,7 @@
 #include "core/number_text.hpp"
 #include "fibers/sync/thread.hpp"
 #include "modules/bridge/module_making.hpp"
+#include "modules/posters/corrected_trajectory.hpp"
 #include "modules/posters/navigation.hpp"
 
 namespace waitpoint::playback {
@@ -146,14 +147,26 @@ bool Playback::has(PoseSource source) const {
          (source == PoseSource::segloc ? localisation_ != nullptr : position_ != nullptr);
 }
 
+std::vector<bridge::DatedPose> Playback::corrected() const {
+  for (const auto& module : modules_)
+    if (const auto* const source = dynamic_cast<const posters::CorrectedTrajectory*>(module.get())) {
+      std::vector<bridge::DatedPose> poses;
+      for (const posters::StampedPose& at : source->corrected()) poses.push_back({at.date, at.pose});
+      if (!poses.empty()) return poses;
+    }
+  return localised_;
+}
+
 std::vector<StampedPose> Playback::trajectory(PoseSource source) const {
   std::vector<StampedPose> trajectory;
+  const std::vector<bridge::DatedPose> samples = source == PoseSource::segloc ? corrected()
+                                                 : source == PoseSource::pom  ? fused_
+                                                                              : std::vector<bridge::DatedPose>();
   const Pose& origin = order_.records.front().odometry;
   for (const logs::Played& record : order_.records) {
     if (!record.scan || record.date >= reached_) continue;
-    const std::optional<Pose> pose = source == PoseSource::odometry
-                                         ? std::optional(between(origin, record.odometry))
-                                         : pose_at(source == PoseSource::segloc ? localised_ : fused_, record.date);
+    const std::optional<Pose> pose = source == PoseSource::odometry ? std::optional(between(origin, record.odometry))
+                                                                    : pose_at(samples, record.date);
     if (pose) trajectory.push_back({log_.scans[*record.scan].stamp, *pose, *record.scan});
   }
   return trajectory;

@@ -52,7 +52,6 @@ class Playback {
 
   const logs::PlayingOrder& order() const { return order_; }
   const LogPlayer& player() const { return *player_; }
-  std::size_t scans() const { return log_.scans.size(); }
   Simulation& simulation() { return simulation_; }
   const Simulation& simulation() const { return simulation_; }
   /// The date of the last record.
@@ -60,7 +59,8 @@ class Playback {
 
   /// True if the modules have such poses.
   bool has(PoseSource source) const;
-  /// For each scan so far that has one, in the order of play. Of `segloc`: as its graph has corrected them by now.
+  /// For each scan so far that has one, in the order of play. Of `segloc`: as it has corrected them by
+  /// now.
   std::vector<StampedPose> trajectory(PoseSource source) const;
   /// The segments of the map; empty without one.
   std::vector<bridge::Line> segments() const;
@@ -72,6 +72,7 @@ class Playback {
   template <class Input>
   void request(genom::Client& client, const char* module, const char* request, const Input& input);
   void observe();
+  std::vector<bridge::DatedPose> corrected() const;
 
   const logs::SensorLog& log_;
   const scenario::RobotScenario& robot_;

@@ -57,8 +57,9 @@ std::vector<double> squares(std::vector<double> values) {
 
 Relation read_relation(const std::string& file, int number, std::istringstream& words) {
   const auto bad = [&](const char* expected, const std::string& found) {
-    return BadInput(file, number, std::string("expected ") + expected + ", found " +
-                                      (found.empty() ? "the end of the line" : "'" + printable_line(found) + "'"));
+    return BadInput(file, number,
+                    std::string("expected ") + expected + ", found " +
+                        (found.empty() ? "the end of the line" : "'" + printable_line(found) + "'"));
   };
   std::array<Time, 2> stamps;
   std::string word;

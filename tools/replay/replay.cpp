@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/replay/replay.hpp"
 
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <array>
@@ -15,6 +16,7 @@
 #include "tools/output/progress.hpp"
 #include "tools/output/recorders.hpp"
 #include "tools/replay/relations.hpp"
+#include "tools/replay/replay_picture.hpp"
 #include "tools/replay/replay_summary.hpp"
 #include "tools/replay/replayed_robot.hpp"
 #include "tools/replay/trajectory_file.hpp"
@@ -37,11 +39,12 @@ struct Files {
     };
     open(trajectory, options.trajectory);
     open(summary, options.summary);
+    open(picture, options.picture);
     if (options.digests) digests.emplace(*options.digests);
     if (options.events) events.emplace(*options.events);
   }
 
-  std::optional<OutputFile> trajectory, summary;
+  std::optional<OutputFile> trajectory, summary, picture;
   std::optional<DigestRecorder> digests;
   std::optional<EventRecorder> events;
 };
@@ -79,10 +82,41 @@ RunEnd carry_out(playback::Playback& playback, Time until, Files& files, Time& r
     reached = std::min(until, Time() + second * k);
     end = playback.run_before(reached);
     if (files.digests) files.digests->record(playback.simulation(), k);
-    progress.update(reached, playback.player().scans(), playback.scans());
+    progress.update(reached, 0, 0);
   }
   progress.finish();
   return end;
+}
+
+ReplayResult result_of(const ReplayOptions& options, playback::Playback& playback, std::vector<Relation> relations) {
+  ReplayResult result;
+  result.relations = std::move(relations);
+  result.digest = playback.simulation().digest();
+  result.events = playback.simulation().scheduler().events();
+  const PoseSource source = source_of(options, playback);
+  result.pose_source = names_of_sources[static_cast<std::size_t>(source)];
+  result.trajectory = playback.trajectory(source);
+  return result;
+}
+
+void write_files(const ReplayOptions& options, const logs::SensorLog& log, const playback::Playback& playback,
+                 const ReplayResult& result, Files& files) {
+  const auto write = [](std::optional<OutputFile>& file, const std::string& text) {
+    file->write(text);
+    file->commit();
+  };
+  const std::vector<playback::StampedPose> odometry = playback.trajectory(PoseSource::odometry);
+  if (files.summary) write(files.summary, replay_json(log, playback, result));
+  if (files.trajectory) write(files.trajectory, trajectory_text(*options.trajectory, log, result.trajectory, odometry));
+  if (files.picture) {
+    const std::string line =
+        fmt::format("{} · {} after {:.1f} s · {} scans · {}", result.pose_source, result.outcome,
+                    result.simulated.seconds(), playback.player().scans(), to_string(result.digest));
+    write(files.picture, replay_picture_svg(options.log.filename().string(), line, log, result.trajectory, odometry,
+                                            playback.segments()));
+  }
+  if (files.digests) files.digests->finish();
+  if (files.events) files.events->finish();
 }
 
 }  // namespace
@@ -90,12 +124,12 @@ RunEnd carry_out(playback::Playback& playback, Time until, Files& files, Time& r
 int replay_log(const ReplayOptions& options, std::span<const genom::ModuleType> types) {
   heed_signals();
   const RunWatchdog watchdog(RunWatchdog::usual_limit_s);
-  ReplayResult result;
-  if (options.relations) result.relations = read_relations(*options.relations);
+  std::vector<Relation> relations;
+  if (options.relations) relations = read_relations(*options.relations);
   const scenario::RobotScenario robot = replayed_robot(options);
   const logs::SensorLog log = logs::read_log(options.log, options.choice);
   playback::Playback playback(log, robot, types, {});
-  const PoseSource source = source_of(options, playback);
+  static_cast<void>(source_of(options, playback));  // bad input is told before the run
   Files files(options);
   if (files.events) files.events->watch(playback.simulation());
 
@@ -104,30 +138,17 @@ int replay_log(const ReplayOptions& options, std::span<const genom::ModuleType> 
   bool interrupted = false;
   const Time until = options.until ? Time() + *options.until : Time::max();
   const RunEnd end = carry_out(playback, until, files, reached, interrupted);
+  ReplayResult result = result_of(options, playback, std::move(relations));
   result.wall_s = wall_clock_s() - start_s;
   result.outcome = text_of(end, interrupted);
   result.simulated = std::min(reached, playback.last()).since_start();
-  result.digest = playback.simulation().digest();
-  result.events = playback.simulation().scheduler().events();
-  result.pose_source = names_of_sources[static_cast<std::size_t>(source)];
-  result.trajectory = playback.trajectory(source);
 
   const std::string text = replay_text(log, playback, result);
   if (options.summary && is_standard_output(*options.summary))
     std::fputs(text.c_str(), stderr);
   else
     write_standard_output(text);
-  if (files.summary) {
-    files.summary->write(replay_json(log, playback, result));
-    files.summary->commit();
-  }
-  if (files.trajectory) {
-    files.trajectory->write(trajectory_text(*options.trajectory, log, result.trajectory,
-                                            playback.trajectory(PoseSource::odometry)));
-    files.trajectory->commit();
-  }
-  if (files.digests) files.digests->finish();
-  if (files.events) files.events->finish();
+  write_files(options, log, playback, result, files);
   if (const std::string& trouble = playback.simulation().trouble(); !trouble.empty())
     std::fprintf(stderr, "waitpoint: %s\n", trouble.c_str());
   if (interrupted) return status_interrupted;

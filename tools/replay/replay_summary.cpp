@@ -31,15 +31,15 @@ std::string stamps_text(const logs::PlayingOrder& order) {
   std::vector<std::string> parts;
   if (order.late > 0) parts.push_back(fmt::format("{} written late", order.late));
   if (order.equal > 0) parts.push_back(fmt::format("{} not after the one before", order.equal));
-  if (order.set_back > 0) parts.push_back("the clock set back " + counted(order.set_back, "time"));
+  if (order.clock_set > 0) parts.push_back("the clock set " + counted(order.clock_set, "time"));
   return fmt::format("{}", fmt::join(parts, ", "));
 }
 
 }  // namespace
 
 std::string replay_text(const logs::SensorLog& log, const playback::Playback& playback, const ReplayResult& result) {
-  std::string text = fmt::format("{}: {} after {:.1f} s of the log\n\n", log.file, result.outcome,
-                                 result.simulated.seconds());
+  std::string text =
+      fmt::format("{}: {} after {:.1f} s of the log\n\n", log.file, result.outcome, result.simulated.seconds());
   text += line("scans", fmt::format("{} of {} ({}), at most {:.3f} s after their dates", playback.player().scans(),
                                     log.scans.size(), log.laser, playback.player().greatest_delay().seconds()));
   if (const std::string stamps = stamps_text(playback.order()); !stamps.empty()) text += line("stamps", stamps);
@@ -72,7 +72,7 @@ std::string replay_json(const logs::SensorLog& log, const playback::Playback& pl
   object["scan_delay_max_s"] = playback.player().greatest_delay().seconds();
   object["stamps_late"] = playback.order().late;
   object["stamps_equal"] = playback.order().equal;
-  object["clock_set_back"] = playback.order().set_back;
+  object["clock_set"] = playback.order().clock_set;
   object["left_out"] = log.left_out;
   object["pose"] = result.pose_source;
   object["poses"] = result.trajectory.size();

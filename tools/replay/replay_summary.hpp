@@ -18,9 +18,9 @@ struct ReplayResult {
   std::uint64_t events = 0;
   Duration simulated;  ///< virtual time
   double wall_s = 0;
-  std::string pose_source;                       ///< "segloc"
+  std::string pose_source;                        ///< "segloc"
   std::vector<playback::StampedPose> trajectory;  ///< by it
-  std::vector<Relation> relations;               ///< may be none
+  std::vector<Relation> relations;                ///< may be none
 };
 
 /// Ends with a newline.

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// `waitpoint replay` as a user calls it: on a recording of a simulated run, whose truth is known, and on real logs.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "tests/project.hpp"
+#include "tests/runs/program.hpp"
+#include "tests/tools/command_line.hpp"
+#include "tests/tools/folder.hpp"
+
+namespace waitpoint::tools {
+namespace {
+
+runs::Outcome replay(std::vector<std::string> words) {
+  words.insert(words.begin(), {runs::program().string(), "replay"});
+  return runs::outcome_of({.words = words});
+}
+
+/// The numbers of each line that begins with `first`, without it; of all lines if it is empty.
+std::vector<std::vector<double>> rows(const std::string& text, const std::string& first) {
+  std::vector<std::vector<double>> rows;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    if (!line.starts_with(first)) continue;
+    std::istringstream words(line.substr(first.size()));
+    std::vector<double>& row = rows.emplace_back();
+    for (double number = 0; words >> number;) row.push_back(number);
+  }
+  return rows;
+}
+
+TEST(Replay, TheTrajectoryOfARecordedRunIsNearItsTruePath) {
+  const Folder folder;
+  const std::string log = (folder / "run.log").string(), path = (folder / "path.tum").string();
+  ASSERT_EQ(runs::outcome_of(runs::run_command("office.yaml", "40", {"--record", log})).status, 1);  // goals left
+  const std::string scenario = (test::project_root() / "scenarios" / "office.yaml").string();
+  const runs::Outcome replayed = replay({log, "--scenario", scenario, "--trajectory", path});
+  ASSERT_EQ(replayed.status, 0) << replayed.errors;
+  const auto truth = rows(folder.read("run.log"), "TRUEPOS "), poses = rows(folder.read("path.tum"), "");
+  ASSERT_GT(poses.size(), 350u);
+  ASSERT_EQ(poses.size(), truth.size());
+  const Pose start{truth[0][0], truth[0][1], truth[0][2]};
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    const Point at = between(start, {truth[i][0], truth[i][1], truth[i][2]}).position();
+    EXPECT_NEAR(poses[i][0], truth[i][6], 1e-6);
+    EXPECT_LT(length(at - Point{poses[i][1], poses[i][2]}), 0.05);
+  }
+  // The corrected log can be read again, and has the corrected poses.
+  const std::string corrected = (folder / "corrected.log").string();
+  ASSERT_EQ(replay({log, "--scenario", scenario, "--trajectory", corrected}).status, 0);
+  EXPECT_EQ(replay({corrected, "--modules", "rflex,sick"}).status, 0);
+}
+
+TEST(Replay, TheSummaryHasScansRelationsAndOneDigest) {
+  const Folder folder;
+  const std::string log = (folder / "run.log").string();
+  ASSERT_EQ(runs::outcome_of(runs::run_command("office.yaml", "20", {"--record", log})).status, 1);  // goals left
+  const auto truth = rows(folder.read("run.log"), "TRUEPOS ");
+  std::string relations;
+  for (std::size_t i = 0; i + 50 < truth.size(); i += 10) {
+    const auto &a = truth[i], &b = truth[i + 50];
+    const Pose to = between({a[0], a[1], a[2]}, {b[0], b[1], b[2]});
+    std::ostringstream line;
+    line.precision(12);
+    line << a[6] << ' ' << b[6] << ' ' << to.x << ' ' << to.y << " 0 0 0 " << to.heading << '\n';
+    relations += line.str();
+  }
+  folder.write("relations", relations);
+  const runs::Outcome first = replay({log, "--relations", (folder / "relations").string(), "--summary", "-",
+                                      "--picture", (folder / "map.svg").string()});
+  ASSERT_EQ(first.status, 0) << first.errors;
+  const nlohmann::json summary = nlohmann::json::parse(first.output);
+  EXPECT_EQ(summary["scans"], summary["scans_of_log"]);
+  EXPECT_EQ(summary["poses"], summary["scans"]);
+  EXPECT_EQ(summary["relations"]["relations"], summary["relations"]["relations_given"]);
+  EXPECT_LT(summary["relations"]["translation_mean_m"], 0.03);
+  EXPECT_GT(summary["relations"]["translation_mean_m"], 0);
+  EXPECT_NE(folder.read("map.svg").find("</svg>"), std::string::npos);
+  EXPECT_EQ(replay({log}).digest(), summary["digest"]);
+  EXPECT_NE(replay({log, "--set", "segloc.length_m_min=2"}).digest(), summary["digest"]);
+}
+
+TEST(Replay, WhatIsWrongIsToldInOneLine) {
+  const Folder folder;
+  folder.write("a.log", "FLASER 1 2 0 0 0 0 0 0 1 h 1\n");
+  const std::string log = (folder / "a.log").string();
+  const auto error = [&](std::vector<std::string> words) {
+    const runs::Outcome outcome = replay(std::move(words));
+    EXPECT_EQ(outcome.status, 2);
+    return outcome.errors;
+  };
+  EXPECT_EQ(error({log, "--set", "segloc.nonsense=1"}).substr(0, 43), "waitpoint: --set segloc.nonsense=1: unknown");
+  EXPECT_EQ(error({log, "--set", "ndd.x=1"}),
+            "waitpoint: --set: expected the name of a module that runs, and a key of it, found 'ndd.x=1'\n");
+  EXPECT_EQ(error({log, "--modules", "rflex,sick", "--pose", "pom"}),
+            "waitpoint: --pose: expected poses of a module that runs, found 'pom'\n");
+  EXPECT_EQ(error({log, "--modules", "rflex,siick"}),
+            "waitpoint: --modules: unknown module type 'siick', did you mean 'sick'?\n");
+  EXPECT_EQ(message({"replay", "a.log", "--pose", "gps"}), "--pose: expected segloc, pom or odometry, found 'gps'");
+}
+
+TEST(Replay, EveryScanOfRealLogsIsLocalised) {
+  const auto data = test::data_folder();
+  if (!data) GTEST_SKIP() << "no data folder (WAITPOINT_DATA or ../shared/data)";
+  const runs::Outcome outcome = replay({*data + "/logs/mit_csail.gfs.gz", "--summary", "-"});
+  ASSERT_EQ(outcome.status, 0) << outcome.errors;
+  const nlohmann::json summary = nlohmann::json::parse(outcome.output);
+  EXPECT_EQ(summary["scans"], 406);
+  EXPECT_EQ(summary["poses"], 406);
+}
+
+}  // namespace
+}  // namespace waitpoint::tools
