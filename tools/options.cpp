@@ -107,7 +107,8 @@ Options read_options(int argc, const char* const* argv, const std::string& versi
     const std::filesystem::path scenario = find_scenario(checked.file);
     return CheckOptions{scenario, checked.confinement.folders(scenario), checked.assignments};
   }
-  throw BadInput("command line", "expected a command, run, check, plan, explore, exec, genom or replay; see waitpoint --help");
+  throw BadInput("command line",
+                 "expected a command, run, check, plan, explore, exec, genom or replay; see waitpoint --help");
 }
 
 }  // namespace waitpoint::tools
