@@ -5,7 +5,7 @@
 # Debian's names, and the upstream names of the same software.
 declare -A debian=(
   [run]='meson ninja-build g++ pkg-config python3 libboost-context-dev libfcl-dev libyaml-cpp-dev libcli11-dev libfmt-dev
-         nlohmann-json3-dev libpng-dev libtinyxml2-dev zlib1g-dev libassimp-dev libbullet-dev libzydis-dev librosbag-storage-dev
+         nlohmann-json3-dev libpng-dev libtinyxml2-dev zlib1g-dev libbz2-dev liblz4-dev libzstd-dev libassimp-dev libbullet-dev libzydis-dev librosbag-storage-dev
          libsensor-msgs-dev libnav-msgs-dev libtf2-msgs-dev libros-rosgraph-msgs-dev libvisualization-msgs-dev'
   [test]='libgtest-dev liboctomap-dev clang gdb libz3-dev python3-rosbag zstd xz-utils pigz pbzip2 perl libtbb-dev
          libuv1-dev cmake libopenmpi-dev openmpi-bin tcl8.6-dev'
@@ -21,7 +21,8 @@ declare -A debian=(
 )
 declare -A upstream=(
   [run]='Meson 1.0, Ninja, a C++20 compiler, pkg-config, Python 3; Boost.Context 1.74, FCL 0.7 with libccd and Eigen 3.4,
-         yaml-cpp, CLI11, fmt, nlohmann_json, libpng, TinyXML-2, zlib; for meshes of other kinds than STL and OBJ, if
+         yaml-cpp, CLI11, fmt, nlohmann_json, libpng, TinyXML-2, zlib; for compressed
+         logs, if wanted, bzip2, lz4, zstd; for meshes of other kinds than STL and OBJ, if
          wanted, Assimp 5.2; for the dynamic world, if wanted, Bullet 3.24 in double precision; for
          accesses as switch points of explored programs, if wanted, Zydis 4; for ROS bags, if wanted,
          rosbag_storage and its messages'

@@ -24,7 +24,8 @@ std::vector<std::string> names_of(const std::string& list) {
 
 ReplayArguments::ReplayArguments(CommandLine& line)
     : command_(line.add_command("replay", "Feeds a log of sensors to a robot's modules (docs/replay.md).")) {
-  command_.argument("LOG", log_, "a log of CARMEN or GMapping, also compressed by gzip", Command::Presence::required);
+  command_.argument("LOG", log_, "of CARMEN or GMapping, a ROS 1 bag or MCAP; also compressed by gzip",
+                    Command::Presence::required);
   command_.option("--modules", modules_, "NAME,NAME,...", "run these modules (default: rflex, sick, segloc and pom)");
   command_.option("--scenario", scenario_, "FILE",
                   "the modules' parameters are those of the first robot of this scenario\n(default: the modules' own)");

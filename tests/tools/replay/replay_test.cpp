@@ -21,6 +21,8 @@ runs::Outcome replay(std::vector<std::string> words) {
   return runs::outcome_of({.words = words});
 }
 
+std::string office() { return (test::project_root() / "scenarios" / "office.yaml").string(); }
+
 /// The numbers of each line that begins with `first`, without it; of all lines if it is empty.
 std::vector<std::vector<double>> rows(const std::string& text, const std::string& first) {
   std::vector<std::vector<double>> rows;
@@ -34,25 +36,35 @@ std::vector<std::vector<double>> rows(const std::string& text, const std::string
   return rows;
 }
 
-TEST(Replay, TheTrajectoryOfARecordedRunIsNearItsTruePath) {
+TEST(Replay, TheTrajectoryOfARecordedRunIsNearItsTruePathInEveryFormat) {
   const Folder folder;
-  const std::string log = (folder / "run.log").string(), path = (folder / "path.tum").string();
-  ASSERT_EQ(runs::outcome_of(runs::run_command("office.yaml", "40", {"--record", log})).status, 1);  // goals left
-  const std::string scenario = (test::project_root() / "scenarios" / "office.yaml").string();
-  const runs::Outcome replayed = replay({log, "--scenario", scenario, "--trajectory", path});
-  ASSERT_EQ(replayed.status, 0) << replayed.errors;
-  const auto truth = rows(folder.read("run.log"), "TRUEPOS "), poses = rows(folder.read("path.tum"), "");
-  ASSERT_GT(poses.size(), 350u);
-  ASSERT_EQ(poses.size(), truth.size());
+  const std::string log = (folder / "run.log").string();
+  ASSERT_EQ(runs::outcome_of(runs::run_command("office.yaml", "20", {"--record", log})).status, 1);  // goals left
+  const auto truth = rows(folder.read("run.log"), "TRUEPOS ");
+  ASSERT_GT(truth.size(), 150u);
   const Pose start{truth[0][0], truth[0][1], truth[0][2]};
-  for (std::size_t i = 0; i < poses.size(); ++i) {
-    const Point at = between(start, {truth[i][0], truth[i][1], truth[i][2]}).position();
-    EXPECT_NEAR(poses[i][0], truth[i][6], 1e-6);
-    EXPECT_LT(length(at - Point{poses[i][1], poses[i][2]}), 0.05);
+  for (const std::string name : {"run.log", "run.mcap", "run.bag"}) {
+    const std::string file = (folder / name).string(), path = (folder / "path.tum").string();
+    const runs::Outcome recorded = runs::outcome_of(runs::run_command("office.yaml", "20", {"--record", file}));
+    if (recorded.status == 2) continue;  // built without rosbag_storage
+    const runs::Outcome replayed = replay({file, "--scenario", office(), "--trajectory", path});
+    ASSERT_EQ(replayed.status, 0) << replayed.errors;
+    const auto poses = rows(folder.read("path.tum"), "");
+    ASSERT_EQ(poses.size(), truth.size()) << name;
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+      const Point at = between(start, {truth[i][0], truth[i][1], truth[i][2]}).position();
+      EXPECT_NEAR(poses[i][0], truth[i][6], 1e-6);
+      EXPECT_LT(length(at - Point{poses[i][1], poses[i][2]}), 0.05) << name;
+    }
   }
-  // The corrected log can be read again, and has the corrected poses.
-  const std::string corrected = (folder / "corrected.log").string();
-  ASSERT_EQ(replay({log, "--scenario", scenario, "--trajectory", corrected}).status, 0);
+}
+
+TEST(Replay, ACorrectedLogOfCarmenCanBeReplayed) {
+  const Folder folder;
+  const std::string log = (folder / "run.log").string(), corrected = (folder / "corrected.log").string();
+  ASSERT_EQ(runs::outcome_of(runs::run_command("office.yaml", "5", {"--record", log})).status, 1);  // goals left
+  ASSERT_EQ(replay({log, "--scenario", office(), "--trajectory", corrected}).status, 0);
+  EXPECT_EQ(rows(folder.read("corrected.log"), "FLASER ").size(), rows(folder.read("run.log"), "FLASER ").size());
   EXPECT_EQ(replay({corrected, "--modules", "rflex,sick"}).status, 0);
 }
 

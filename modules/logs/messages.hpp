@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The messages of ROS 1 and ROS 2 (CDR) and those of Foxglove in JSON that a log of sensors is made of.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "modules/logs/topic_log.hpp"
+
+namespace waitpoint::logs {
+
+struct ScanMessage {
+  Time stamp;
+  std::string frame;
+  double first_angle_rad = 0, angle_step_rad = 0;
+  double range_min_m = 0, range_max_m = 0;  ///< range_max_m 0: unknown
+  std::vector<float> range_m;
+};
+
+struct OdometryMessage {
+  Time stamp;
+  std::string child;  ///< empty: unknown
+  Pose pose;
+};
+
+struct FrameMessage {
+  Time stamp;
+  std::string child;
+  SpaceFrame frame;
+};
+
+/// BadInput, naming the file `name`, for messages that are cut off or malformed.
+ScanMessage parse_scan(const std::string& name, Encoding encoding, std::string_view message);
+OdometryMessage parse_odometry(const std::string& name, Encoding encoding, std::string_view message);
+std::vector<FrameMessage> parse_frames(const std::string& name, Encoding encoding, std::string_view message);
+
+/// The heading of a rotation: that of the x axis in the plane.
+double heading_of(double qx, double qy, double qz, double qw);
+
+}  // namespace waitpoint::logs
