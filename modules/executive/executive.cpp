@@ -11,6 +11,9 @@ using namespace std::chrono_literals;
 namespace {
 constexpr Duration look_period = 500ms;
 constexpr Duration survey_period = 50ms;
+// Of the motions of a robot that is lost.
+constexpr double find_turn_rad_s = 0.7, find_distance_m = 3;
+constexpr Duration find_patience = 15s;
 
 posters::GoToInput first_of(std::span<const Point> via_points) {
   posters::GoToInput input;
@@ -38,11 +41,15 @@ void Executive::connect() {
       throw BadInput("the executive", std::string("needs the module '") + module + "'");
   looks_.connect(names_);
   if (surveyor_) surveyor_->connect(names_);
+  whereabouts_.connect(names_);
+  if (!parameters_.start_known && !whereabouts_.has_localisation())
+    throw BadInput("the executive", "needs the module 'locate' for a start that is not known");
 }
 
 void Executive::run() {
   start_modules();
   wait_for_position();
+  if (lost()) find_robot();
   // A separate statement: the order of evaluation of arguments differs between compilers, and the read may take time.
   Point here = place_of_planning();
   const Order* order = planned(mission_.start(threads::now(), here));
@@ -54,6 +61,12 @@ void Executive::run() {
       continue;
     }
     const std::optional<genom::Report> report = drive(order->via_points);
+    if (!report && lost() && !stopping_) {
+      find_robot();
+      here = place_of_planning();
+      order = planned(mission_.waited(threads::now(), here));
+      continue;
+    }
     if (!report) break;
     here = place_of_planning();
     order = planned(*report == genom::ok ? mission_.arrived(threads::now(), here)
@@ -68,18 +81,59 @@ const Order* Executive::planned(const Order& order) const {
   return &order;
 }
 
+// A robot without localisation relies on its odometry.
 void Executive::start_modules() {
-  client_.call("rflex", "SetPos", start_);
-  client_.call("pom", "SetPos", start_);
+  const posters::KnownPose start = parameters_.start_known ? start_ : posters::KnownPose();
+  client_.call("rflex", "SetPos", start);
+  client_.call("pom", "SetPos", start);
   client_.send("sick", "ContinuousShot");
-  // A robot without localisation relies on its odometry.
-  for (const char* module : {"segloc", "locate"})
-    if (names_.find_module(module) != nullptr) client_.send(module, "Localise", start_);
+  if (names_.find_module("segloc") != nullptr) client_.send("segloc", "Localise", start);
+  if (names_.find_module("locate") != nullptr) {
+    if (parameters_.start_known)
+      client_.send("locate", "Localise", start);
+    else
+      client_.send("locate", "Find");
+  }
   client_.send("rflex", "TrackSpeedStart");
 }
 
 void Executive::wait_for_position() {
   while (!looks_.have_begun() && !stopping_) threads::this_thread::sleep_for(50ms);
+}
+
+// What a turn shows decides in most places; among rooms that look alike it takes others.
+void Executive::find_robot() {
+  const Time until = threads::now() + Duration::from_seconds(parameters_.find_s);
+  client_.call("ndd", "Stop");
+  while (lost() && !stopping_ && threads::now() < until) {
+    turn_on_the_spot(until);
+    if (lost()) drive_on();
+  }
+  looks_.clear();
+  if (!surveyor_) return;
+  surveyor_.emplace(planner_.space().map(), parameters_.seen_range_m);  // what was seen, was seen elsewhere
+  surveyor_->connect(names_);
+}
+
+void Executive::turn_on_the_spot(Time until) {
+  const Time whole = threads::now() + Duration::from_seconds(2 * exact::pi / find_turn_rad_s);
+  client_.send("rflex", "GotoSpeed", posters::SpeedInput{.w_rad_s = find_turn_rad_s});
+  while (lost() && !stopping_ && threads::now() < std::min(whole, until)) threads::this_thread::sleep_for(look_period);
+  client_.send("rflex", "TrackSpeedStart");
+}
+
+void Executive::drive_on() {
+  const auto place = whereabouts_.open_place(parameters_.planning.robot_radius_m, find_distance_m);
+  if (!place) return;
+  GoToInput input;
+  input.via.push_back(*place);
+  const Time patience = threads::now() + find_patience;
+  const std::optional<std::uint32_t> request = client_.send("ndd", "GoTo", input);
+  while (request && lost() && !stopping_ && threads::now() < patience) {
+    const std::optional<genom::Reply> reply = client_.receive(look_period);
+    if (reply && reply->send_id == *request && reply->final) return;
+  }
+  client_.call("ndd", "Stop");
 }
 
 void Executive::stop_modules() {
@@ -123,8 +177,8 @@ std::span<const Point> Executive::reroute(std::span<const Point> via_points) {
   return order->via_points;
 }
 
-// Sends the via points and waits for the final report, looking meanwhile; nothing if stopped. Via points beyond one
-// request's capacity follow in the next.
+// Sends the via points and waits for the final report, looking meanwhile; nothing if stopped, or lost. Via points
+// beyond one request's capacity follow in the next.
 std::optional<genom::Report> Executive::drive(std::span<const Point> via_points) {
   looks_.clear();
   const Duration period = surveyor_ ? survey_period : look_period;
@@ -133,7 +187,7 @@ std::optional<genom::Report> Executive::drive(std::span<const Point> via_points)
     while (!(request = client_.send("ndd", "GoTo", first_of(via_points)))) threads::this_thread::sleep_for(look_period);
     std::optional<genom::Reply> reply;
     while (!reply || reply->send_id != *request || !reply->final) {
-      if (stopping_) return std::nullopt;
+      if (stopping_ || lost()) return std::nullopt;
       reply = client_.receive(period);
       if (reply) continue;
       look();

@@ -7,6 +7,8 @@
 //
 // With a period of planning again, it keeps the map that it has seen, in place of marks, plans on it in motion, and
 // gives `ndd` the better route without a halt.
+//
+// A robot that `locate` has lost stops, turns on the spot and drives a little by turns until it has been found.
 #pragma once
 
 #include <atomic>
@@ -17,6 +19,7 @@
 #include "modules/executive/looks.hpp"
 #include "modules/executive/robot_executive.hpp"
 #include "modules/executive/surveyor.hpp"
+#include "modules/executive/whereabouts.hpp"
 #include "modules/genom/client.hpp"
 #include "modules/posters/navigation.hpp"
 
@@ -32,6 +35,8 @@ struct Parameters {
   /// set, 0 on a known map and 200 ms on one that is not.
   Duration replan_ms = {};
   double seen_range_m = 10;  ///< what the laser sees beyond this is left out of that map
+  bool start_known = true;   ///< false: the robot must be found at its start, by the module `locate`
+  double find_s = 60;        ///< a lost robot looks for so long for what tells its localisation where it is
 
   static void fields(auto field) {
     field("planning", &Parameters::planning);
@@ -40,6 +45,8 @@ struct Parameters {
     field("plan_cost_us", &Parameters::plan_cost_us);
     field("replan_ms", &Parameters::replan_ms);
     field("seen_range_m", &Parameters::seen_range_m);
+    field("start_known", &Parameters::start_known);
+    field("find_s", &Parameters::find_s);
   }
 };
 
@@ -61,6 +68,10 @@ class Executive : public RobotExecutive {
  private:
   void start_modules();
   void wait_for_position();
+  bool lost() const { return whereabouts_.lost(!parameters_.start_known); }
+  void find_robot();
+  void turn_on_the_spot(Time until);
+  void drive_on();
   const Order* planned(const Order& order) const;
   void stop_modules();
   void look();
@@ -77,6 +88,7 @@ class Executive : public RobotExecutive {
   posters::KnownPose start_;
   std::atomic<bool> stopping_ = false;
   Looks looks_;
+  Whereabouts whereabouts_;
   std::optional<Surveyor> surveyor_;  // none: it does not plan in motion
   Time next_plan_;
 };

@@ -43,7 +43,7 @@ struct TrackingParameters {
 struct FindingParameters {
   double view_turn_rad = 0.35;   ///< a scan is added to the panorama after so much turn,
   double view_travel_m = 0.4;    ///< or travel
-  std::uint32_t views_min = 4;   ///< of a panorama that is searched for
+  std::uint32_t views_min = 10;  ///< of a panorama that is searched for
   std::uint32_t views_max = 30;  ///< beyond them, the oldest view is forgotten
   double score_min = 0.5;        ///< of a place: the mean score of the panorama's points, from 0 to 1
   double rival_share = 0.9;      ///< a place is ambiguous if the map explains this share as much at another

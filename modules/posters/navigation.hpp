@@ -20,6 +20,18 @@ struct KnownPose {
   }
 };
 
+/// Input of `rflex` GotoSpeed.
+struct SpeedInput {
+  double v_m_s = 0, w_rad_s = 0, side_m_s = 0, climb_m_s = 0;
+
+  static void fields(auto field) {
+    field("v_m_s", &SpeedInput::v_m_s);
+    field("w_rad_s", &SpeedInput::w_rad_s);
+    field("side_m_s", &SpeedInput::side_m_s, added);
+    field("climb_m_s", &SpeedInput::climb_m_s, added);
+  }
+};
+
 /// Input of GoTo and Reroute: points of the map frame in order; the last is the goal.
 struct GoToInput {
   Bounded<Point, via_point_count_max> via;

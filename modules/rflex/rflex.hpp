@@ -59,17 +59,7 @@ struct Parameters {
   }
 };
 
-/// Input of GotoSpeed.
-struct SpeedInput {
-  double v_m_s = 0, w_rad_s = 0, side_m_s = 0, climb_m_s = 0;
-
-  static void fields(auto field) {
-    field("v_m_s", &SpeedInput::v_m_s);
-    field("w_rad_s", &SpeedInput::w_rad_s);
-    field("side_m_s", &SpeedInput::side_m_s, added);
-    field("climb_m_s", &SpeedInput::climb_m_s, added);
-  }
-};
+using posters::SpeedInput;
 
 /// Failures of CalibrateGyro, other than interruption.
 enum class CalibrationReport : std::uint16_t { no_gyro = genom::first_own_report, moved };
