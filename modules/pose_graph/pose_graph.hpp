@@ -32,6 +32,8 @@ class PoseGraph {
   /// The number of the new pose, counted from 0. Pose 0 is fixed.
   std::size_t add(const Pose& pose);
   void measure(const Measurement& measurement);
+  /// Another guess of a pose, from which optimise() begins.
+  void place(std::size_t pose, const Pose& guess) { poses_[pose] = guess; }
 
   std::size_t size() const { return poses_.size(); }
   const Pose& operator[](std::size_t pose) const { return poses_[pose]; }

@@ -11,7 +11,7 @@ namespace {
 
 constexpr unsigned pyramid_levels = 6;
 constexpr std::size_t drawn_max = 6, candidates_max = 3;
-constexpr std::uint32_t openings_max = 20000;
+constexpr std::uint32_t openings_max = 20000, openings_everywhere_max = 500000;
 constexpr double near_m = 2.5;       // old key scans within this of the window are matched with
 constexpr double slide_m_max = 0.2;  // between the best pose of the search and its refinement
 constexpr double closed_m = 0.1;     // what a closure leaves of the drift
@@ -27,7 +27,8 @@ const PointMap::Drawn& PointMap::drawn(std::size_t submap) {
   if (drawn_.size() == drawn_max) drawn_.pop_front();
   auto map = std::make_unique<matching::SurfaceMap>(empty_map());
   const std::size_t half = parameters_.submap_keys / 2, middle = submap * half;
-  const std::size_t low = middle < half ? 0 : middle - half, high = std::min(middle + half, keys_.size());
+  const std::size_t low = middle < half ? 0 : middle - half,
+                    high = std::min(middle + half, adrift_since_.value_or(keys_.size()));
   for (std::size_t k = low; k < high; ++k) map->add(between(graph_[middle], graph_[k]), keys_[k].points);
   auto pyramid = std::make_unique<matching::ScorePyramid>(*map, pyramid_levels);
   drawn_.push_back({submap, optimised_, std::move(map), std::move(pyramid)});
@@ -69,12 +70,13 @@ std::optional<pose_graph::Measurement> PointMap::one_match(const Drawn& drawn, s
                                                            const matching::SearchWindow& window,
                                                            double explained_min) const {
   const std::size_t key = keys_.size() - 1;
-  const auto peaks = matching::search(*drawn.pyramid, keys_[key].points, window,
-                                      {.score_min = parameters_.closure_score_min,
-                                       .rival_share = parameters_.rival_share,
-                                       .apart_m = 0.4,
-                                       .apart_rad = 0.15,
-                                       .openings_max = openings_max});
+  const auto peaks =
+      matching::search(*drawn.pyramid, keys_[key].points, window,
+                       {.score_min = parameters_.closure_score_min,
+                        .rival_share = parameters_.rival_share,
+                        .apart_m = 0.4,
+                        .apart_rad = 0.15,
+                        .openings_max = whole_ && &drawn == &*whole_ ? openings_everywhere_max : openings_max});
   if (peaks.size() != 1) return std::nullopt;
   const matching::Refined found = matching::refine(*drawn.map, keys_[key].points, peaks[0].pose, {}, {});
   if (found.explained < explained_min) return std::nullopt;
@@ -92,7 +94,7 @@ PointMap::Verdict PointMap::judge(const pose_graph::Measurement& measurement) {
     accept(measurement);
     return Verdict::small;
   }
-  const Pose correction = compose(should, between(here, {}));
+  const Pose correction = compose(should, between(here, {}));  // of the frame around the key scan
   bool confirmed = false;
   for (const Closure& w : waiting_) {
     if (w.measurement.to == measurement.to) continue;
@@ -107,7 +109,15 @@ PointMap::Verdict PointMap::judge(const pose_graph::Measurement& measurement) {
   }
   waiting_.clear();
   accept(measurement);
+  if (adrift_since_) move_adrift_by(correction);
   return Verdict::large;
+}
+
+// The key scans since a loss go along as a whole: the measurements that join them to those before are the doubtful
+// ones.
+void PointMap::move_adrift_by(const Pose& correction) {
+  for (std::size_t key = *adrift_since_; key < graph_.size(); ++key)
+    graph_.place(key, compose(correction, graph_[key]));
 }
 
 void PointMap::accept(const pose_graph::Measurement& closure) {
@@ -118,6 +128,7 @@ void PointMap::accept(const pose_graph::Measurement& closure) {
 
 void PointMap::close_loops() {
   const std::size_t key = keys_.size() - 1, half = parameters_.submap_keys / 2;
+  const Pose before = pose();
   Verdict verdict = Verdict::none;
   const std::vector<Candidate> candidates = old_ones_nearby();
   for (const Candidate& c : candidates) {
@@ -137,7 +148,7 @@ void PointMap::close_loops() {
     keys_[key].drift_m += parameters_.doubt_m;
   if (adrift_since_ && verdict != Verdict::large && key % 3 == 0) verdict = std::max(verdict, search_everywhere());
   std::erase_if(waiting_, [&](const Closure& w) { return w.travel_m + 10 < travel_m_; });
-  if (verdict == Verdict::large || closed_since_ >= 20) optimise();
+  if (verdict == Verdict::large || closed_since_ >= 20) optimise(before);
   if (verdict == Verdict::large) {
     adrift_since_.reset();
     whole_.reset();
@@ -173,8 +184,7 @@ PointMap::Verdict PointMap::search_everywhere() {
 }
 
 // A pose that moves with the graph by more than a match's error is told as a jump.
-void PointMap::optimise() {
-  const Pose before = pose();
+void PointMap::optimise(const Pose& before) {
   graph_.optimise(10);
   ++optimised_;
   closed_since_ = 0;

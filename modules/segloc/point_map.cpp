@@ -7,6 +7,31 @@
 #include "modules/matching/symmetric_matrix.hpp"
 
 namespace waitpoint::segloc {
+namespace {
+
+std::size_t degree_of(Point direction) {
+  const double degrees = exact::atan2(direction.y, direction.x) * (180 / exact::pi) + 180;
+  return std::min<std::size_t>(static_cast<std::size_t>(degrees), 359);
+}
+
+// The nearest point of each degree and its neighbours.
+std::array<double, 360> free_space(std::span<const matching::SurfacePoint> scan) {
+  std::array<double, 360> own{}, free{};
+  for (const matching::SurfacePoint& point : scan) {
+    double& range = own[degree_of(point.position)];
+    const double seen = length(point.position);
+    if (range == 0 || seen < range) range = seen;
+  }
+  for (std::size_t i = 0; i < 360; ++i) {
+    for (const std::size_t k : {(i + 358) % 360, (i + 359) % 360, i, (i + 1) % 360, (i + 2) % 360}) {
+      if (own[k] > 0 && (free[i] == 0 || own[k] < free[i])) free[i] = own[k];
+    }
+  }
+  return free;
+}
+
+}  // namespace
+
 using matching::Matrix3;
 
 PointMap::PointMap(const PointParameters& parameters, const Pose& start, std::vector<matching::SurfacePoint> known,
@@ -95,16 +120,31 @@ void PointMap::match(const Pose& motion, std::span<const matching::SurfacePoint>
     }
   }
   explained_ = found.explained;
-  trusted_ = found.explained >= parameters_.trusted_min;
+  trusted_ =
+      found.explained >= parameters_.trusted_min && contradicted(found.pose, scan) <= parameters_.contradicted_max;
   in_active_ = trusted_ ? found.pose : predicted;
   if (trusted_) {
     open_m2_ = open_rad2_ = lost_m_ = 0;
     lost_scans_ = 0;
   } else {
     lost_m_ += way;
-    ++lost_scans_;
+    if (++lost_scans_ == parameters_.lost_scans && !adrift_since_) adrift_since_ = keys_.size();
   }
   match_information_ = found.information;
+}
+
+// The share of a scan's points where the last key scan saw free space: high if the robot is elsewhere, low where it
+// enters surroundings that are new.
+double PointMap::contradicted(const Pose& robot, std::span<const matching::SurfacePoint> scan) const {
+  if (scan.empty()) return 0;
+  const Pose from_key = between(key_in_active_, robot);
+  std::size_t count = 0;
+  for (const matching::SurfacePoint& point : scan) {
+    const Point at = transform(from_key, point.position);
+    const double free_m = free_m_[degree_of(at)];
+    if (length(at) < 0.9 * free_m - 0.2) ++count;
+  }
+  return static_cast<double>(count) / static_cast<double>(scan.size());
 }
 
 bool PointMap::key_due() const {
@@ -116,7 +156,8 @@ void PointMap::add_key(std::span<const matching::SurfacePoint> scan) {
   const std::size_t key = keys_.size();
   if (key > 0) {
     graph_.add(pose());
-    if (!trusted_) return begin_again(scan);
+    // After a loss nothing holds the next key scan to those before but the odometry, if that.
+    if (!trusted_ || adrift_since_ == key) return begin_again(scan);
     // The match is of the active frame's x and y; a measurement is in the frame of the pose measured.
     const Matrix3 information = matching::turned(information_of(match_information_), -in_active_.heading);
     graph_.measure({active_->first, key, in_active_, information, true});
@@ -127,6 +168,7 @@ void PointMap::add_key(std::span<const matching::SurfacePoint> scan) {
   const double way = key == 0 ? 0 : travel_m_ - keys_.back().travel_m;
   keys_.push_back({{scan.begin(), scan.end()}, travel_m_, before + parameters_.drift_m_per_m * way});
   key_in_active_ = in_active_;
+  free_m_ = free_space(scan);
   active_->map.add(in_active_, scan);
   if (next_) next_->map.add(between(next_in_active_, in_active_), scan);
   if (++active_->keys == parameters_.submap_keys / 2 && !next_) {
@@ -148,16 +190,16 @@ void PointMap::add_key(std::span<const matching::SurfacePoint> scan) {
   close_loops();
 }
 
-// The surroundings are new, with nothing seen before in view: a sub-map of their own, held by the odometry alone.
+// After a loss, or where nothing seen before is in view: a sub-map of its own, held by the odometry alone.
 void PointMap::begin_again(std::span<const matching::SurfacePoint> scan) {
   const std::size_t key = keys_.size();
-  graph_.measure(
-      {key - 1, key, between(key_in_active_, in_active_), matching::diagonal(1 / open_m2_, 1 / open_rad2_), true});
-  keys_.push_back(
-      {{scan.begin(), scan.end()}, travel_m_, keys_.back().drift_m + std::sqrt(open_m2_) + 3 * std::sqrt(open_rad2_)});
+  const double m2 = open_m2_ + exact::square(0.2), rad2 = open_rad2_ + exact::square(0.1);
+  graph_.measure({key - 1, key, between(key_in_active_, in_active_), matching::diagonal(1 / m2, 1 / rad2), true});
+  keys_.push_back({{scan.begin(), scan.end()}, travel_m_, keys_.back().drift_m + std::sqrt(m2) + 3 * std::sqrt(rad2)});
   active_.emplace(Submap{key, 1, empty_map()});
   next_.reset();
   in_active_ = key_in_active_ = {};
+  free_m_ = free_space(scan);
   active_->map.add({}, scan);
   if (!adrift_since_) adrift_since_ = key;
   open_m2_ = open_rad2_ = lost_m_ = 0;

@@ -16,6 +16,7 @@
 // Olson, "Recognizing places using spectrally clustered local matches", 2009 (agreement of closures).
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <deque>
 #include <memory>
@@ -94,6 +95,7 @@ class PointMap {
   enum class Verdict { none, waiting, small, large };
 
   void match(const Pose& motion, std::span<const matching::SurfacePoint> scan);
+  double contradicted(const Pose& robot, std::span<const matching::SurfacePoint> scan) const;
   bool key_due() const;
   void add_key(std::span<const matching::SurfacePoint> scan);
   void begin_again(std::span<const matching::SurfacePoint> scan);
@@ -102,11 +104,12 @@ class PointMap {
   std::optional<pose_graph::Measurement> one_match(const Drawn& drawn, std::size_t frame,
                                                    const matching::SearchWindow& window, double explained_min) const;
   Verdict judge(const pose_graph::Measurement& measurement);
+  void move_adrift_by(const Pose& correction);
   void accept(const pose_graph::Measurement& closure);
   void close_loops();
   Verdict search_everywhere();
   const Drawn& drawn(std::size_t submap);
-  void optimise();
+  void optimise(const Pose& before);
   matching::SurfaceMap empty_map() const;
   matching::Matrix3 information_of(const matching::Matrix3& match) const;
 
@@ -120,6 +123,7 @@ class PointMap {
   Pose next_in_active_;
   matching::Matrix3 match_information_{};
   double explained_ = 1, travel_m_ = 0;
+  std::array<double, 360> free_m_{};  // as far as the last key scan saw free space, by degrees; 0: did not look
   bool trusted_ = true;
   double open_m2_ = 0, open_rad2_ = 0;  // variances of the odometry since the last match
   double lost_m_ = 0;                   // travel without a match

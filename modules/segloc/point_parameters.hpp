@@ -24,9 +24,11 @@ struct PointParameters {
 
   double explained_min =
       0.55;  ///< share of a scan's points explained by the sub-map; below, its surroundings are searched
-  double point_worth = 0.8;   ///< of an explained point, against half a squared deviation from the odometry
-  double trusted_min = 0.25;  ///< below this the odometry is used instead, and the scan is no key scan
-  double lost_m = 1.5;        ///< after so much travel without a match a sub-map begins that the odometry alone holds
+  double point_worth = 0.8;        ///< of an explained point, against half a squared deviation from the odometry
+  double trusted_min = 0.25;       ///< below this the odometry is used instead, and the scan is no key scan
+  double contradicted_max = 0.35;  ///< likewise above this share of points where free space was seen
+  std::uint32_t lost_scans = 4;  ///< so many such scans in a row: the robot is lost until closures confirm where it is
+  double lost_m = 1.5;  ///< after so much travel without a match a sub-map begins that the odometry alone holds
   double match_m = 0.01, match_rad = 0.004;  ///< least standard deviation of a match
 
   // Loop closure: the drift assumed per metre of travel, which sets how far is searched, and what is accepted.
@@ -51,6 +53,8 @@ struct PointParameters {
     field("odometry_rad", &P::odometry_rad);
     field("odometry_share", &P::odometry_share);
     field("odometry_turn_share", &P::odometry_turn_share);
+    field("contradicted_max", &P::contradicted_max);
+    field("lost_scans", &P::lost_scans);
     field("lost_m", &P::lost_m);
     field("explained_min", &P::explained_min);
     field("point_worth", &P::point_worth);
