@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Eigen's temporaries are on the heap: the stack of a task is small, and they grow with the graph.
+#define EIGEN_STACK_ALLOCATION_LIMIT 0
+
 #include "modules/pose_graph/pose_graph.hpp"
 
 #include <Eigen/SparseCholesky>
