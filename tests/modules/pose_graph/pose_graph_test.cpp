@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "fibers/sync/simulation.hpp"
+
 namespace waitpoint::pose_graph {
 namespace {
 
@@ -65,6 +67,20 @@ TEST(PoseGraph, HeadingsAreComparedRoundTheCircle) {
   graph.optimise(10);
   EXPECT_NEAR(exact::wrap_angle(graph[1].heading - 3.15), 0, 1e-6);
   EXPECT_NEAR(graph.cost(), 0, 1e-6);
+}
+
+// A long trajectory within a task, whose stack is small.
+TEST(PoseGraph, IsOptimisedOnTheStackOfATask) {
+  PoseGraph graph;
+  graph.add({});
+  for (std::size_t i = 1; i < 3000; ++i) {
+    graph.add({0.5 * static_cast<double>(i), 0.1, 0});
+    graph.measure({i - 1, i, {0.5, 0, 0}, sure, false});
+    if (i % 100 == 0) graph.measure({i - 90, i, {45, 0, 0}, sure, true});
+  }
+  const waitpoint::Report report = simulate([&] { graph.optimise(10); });
+  EXPECT_TRUE(report.passed) << report;
+  EXPECT_NEAR(graph[2999].y, 0, 1e-3);
 }
 
 }  // namespace
