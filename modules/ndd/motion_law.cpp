@@ -13,10 +13,6 @@ constexpr int path_samples = 3;
 constexpr int turn_steps = 4;
 constexpr double decision_s = 0.1;  // time until the next decision, for the possible loss of speed
 
-double stopping_distance_m(const Parameters& p, double v_m_s) {
-  return v_m_s * p.reaction_s + v_m_s * v_m_s / (2 * p.braking_m_s2);
-}
-
 // The point after `s_m` on the arc of the given curvature that starts at the origin, ahead.
 Point along_arc(double s_m, double curvature_per_m) {
   const double turn = s_m * curvature_per_m;
@@ -26,6 +22,15 @@ Point along_arc(double s_m, double curvature_per_m) {
 }
 
 }  // namespace
+
+double stopping_distance_m(const Parameters& p, double v_m_s) {
+  return v_m_s * p.reaction_s + v_m_s * v_m_s / (2 * p.braking_m_s2);
+}
+
+Point along_arc(double length_m, double turn_rad, double part) {
+  if (length_m == 0) return {};
+  return along_arc(length_m * part, turn_rad / length_m);
+}
 
 Speeds motion_law(const Parameters& p, double direction_rad, double safety, double v_m_s_max) {
   const double facing = std::max(0.0, 1 - std::fabs(direction_rad) / (exact::pi / 2));

@@ -29,6 +29,12 @@ struct Speeds {
 /// Speeds by the law: `direction_rad` within +-pi/2, `safety` in [0, 1], forward speed at most `v_m_s_max`.
 Speeds motion_law(const Parameters& parameters, double direction_rad, double safety, double v_m_s_max);
 
+/// The way of a stop from `v_m_s` >= 0.
+double stopping_distance_m(const Parameters& parameters, double v_m_s);
+
+/// The point after `part` of an arc of this length (negative: backwards) and turn, which starts at the origin, ahead.
+Point along_arc(double length_m, double turn_rad, double part);
+
 /// Lowers forward speeds until the stopping path is safe from obstacle points in the robot's frame.
 class SpeedLimiter {
  public:

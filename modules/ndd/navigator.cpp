@@ -18,6 +18,7 @@ constexpr double security_per_m = 0.5;  // growth of the security distance with 
 
 struct WorkingMemory {
   std::vector<Point> obstacles;
+  std::vector<Point> about_disc;  // the obstacles of the diagram, for a robot that is no disc
   Diagram diagram;
   Regions regions;
 };
@@ -34,6 +35,23 @@ Pose displacement(const Speeds& speeds, double seconds) {
   return {way * c, way * s, turn};
 }
 
+Parameters with_radius(Parameters parameters, double radius_m) {
+  parameters.robot_radius_m = radius_m;
+  return parameters;
+}
+
+// Moves points towards the origin so that their distances from the footprint's greatest disc, in their directions, are
+// those from its hull.
+void draw_to_disc(const Footprint& footprint, std::span<const Point> points, std::vector<Point>& drawn) {
+  drawn.clear();
+  for (const Point p : points) {
+    const double distance_m = std::sqrt(dot(p, p));
+    if (distance_m == 0) continue;
+    const double nearer_m = footprint.reach_m(p) - footprint.inner_radius_m();
+    drawn.push_back((std::max(0.0, distance_m - nearer_m) / distance_m) * p);
+  }
+}
+
 // Two crossing robots would push each other along, side by side. The robot that has the other one between itself and
 // its target, on its right, gives way.
 bool gives_way(const Assessment& assessment, Point target) {
@@ -44,11 +62,13 @@ bool gives_way(const Assessment& assessment, Point target) {
 }  // namespace
 
 Navigator::Navigator(const Parameters& parameters)
-    : parameters_(parameters),
+    : footprint_({parameters.footprint.begin(), parameters.footprint.size()}, parameters.robot_radius_m),
+      parameters_(with_radius(parameters, footprint_.inner_radius_m())),
       memory_(parameters),
       watch_(parameters.progress_m, Duration::from_seconds(parameters.patience_s)),
-      bypass_(parameters),
-      limiter_(parameters) {}
+      bypass_(parameters_),
+      limiter_(parameters_),
+      shape_limiter_(parameters_, footprint_) {}
 
 void Navigator::add_odometry(const posters::Odometry& odometry) {
   trail_.add(odometry.position.date, odometry.position.pose);
@@ -122,7 +142,9 @@ void Navigator::steer(Point target, Decision& decision) {
   if (gives_way(assessment, target)) v_max *= give_way_share;
   if (route_.target_is_last()) v_max = std::min(v_max, std::sqrt(2 * parameters_.goal_braking_m_s2 * distance));
   const Speeds wanted = motion_law(parameters_, assessment.direction_rad, assessment.safety, v_max);
-  decision.speeds = limiter_.limit(wanted, measured_, working_memory().obstacles);
+  const std::vector<Point>& obstacles = working_memory().obstacles;
+  decision.speeds = footprint_.is_disc() ? limiter_.limit(wanted, measured_, obstacles)
+                                         : shape_limiter_.limit(wanted, measured_, obstacles);
 }
 
 // A small position error can put a via point into a door's jamb, or the goal into a wall: the robot drives to the
@@ -146,8 +168,9 @@ Point Navigator::clear_of_obstacles(Point via) const {
 }
 
 Assessment Navigator::assess(Point target, double target_distance_m) {
-  auto& [obstacles, diagram, regions] = working_memory();
-  diagram.build(obstacles, parameters_.diagram_range_m);
+  auto& [obstacles, about_disc, diagram, regions] = working_memory();
+  if (!footprint_.is_disc()) draw_to_disc(footprint_, obstacles, about_disc);
+  diagram.build(footprint_.is_disc() ? obstacles : about_disc, parameters_.diagram_range_m);
   const double width = 2 * parameters_.robot_radius_m;
   find_regions(diagram, width, regions);
   std::optional<Point> previous;

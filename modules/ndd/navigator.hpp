@@ -5,7 +5,10 @@
 //   via points, position -> Route ---------------------------^
 //
 // Obstacles are in the odometry frame, via points in the map frame. A decision is made for the predicted pose at which
-// the command takes effect. The robot never drives backwards; it turns on the spot towards a goal behind it.
+// the command takes effect. The robot turns on the spot towards a goal behind it; it drives backwards only to back out.
+//
+// A robot that is no disc is, to the diagram, the greatest disc that its footprint holds, among obstacles that are
+// nearer by what the hull reaches beyond that disc in their directions; its speeds are limited by its own shape.
 //
 // The working memory of a decision, up to 40 KB, is one per thread of the system: all robots' decisions pass through
 // it, one after the other, and it stays in the cache.
@@ -16,6 +19,7 @@
 #include "modules/ndd/obstacle_memory.hpp"
 #include "modules/ndd/progress_watch.hpp"
 #include "modules/ndd/route.hpp"
+#include "modules/ndd/shape_limiter.hpp"
 #include "modules/ndd/situation.hpp"
 #include "modules/posters/odometry_trail.hpp"
 #include "modules/posters/position.hpp"
@@ -69,7 +73,8 @@ class Navigator {
   double security_distance_m(Point target, double target_distance_m) const;
   double keep_turning(double direction_rad);
 
-  Parameters parameters_;
+  Footprint footprint_;
+  Parameters parameters_;  // with the radius of the greatest disc that the footprint holds
   posters::OdometryTrail trail_;
   Speeds measured_;
   ObstacleMemory memory_;
@@ -78,6 +83,7 @@ class Navigator {
   ProgressWatch watch_;
   Bypass bypass_;
   SpeedLimiter limiter_;
+  ShapeLimiter shape_limiter_;
   std::optional<Point> last_target_;  // of the region choice, in the odometry frame
   double last_turn_ = 0;              // direction of the last decision
 

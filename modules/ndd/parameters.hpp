@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Parameters of nearness-diagram navigation for a round robot with one planar laser.
+// Parameters of nearness-diagram navigation with one planar laser.
 //
 // The defaults suit a B21r-like base in an office: 0.9 m/s in the open, through doors of 0.9 m.
 #pragma once
@@ -13,10 +13,12 @@ struct Parameters {
   Bounded<Point, 64> footprint;  ///< corners of its outline, convex, counter-clockwise; none: it is that disc
   double v_m_s_max = 0.9, w_rad_s_max = 1.5;
   double braking_m_s2 = 0.9;           ///< assumed deceleration, slightly less than the base's limit
+  double turn_braking_rad_s2 = 2;      ///< the same of turning on the spot, for a robot that is no disc
   double reaction_s = 0.25;            ///< from an obstacle's motion to braking: scan, decision and command periods
   double prediction_s = 0.1;           ///< from a decision to its effect; decisions are for the predicted pose
   double security_distance_m = 0.4;    ///< obstacles nearer than this (from the hull) deflect the motion
   double emergency_distance_m = 0.03;  ///< the hull is never driven nearer to an obstacle than this
+  double back_out_m_s = 0.1;           ///< speed backwards of a wedged robot that is no disc
   double creep_m_s = 0.05;             ///< speed at which half the free distance need not be kept
   double bypass_distance_m = 2.0;      ///< obstacles ahead nearer than this are avoided early
   double bypass_clearance_m = 0.12;    ///< between the hull and avoided obstacles, if there is room
@@ -37,10 +39,12 @@ struct Parameters {
     field("v_m_s_max", &Parameters::v_m_s_max);
     field("w_rad_s_max", &Parameters::w_rad_s_max);
     field("braking_m_s2", &Parameters::braking_m_s2);
+    field("turn_braking_rad_s2", &Parameters::turn_braking_rad_s2);
     field("reaction_s", &Parameters::reaction_s);
     field("prediction_s", &Parameters::prediction_s);
     field("security_distance_m", &Parameters::security_distance_m);
     field("emergency_distance_m", &Parameters::emergency_distance_m);
+    field("back_out_m_s", &Parameters::back_out_m_s);
     field("creep_m_s", &Parameters::creep_m_s);
     field("bypass_distance_m", &Parameters::bypass_distance_m);
     field("bypass_clearance_m", &Parameters::bypass_clearance_m);

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "modules/scenario/scenario.hpp"
 #include "tools/record/recording.hpp"
 
 namespace waitpoint::tools {
