@@ -19,13 +19,15 @@ Speeds ShapeLimiter::limit(const Speeds& wanted, const Speeds& measured, std::sp
     const double w = wanted.w_rad_s * part / turn_steps;
     for (int step = speed_steps; step > 0 && wanted.v_m_s > 0; --step) {
       const double v = wanted.v_m_s * step / speed_steps;
-      if (can_stop(v, w) && can_stop(v, measured.w_rad_s) && can_stop(v, 0)) return {v, w};
+      if (can_stop(v, w, &Near::least_m) && can_stop(v, measured.w_rad_s, &Near::least_m) &&
+          can_stop(v, 0, &Near::least_m))
+        return {v, w};
     }
     const double creep = std::min(parameters_.creep_m_s, wanted.v_m_s);
-    if (creep > 0 && can_stop(creep, w)) return {creep, w};
+    if (creep > 0 && can_stop(creep, w, &Near::least_slow_m)) return {creep, w};
     if (w != 0 && can_turn(w)) return {0, w};
   }
-  if (can_stop(-parameters_.back_out_m_s, 0)) return {-parameters_.back_out_m_s, 0};
+  if (can_stop(-parameters_.back_out_m_s, 0, &Near::least_slow_m)) return {-parameters_.back_out_m_s, 0};
   return {};
 }
 
@@ -36,11 +38,13 @@ void ShapeLimiter::take_near(double fastest_m_s, std::span<const Point> obstacle
   for (const Point p : obstacles) {
     if (dot(p, p) >= reach_m * reach_m) continue;
     const double now_m = footprint_.distance_m(p);
-    near_.push_back({p, now_m > emergency_m ? 0.5 * (now_m + emergency_m) : now_m - tolerance_m});
+    const double not_nearer_m = now_m - tolerance_m;
+    near_.push_back({p, now_m > emergency_m ? 0.5 * (now_m + emergency_m) : not_nearer_m,
+                     std::min(not_nearer_m, 0.5 * emergency_m)});
   }
 }
 
-bool ShapeLimiter::is_free(double length_m, double turn_rad) const {
+bool ShapeLimiter::is_free(double length_m, double turn_rad, double Near::*least) const {
   const double parts = std::max(std::fabs(length_m) / pose_step_m, std::fabs(turn_rad) / pose_step_rad);
   const int poses = std::clamp(static_cast<int>(std::ceil(parts)), 1, poses_max);
   for (int k = 1; k <= poses; ++k) {
@@ -49,24 +53,24 @@ bool ShapeLimiter::is_free(double length_m, double turn_rad) const {
     const exact::SinCos facing = exact::sincos(turn);
     for (const Near& near : near_) {
       const Point d = near.point - at;
-      const double clear_m = footprint_.radius_m() + near.least_m;
+      const double clear_m = footprint_.radius_m() + near.*least;
       if (dot(d, d) >= clear_m * clear_m) continue;
       const Point own = {facing.cos * d.x + facing.sin * d.y, facing.cos * d.y - facing.sin * d.x};
-      if (footprint_.distance_m(own) < near.least_m) return false;
+      if (footprint_.distance_m(own) < near.*least) return false;
     }
   }
   return true;
 }
 
-bool ShapeLimiter::can_stop(double v_m_s, double w_rad_s) const {
+bool ShapeLimiter::can_stop(double v_m_s, double w_rad_s, double Near::*least) const {
   const double stop_m = stopping_distance_m(parameters_, std::fabs(v_m_s));
-  return is_free(v_m_s < 0 ? -stop_m : stop_m, w_rad_s * stop_m / std::fabs(v_m_s));
+  return is_free(v_m_s < 0 ? -stop_m : stop_m, w_rad_s * stop_m / std::fabs(v_m_s), least);
 }
 
 bool ShapeLimiter::can_turn(double w_rad_s) const {
   const double w = std::fabs(w_rad_s);
   const double turn = w * parameters_.reaction_s + w * w / (2 * parameters_.turn_braking_rad_s2);
-  return is_free(0, w_rad_s < 0 ? -turn : turn);
+  return is_free(0, w_rad_s < 0 ? -turn : turn, &Near::least_slow_m);
 }
 
 }  // namespace waitpoint::ndd

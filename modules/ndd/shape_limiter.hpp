@@ -4,8 +4,9 @@
 //   d0  distance of an obstacle point from the hull now, d at a pose of the path:
 //       d >= (d0 + emergency distance) / 2, and no less than d0 once that is below the emergency distance
 //
-// Turning on the spot sweeps the corners, so it has a stopping path, too: if it is not free, the robot turns less, and
-// if it can neither drive nor turn, it backs out slowly until it can.
+// At creep speed, in turning on the spot and in backing out, d >= emergency distance / 2 suffices, or d0 if that is
+// less. Turning on the spot sweeps the corners, so it has a stopping path, too: if it is not free, the robot turns
+// less, and if it can neither drive nor turn, it backs out slowly until it can.
 #pragma once
 
 #include <span>
@@ -28,12 +29,12 @@ class ShapeLimiter {
  private:
   struct Near {
     Point point;
-    double least_m;  // distance from the hull to be kept on the path
+    double least_m, least_slow_m;  // distances from the hull to be kept on the path
   };
   void take_near(double fastest_m_s, std::span<const Point> obstacles);
   /// Along an arc of this length (negative: backwards) and turn.
-  bool is_free(double length_m, double turn_rad) const;
-  bool can_stop(double v_m_s, double w_rad_s) const;
+  bool is_free(double length_m, double turn_rad, double Near::*least) const;
+  bool can_stop(double v_m_s, double w_rad_s, double Near::*least) const;
   bool can_turn(double w_rad_s) const;
 
   Parameters parameters_;
