@@ -14,9 +14,18 @@ std::int32_t half_cells_to_edge(std::int32_t cells) { return std::max(0, 2 * std
 
 FreeSpace::FreeSpace(std::shared_ptr<const KnownSpace> known, const PlanningParameters& parameters)
     : known_(std::move(known)), parameters_(parameters) {
-  const double radius = parameters_.robot_radius_m, half_diagonal = map().resolution_m() / std::sqrt(2.0);
-  const double hard_m = std::max(radius, radius + parameters_.clearance_m - half_diagonal);
-  const double preferred_m = std::max(hard_m, radius + parameters_.preferred_clearance_m);
+  const Footprint footprint({parameters_.footprint.begin(), parameters_.footprint.size()}, parameters_.robot_radius_m);
+  const double half_diagonal = map().resolution_m() / std::sqrt(2.0);
+  const auto hard_of = [&](double radius_m) {
+    return std::max(radius_m, radius_m + parameters_.clearance_m - half_diagonal);
+  };
+  const double hard_m = hard_of(footprint.inner_radius_m());
+  const double preferred_m = std::max(hard_m, footprint.radius_m() + parameters_.preferred_clearance_m);
+  if (!footprint.is_disc()) {
+    turn_hull(footprint);
+    roomy_square_ = square_of(hard_of(footprint.radius_m()));
+    hull_square_ = square_of(std::max(parameters_.clearance_m, half_diagonal));
+  }
   hard_square_ = square_of(hard_m);
   preferred_square_ = square_of(preferred_m);
   explained_square_ = square_of(parameters_.explained_m);
@@ -28,6 +37,30 @@ FreeSpace::FreeSpace(std::shared_ptr<const KnownSpace> known, const PlanningPara
     cost_[square] = static_cast<std::uint8_t>(
         std::nearbyint(least_cell_cost + static_cast<double>(greatest_cell_cost - least_cell_cost) * lack * lack));
   }
+}
+
+void FreeSpace::turn_hull(const Footprint& footprint) {
+  constexpr int headings = 16;
+  hull_.resize(headings);
+  const double resolution_m = map().resolution_m();
+  for (int i = 0; i < headings; ++i) {
+    std::vector<CellIndex>& offsets = hull_[static_cast<std::size_t>(i)];
+    for (const Point p : footprint.hull_points(resolution_m)) {
+      const Point turned = transform({0, 0, 2 * exact::pi * i / headings}, p);
+      offsets.push_back({static_cast<int>(std::nearbyint(turned.x / resolution_m)),
+                         static_cast<int>(std::nearbyint(turned.y / resolution_m))});
+    }
+    std::sort(offsets.begin(), offsets.end());
+    offsets.erase(std::unique(offsets.begin(), offsets.end()), offsets.end());
+  }
+}
+
+bool FreeSpace::fits(CellIndex c, int sixteenths) const {
+  if (hull_.empty()) return passable(c);
+  const std::vector<CellIndex>& offsets = hull_[static_cast<std::size_t>(sixteenths & 15)];
+  return std::all_of(offsets.begin(), offsets.end(), [&](CellIndex d) {
+    return clearance_square({c.x + d.x, c.y + d.y}) >= hull_square_;
+  });
 }
 
 std::uint16_t FreeSpace::square_of(double distance_m) const {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Permitted positions for the centre of a round robot: the known map, inflated, plus obstacles met on the way.
+// Permitted positions for the centre of a robot: the known map, inflated, plus obstacles met on the way.
 //
 // A cell is passable if its centre is at least
 //
@@ -9,6 +9,9 @@
 // points connected with that clearance are connected by passable cells, diagonal neighbours included. A straight step
 // between two neighbouring cells reduces the distance by at most 3 mm for cells of 5 cm. Unknown cells are forbidden to
 // the centre but are not inflated. Beyond `hard` the cost of a cell falls until the preferred clearance is reached.
+//
+// For a robot that is no disc, the radius is that of the greatest disc in its footprint. Where the least disc about it
+// does not fit, a cell is tight: there fits() checks the hull itself, turned to one of 16 headings.
 #pragma once
 
 #include <algorithm>
@@ -17,6 +20,7 @@
 #include <span>
 
 #include "core/fields.hpp"
+#include "core/footprint.hpp"
 #include "core/occupancy_grid.hpp"
 #include "modules/executive/distance_transform.hpp"
 #include "modules/executive/known_space.hpp"
@@ -74,6 +78,12 @@ class FreeSpace {
   std::uint16_t square_of(double distance_m) const;
 
   bool passable(CellIndex c) const { return clearance_square(c) >= hard_square_; }
+  /// True if the robot fits there at some headings only, or at none; never, for a disc.
+  bool tight(CellIndex c) const { return !hull_.empty() && clearance_square(c) < roomy_square_; }
+  /// True if the hull about a cell's centre, turned by `sixteenths` of a full turn from the
+  /// grid's x axis, keeps clear of all obstacles.
+  bool fits(CellIndex c, int sixteenths) const;
+
   /// The cost of entering a passable cell, per fifth of its length; `least_cell_cost` in the open.
   std::uint32_t cell_cost(CellIndex c) const;
   static constexpr std::uint32_t least_cell_cost = 16, greatest_cell_cost = 80, unseen_cell_cost = 8;
@@ -97,6 +107,7 @@ class FreeSpace {
   std::size_t index(CellIndex c) const {
     return static_cast<std::size_t>(c.y) * static_cast<std::size_t>(map().width()) + static_cast<std::size_t>(c.x);
   }
+  void turn_hull(const Footprint& footprint);
   void push_away(CellIndex obstacle);
   bool explained(CellIndex c) const { return known_->clearances()[index(c)] < explained_square_; }
   std::int32_t reach_cells() const;
@@ -109,6 +120,8 @@ class FreeSpace {
 
   std::shared_ptr<const KnownSpace> known_;
   PlanningParameters parameters_;
+  std::vector<std::vector<CellIndex>> hull_;  // offsets of the hull's points by heading; empty for a disc
+  std::uint16_t roomy_square_ = 0, hull_square_ = 0;
   std::uint16_t hard_square_ = 0, preferred_square_ = 0, explained_square_ = 0;
   TiledGrid<std::uint16_t> marks_;  // squared clearances from marks; empty without marks
   std::vector<std::uint8_t> cost_;  // by squared clearance, up to preferred_square_

@@ -28,7 +28,11 @@ PlanOutcome RoutePlanner::check_goal(Point goal) const {
     case Cell::unknown: return PlanOutcome::goal_unknown;
     case Cell::free: break;
   }
-  return space_.passable(*cell) ? PlanOutcome::found : PlanOutcome::goal_too_close;
+  if (!space_.passable(*cell)) return PlanOutcome::goal_too_close;
+  if (!space_.tight(*cell)) return PlanOutcome::found;
+  for (int sixteenths = 0; sixteenths < 16; ++sixteenths)
+    if (space_.fits(*cell, sixteenths)) return PlanOutcome::found;
+  return PlanOutcome::goal_too_close;
 }
 
 void RoutePlanner::plan(Point start, Point goal, Plan& plan) {

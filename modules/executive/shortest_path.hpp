@@ -5,6 +5,10 @@
 // a fixed order, so the path is a function of the map alone. The open list is a ring of buckets (Dial 1969): priorities
 // never decrease, and a step increases them by less than the ring's size. A search leaves no memory allocated: the
 // robots of a day's run would each come to hold that of their greatest search.
+//
+// In tight cells (free_space.hpp) a state of the search is a cell with a heading, that of the step into it, and the
+// robot turns there only as far as its hull sweeps free space; elsewhere it turns freely, and all headings are one
+// state.
 #pragma once
 
 #include <array>
@@ -25,22 +29,27 @@ class ShortestPath {
   std::uint32_t find(const FreeSpace& space, CellIndex start, CellIndex goal, std::vector<CellIndex>& path);
 
  private:
+  struct State {
+    CellIndex cell;
+    std::uint8_t heading = 0;  // an index of a step; 0 unless the cell is tight
+  };
   struct Node {
     std::uint32_t cost;
     std::uint8_t came_by;  // the direction of the last step, or `none`
+    std::uint8_t from;     // the heading of the state before
     bool closed;
   };
   static constexpr std::size_t bucket_count = 1024;
   static constexpr std::uint8_t none = 255;
 
-  void open(std::uint32_t priority, CellIndex cell) { buckets_[priority % bucket_count].push_back(cell), ++opened_; }
+  void open(std::uint32_t priority, State state) { buckets_[priority % bucket_count].push_back(state), ++opened_; }
   std::uint32_t search(const FreeSpace& space, CellIndex start, CellIndex goal, std::vector<CellIndex>& path);
-  void expand(const FreeSpace& space, CellIndex cell, CellIndex goal);
-  void walk_back(CellIndex start, CellIndex goal, std::vector<CellIndex>& path);
-  Node& node(CellIndex cell) { return nodes_(cell.x, cell.y); }
+  void expand(const FreeSpace& space, State state, CellIndex start, CellIndex goal);
+  void walk_back(CellIndex start, State goal, std::vector<CellIndex>& path);
+  Node& node(State state) { return nodes_[state.heading](state.cell.x, state.cell.y); }
 
-  TiledGrid<Node> nodes_;
-  std::array<std::vector<CellIndex>, bucket_count> buckets_;
+  std::array<TiledGrid<Node>, 8> nodes_;  // by heading
+  std::array<std::vector<State>, bucket_count> buckets_;
   std::size_t opened_ = 0;
 };
 

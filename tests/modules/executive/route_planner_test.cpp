@@ -83,6 +83,53 @@ TEST(RoutePlanner, StraightWayInTheOpenIsOneLegDividedIfLong) {
   EXPECT_NEAR(plan.length_m, std::sqrt(18.0 * 18 + 9), 0.1);
 }
 
+PlanningParameters of_a_rectangle(double length_m, double width_m) {
+  PlanningParameters parameters;
+  parameters.robot_radius_m = 0.5 * exact::hypot(length_m, width_m);
+  for (const Point corner : {Point{1, 1}, Point{-1, 1}, Point{-1, -1}, Point{1, -1}})
+    parameters.footprint.push_back({0.5 * length_m * corner.x, 0.5 * width_m * corner.y});
+  return parameters;
+}
+
+TEST(RoutePlanner, ARectangleGoesThroughADoorThatIsTooNarrowForTheDiscAboutIt) {
+  const OccupancyGrid map = test::drawn_map(two_rooms(11), 0.05);  // 0.55 m
+  PlanningParameters disc;
+  disc.robot_radius_m = of_a_rectangle(0.42, 0.43).robot_radius_m;
+  Plan plan;
+  RoutePlanner(map, disc).plan({0.6, 2.5}, {5.5, 0.7}, plan);
+  EXPECT_EQ(plan.outcome, PlanOutcome::unreachable);
+  RoutePlanner planner(map, of_a_rectangle(0.42, 0.43));
+  planner.plan({0.6, 2.5}, {5.5, 0.7}, plan);
+  ASSERT_EQ(plan.outcome, PlanOutcome::found);
+  for (std::size_t i = 1; i < planner.path().size(); ++i) {  // in the door it goes straight through
+    const CellIndex c = planner.path()[i], before = planner.path()[i - 1];
+    EXPECT_TRUE(c.x < 58 || c.x > 63 || c.y == before.y) << i;
+  }
+}
+
+// A corridor with a bend: `room` cells are added around its corner.
+std::vector<std::string> bend(int room) {
+  std::vector<std::string> rows(60, std::string(60, '#'));
+  const auto clear = [&](int x, int y, int width, int height) {
+    for (int row = y; row < y + height; ++row)
+      rows[static_cast<std::size_t>(59 - row)].replace(static_cast<std::size_t>(x), static_cast<std::size_t>(width),
+                                                       static_cast<std::size_t>(width), ' ');
+  };
+  clear(2, 10, 40, 12);
+  clear(30, 10, 12, 48);
+  clear(30 - room, 10 - room, 12 + 2 * room, 12 + 2 * room);
+  return rows;
+}
+
+TEST(RoutePlanner, ALongRobotTurnsOnlyWhereItsHullSweepsFreeSpace) {
+  const PlanningParameters parameters = of_a_rectangle(0.9, 0.42);
+  Plan plan;
+  RoutePlanner(test::drawn_map(bend(0), 0.05), parameters).plan({0.9, 0.8}, {1.8, 2.3}, plan);
+  EXPECT_EQ(plan.outcome, PlanOutcome::unreachable);
+  RoutePlanner(test::drawn_map(bend(7), 0.05), parameters).plan({0.9, 0.8}, {1.8, 2.3}, plan);
+  EXPECT_EQ(plan.outcome, PlanOutcome::found);
+}
+
 TEST(RoutePlanner, EveryReasonIsTold) {
   std::vector<std::string> rows = two_rooms(0);  // no door
   for (int r = 40; r < 50; ++r) rows[static_cast<std::size_t>(r)].replace(100, 10, "??????????");
