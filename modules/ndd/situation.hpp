@@ -40,7 +40,7 @@ struct Assessment {
 Assessment high_safety(const Diagram& diagram, const Choice& choice, double robot_radius_m, double security_distance_m);
 
 /// Turns the high-safety `free_way` away from the obstacles within the security distance. Obstacles behind the robot
-/// are ignored: it never drives backwards.
+/// are ignored: it drives backwards only to back out.
 Assessment with_obstacles(const Diagram& diagram, const Assessment& free_way, double robot_radius_m,
                           double security_distance_m);
 

@@ -101,7 +101,6 @@ INSTANTIATE_TEST_SUITE_P(
         Bound{"settings.yaml", module_keys + "rflex.units_per_m", {"0.001", "1e12"}, {"0", "-5", "1e13"}},
         Bound{"settings.yaml", module_keys + "rflex.climb_m_s_max", {"0", "10000"}, {"1e5"}},
         Bound{"settings.yaml", module_keys + "rflex.noise.travel_variance_m2_per_m", {"0", "1e12"}, {"-1", "1e-300"}},
-        Bound{"settings.yaml", module_keys + "sick.mount_heading_deg", {"-3600", "3600"}, {"1e9"}},
         Bound{"settings.yaml", module_keys + "sick.segments.bearing_noise_rad", {"0", "1000"}, {"1e9", "-1"}},
         Bound{"settings.yaml", module_keys + "segloc.angle_rad_max", {"0", "1000"}, {"1e9", "-1"}},
         Bound{"settings.yaml", module_keys + "pom.extrapolation_s_max", {"0", "1e9"}, {"1e12", "-1"}},
