@@ -74,6 +74,7 @@ Options read_options(int argc, const char* const* argv, const std::string& versi
   std::optional<Command> genom;
   add_genom(line, generated, genom);
   ReplayArguments replay(line);
+  FitArguments fit(line);
   line.footer(
       "See waitpoint COMMAND --help. Exit status: 0 success, 1 a failed expectation of the scenario or a deadlock,\n"
       "2 bad input, 130 stopped by a signal.");
@@ -103,12 +104,13 @@ Options read_options(int argc, const char* const* argv, const std::string& versi
   if (plan.parsed()) return PlanOptions{plan_file, plan_picture};
   if (genom->parsed()) return generated;
   if (replay.parsed()) return replay.options();
+  if (fit.parsed()) return fit.options();
   if (check.parsed()) {
     const std::filesystem::path scenario = find_scenario(checked.file);
     return CheckOptions{scenario, checked.confinement.folders(scenario), checked.assignments};
   }
   throw BadInput("command line",
-                 "expected a command, run, check, plan, explore, exec, genom or replay; see waitpoint --help");
+                 "expected a command, run, check, plan, explore, exec, genom, replay or fit; see waitpoint --help");
 }
 
 }  // namespace waitpoint::tools

@@ -9,6 +9,7 @@
 
 #include "tools/exec/exec_options.hpp"
 #include "tools/explore/runs/explore_options.hpp"
+#include "tools/fit/fit.hpp"
 #include "tools/gdb/debug.hpp"
 #include "tools/genom/genom.hpp"
 #include "tools/plan/plan_command.hpp"
@@ -30,7 +31,7 @@ struct ShownText {
 };
 
 using Options = std::variant<RunOptions, CheckOptions, ExploreOptions, ExecOptions, DebugOptions, PlanOptions,
-                             GenomOptions, ReplayOptions, ShownText>;
+                             GenomOptions, ReplayOptions, FitOptions, ShownText>;
 
 /// Reads the arguments, and WAITPOINT_SEED unless --seed is given. Throws BadInput, one line, for invalid arguments.
 /// `version` is the text of --version.

@@ -7,7 +7,7 @@
 #include <memory>
 #include <vector>
 
-#ifdef WAITPOINT_BZIP2
+#ifdef WAITPOINT_BZ2
 #include <bzlib.h>
 #endif
 #ifdef WAITPOINT_LZ4
@@ -74,7 +74,7 @@ std::string from_gzip(const std::string& name, std::string_view bytes) {
   return output.finish("gzip", state == Z_STREAM_END);
 }
 
-#ifdef WAITPOINT_BZIP2
+#ifdef WAITPOINT_BZ2
 std::string from_bzip2(const std::string& name, std::string_view bytes) {
   bz_stream stream{};
   WAITPOINT_CHECK(BZ2_bzDecompressInit(&stream, 0, 0) == BZ_OK, "bzip2 does not begin");
@@ -148,7 +148,7 @@ bool is_gzip(std::string_view bytes) { return bytes.starts_with("\x1f\x8b"); }
 
 std::string decompressed(const std::string& name, std::string_view method, std::string_view bytes) {
   if (method == "gzip") return from_gzip(name, bytes);
-#ifdef WAITPOINT_BZIP2
+#ifdef WAITPOINT_BZ2
   if (method == "bz2") return from_bzip2(name, bytes);
 #endif
 #ifdef WAITPOINT_LZ4

@@ -2,7 +2,6 @@
 #include "tools/replay/replay.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <array>
 #include <cstdio>
@@ -15,6 +14,7 @@
 #include "tools/output/output_file.hpp"
 #include "tools/output/progress.hpp"
 #include "tools/output/recorders.hpp"
+#include "tools/replay/playback_run.hpp"
 #include "tools/replay/relations.hpp"
 #include "tools/replay/replay_picture.hpp"
 #include "tools/replay/replay_summary.hpp"
@@ -27,7 +27,6 @@ namespace {
 
 using playback::PoseSource;
 
-constexpr Duration second = std::chrono::seconds(1);
 constexpr int status_interrupted = 130;
 constexpr std::array<std::string_view, 3> names_of_sources = {"segloc", "pom", "odometry"};  // by PoseSource
 
@@ -72,22 +71,6 @@ PoseSource source_of(const ReplayOptions& options, const playback::Playback& pla
   return PoseSource::odometry;
 }
 
-/// In windows of a second, between which progress is shown and signals are polled.
-RunEnd carry_out(playback::Playback& playback, Time until, Files& files, Time& reached, bool& interrupted) {
-  Progress progress(stderr, isatty(STDERR_FILENO) != 0, playback.last().since_start());
-  RunEnd end = RunEnd::time_reached;
-  for (std::int64_t k = 1; end == RunEnd::time_reached && reached < until; ++k) {
-    interrupted = interruption() != 0;
-    if (interrupted) break;
-    reached = std::min(until, Time() + second * k);
-    end = playback.run_before(reached);
-    if (files.digests) files.digests->record(playback.simulation(), k);
-    progress.update(reached, 0, 0);
-  }
-  progress.finish();
-  return end;
-}
-
 ReplayResult result_of(const ReplayOptions& options, playback::Playback& playback, std::vector<Relation> relations) {
   ReplayResult result;
   result.relations = std::move(relations);
@@ -112,8 +95,8 @@ void write_files(const ReplayOptions& options, const logs::SensorLog& log, const
     const std::string line =
         fmt::format("{} · {} after {:.1f} s · {} scans · {}", result.pose_source, result.outcome,
                     result.simulated.seconds(), playback.player().scans(), to_string(result.digest));
-    write(files.picture, replay_picture_svg(options.log.filename().string(), line, log, result.trajectory, odometry,
-                                            playback.segments()));
+    write(files.picture, replay_picture_svg(options.source.log.filename().string(), line, log, result.trajectory,
+                                            odometry, playback.segments()));
   }
   if (files.digests) files.digests->finish();
   if (files.events) files.events->finish();
@@ -126,22 +109,22 @@ int replay_log(const ReplayOptions& options, std::span<const genom::ModuleType> 
   const RunWatchdog watchdog(RunWatchdog::usual_limit_s);
   std::vector<Relation> relations;
   if (options.relations) relations = read_relations(*options.relations);
-  const scenario::RobotScenario robot = replayed_robot(options);
-  const logs::SensorLog log = logs::read_log(options.log, options.choice);
+  const scenario::RobotScenario robot = replayed_robot(options.source);
+  const logs::SensorLog log = logs::read_log(options.source.log, options.source.choice);
   playback::Playback playback(log, robot, types, {});
   static_cast<void>(source_of(options, playback));  // bad input is told before the run
   Files files(options);
   if (files.events) files.events->watch(playback.simulation());
 
   const double start_s = wall_clock_s();
-  Time reached;
-  bool interrupted = false;
   const Time until = options.until ? Time() + *options.until : Time::max();
-  const RunEnd end = carry_out(playback, until, files, reached, interrupted);
+  const PlaybackRun run = run_playback(playback, until, [&](std::int64_t second) {
+    if (files.digests) files.digests->record(playback.simulation(), second);
+  });
   ReplayResult result = result_of(options, playback, std::move(relations));
   result.wall_s = wall_clock_s() - start_s;
-  result.outcome = text_of(end, interrupted);
-  result.simulated = std::min(reached, playback.last()).since_start();
+  result.outcome = text_of(run.end, run.interrupted);
+  result.simulated = std::min(run.reached, playback.last()).since_start();
 
   const std::string text = replay_text(log, playback, result);
   if (options.summary && is_standard_output(*options.summary))
@@ -151,8 +134,8 @@ int replay_log(const ReplayOptions& options, std::span<const genom::ModuleType> 
   write_files(options, log, playback, result, files);
   if (const std::string& trouble = playback.simulation().trouble(); !trouble.empty())
     std::fprintf(stderr, "waitpoint: %s\n", trouble.c_str());
-  if (interrupted) return status_interrupted;
-  return end == RunEnd::deadlock || end == RunEnd::no_progress ? 1 : 0;
+  if (run.interrupted) return status_interrupted;
+  return run.end == RunEnd::deadlock || run.end == RunEnd::no_progress ? 1 : 0;
 }
 
 }  // namespace waitpoint::tools

@@ -49,7 +49,7 @@ void assign(scenario::RobotScenario& robot, const std::string& assignment) {
 
 }  // namespace
 
-scenario::RobotScenario replayed_robot(const ReplayOptions& options) {
+scenario::RobotScenario replayed_robot(const LogOptions& options) {
   scenario::RobotScenario robot;
   robot.name = "robot";
   if (options.scenario) robot = robot_of_scenario(*options.scenario);

@@ -3,12 +3,12 @@
 #pragma once
 
 #include "modules/scenario/scenario.hpp"
-#include "tools/replay/replay_options.hpp"
+#include "tools/replay/log_options.hpp"
 
 namespace waitpoint::tools {
 
 /// The modules that the options name, with the parameters of their scenario and of --set. BadInput for names that are
 /// not among the modules.
-scenario::RobotScenario replayed_robot(const ReplayOptions& options);
+scenario::RobotScenario replayed_robot(const LogOptions& options);
 
 }  // namespace waitpoint::tools

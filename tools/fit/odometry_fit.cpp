@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/fit/odometry_fit.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "core/error.hpp"
+
+namespace waitpoint::tools {
+namespace {
+
+constexpr double lengths_m[] = {1, 2, 4, 8};
+constexpr double travel_least_m = 40;
+constexpr double robust = 1.4826;  // of the median deviation of a normal distribution
+constexpr double deviations_max = 5;
+constexpr double at_rest_m = 0.02, at_rest_rad = 0.01;  // shorter steps are of the localisation's noise
+
+/// Travel and turn of a stretch, with those of the odometry.
+struct Stretch {
+  double travel_m = 0, turn_rad = 0, turns_rad = 0;  // localised; the turns without their signs
+  double measured_travel_m = 0, measured_turn_rad = 0;
+};
+
+/// Motion between two pairs of poses, the travel along the mean heading.
+void add_step(const Pose& step, double& travel_m, double& turn_rad) {
+  const auto [s, c] = exact::sincos(step.heading / 2);
+  travel_m += step.x * c + step.y * s;
+  turn_rad += step.heading;
+}
+
+/// Steps in which the robot moves clearly: so that the noise of each pose does not add up to travel.
+std::vector<std::size_t> steps_of(std::span<const Pose> measured) {
+  std::vector<std::size_t> ends = {0};
+  for (std::size_t i = 1; i < measured.size(); ++i) {
+    const Pose step = between(measured[ends.back()], measured[i]);
+    if (length(step.position()) >= at_rest_m || std::fabs(step.heading) >= at_rest_rad) ends.push_back(i);
+  }
+  return ends;
+}
+
+std::vector<Stretch> stretches_of(std::span<const Pose> measured, std::span<const Pose> localised, double length_m) {
+  std::vector<Stretch> stretches;
+  Stretch stretch;
+  const std::vector<std::size_t> steps = steps_of(measured);
+  double gone_m = 0;
+  for (std::size_t i = 1; i < steps.size(); ++i) {
+    const Pose own = between(localised[steps[i - 1]], localised[steps[i]]);
+    const Pose odometry = between(measured[steps[i - 1]], measured[steps[i]]);
+    add_step(own, stretch.travel_m, stretch.turn_rad);
+    add_step(odometry, stretch.measured_travel_m, stretch.measured_turn_rad);
+    stretch.turns_rad += std::fabs(odometry.heading);
+    gone_m += length(odometry.position());
+    if (gone_m < length_m) continue;
+    stretches.push_back(stretch);
+    stretch = {};
+    gone_m = 0;
+  }
+  return stretches;
+}
+
+double median(std::vector<double> values) {
+  if (values.empty()) return 0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// The bound of residuals that count.
+double bound_of(const std::vector<double>& residuals) {
+  const double centre = median(residuals);
+  std::vector<double> off;
+  for (const double residual : residuals) off.push_back(std::fabs(residual - centre));
+  return deviations_max * robust * median(off) + std::fabs(centre);
+}
+
+/// Least squares of `target` by the columns of `rows`, without negative coefficients except for the first `free`: one
+/// that would be negative is 0.
+Eigen::VectorXd least_squares(Eigen::MatrixXd rows, const Eigen::VectorXd& target, Eigen::Index free) {
+  for (;;) {
+    const Eigen::VectorXd solution =
+        (rows.transpose() * rows + 1e-12 * Eigen::MatrixXd::Identity(rows.cols(), rows.cols()))
+            .ldlt()
+            .solve(rows.transpose() * target);
+    Eigen::Index least = -1;
+    for (Eigen::Index i = free; i < solution.size(); ++i)
+      if (solution(i) < 0 && (least < 0 || solution(i) < solution(least))) least = i;
+    if (least < 0) return solution;
+    rows.col(least).setZero();
+  }
+}
+
+/// A residual with the stretch that it is of.
+struct Residual {
+  double value, travel_m, turns_rad;
+};
+
+/// The squared residuals by a constant, travel and turns; relative to their own scale, which grows with the stretch.
+Eigen::VectorXd variances(const std::vector<Residual>& residuals, bool by_turns) {
+  const auto count = static_cast<Eigen::Index>(residuals.size());
+  Eigen::MatrixXd rows(count, by_turns ? 3 : 2);
+  Eigen::VectorXd target(count);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const Residual& residual = residuals[static_cast<std::size_t>(i)];
+    const double weight = 1 / (1 + residual.travel_m);
+    rows(i, 0) = weight;
+    rows(i, 1) = weight * residual.travel_m;
+    if (by_turns) rows(i, 2) = weight * residual.turns_rad;
+    target(i) = weight * residual.value * residual.value;
+  }
+  return least_squares(std::move(rows), target, 0);
+}
+
+class Fit {
+ public:
+  Fit(std::span<const Pose> measured, std::span<const Pose> localised) {
+    for (const double length_m : lengths_m) all_.push_back(stretches_of(measured, localised, length_m));
+  }
+
+  OdometryFit fit() {
+    fit_systematic(all_.back());  // of the longest, in which the localisation's errors weigh least
+    std::vector<Residual> travel, turn;
+    for (const std::vector<Stretch>& stretches : all_) add_residuals(stretches, travel, turn);
+    const Eigen::VectorXd of_travel = variances(travel, false), of_turn = variances(turn, true);
+    result_.travel_noise_m_per_sqrt_m = std::sqrt(of_travel(1));
+    result_.turn_noise_rad_per_sqrt_m = std::sqrt(of_turn(1));
+    result_.turn_noise_rad_per_sqrt_rad = std::sqrt(of_turn(2));
+    return result_;
+  }
+
+ private:
+  double travel_residual(const Stretch& of) const { return of.measured_travel_m - result_.travel_scale * of.travel_m; }
+  double turn_residual(const Stretch& of) const {
+    return of.measured_turn_rad - result_.turn_scale * of.turn_rad - result_.drift_rad_per_m * of.travel_m;
+  }
+
+  void fit_systematic(const std::vector<Stretch>& stretches) {
+    std::vector<double> ratios, turns;
+    for (const Stretch& of : stretches) ratios.push_back(of.travel_m > 0 ? of.measured_travel_m / of.travel_m : 1);
+    result_.travel_scale = median(ratios);
+    for (const Stretch& of : stretches) turns.push_back(turn_residual(of));
+    const double bound = bound_of(turns);
+    std::vector<const Stretch*> used;
+    for (std::size_t i = 0; i < stretches.size(); ++i)
+      if (std::fabs(turns[i]) <= bound) used.push_back(&stretches[i]);
+    const auto count = static_cast<Eigen::Index>(used.size());
+    Eigen::MatrixXd rows(count, 2);
+    Eigen::VectorXd target(count);
+    for (Eigen::Index i = 0; i < count; ++i) {
+      const Stretch& of = *used[static_cast<std::size_t>(i)];
+      rows(i, 0) = of.turn_rad;
+      rows(i, 1) = of.travel_m;
+      target(i) = of.measured_turn_rad - of.turn_rad;
+    }
+    const Eigen::VectorXd solution = least_squares(std::move(rows), target, 2);
+    result_.turn_scale = 1 + solution(0);
+    result_.drift_rad_per_m = solution(1);
+  }
+
+  void add_residuals(const std::vector<Stretch>& stretches, std::vector<Residual>& travel,
+                     std::vector<Residual>& turn) {
+    std::vector<double> of_travel, of_turn;
+    for (const Stretch& of : stretches) {
+      of_travel.push_back(travel_residual(of));
+      of_turn.push_back(turn_residual(of));
+    }
+    const double travel_bound = bound_of(of_travel), turn_bound = bound_of(of_turn);
+    for (std::size_t i = 0; i < stretches.size(); ++i) {
+      const Stretch& of = stretches[i];
+      ++result_.stretches;
+      if (std::fabs(of_travel[i]) > travel_bound || std::fabs(of_turn[i]) > turn_bound) {
+        ++result_.left_out;
+        continue;
+      }
+      travel.push_back({of_travel[i], of.travel_m, of.turns_rad});
+      turn.push_back({of_turn[i], of.travel_m, of.turns_rad});
+    }
+  }
+
+  std::vector<std::vector<Stretch>> all_;  // by length
+  OdometryFit result_;
+};
+
+}  // namespace
+
+OdometryFit fit_odometry(std::span<const Pose> measured, std::span<const Pose> localised) {
+  WAITPOINT_CHECK(measured.size() == localised.size(), "poses of other times are compared");
+  double travel_m = 0;
+  for (std::size_t i = 1; i < measured.size(); ++i)
+    travel_m += length(measured[i].position() - measured[i - 1].position());
+  if (travel_m < travel_least_m)
+    throw BadInput("fit", "expected a log of at least 40 m of travel, found " + std::to_string(travel_m) + " m");
+  return Fit(measured, localised).fit();
+}
+
+}  // namespace waitpoint::tools

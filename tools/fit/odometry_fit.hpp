@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The errors of a base's odometry, estimated from its poses and those that localisation found at the same times.
+//
+// Stretches of 1, 2, 4 and 8 m of travel are compared: D is a stretch's travel, A its turn, |A| the sum of its turns
+// without their signs, all as localised. By least squares
+//
+//   travel measured / localised           travel_scale
+//   turn measured - turn localised        (turn_scale - 1) A + drift D
+//   squared residual of the travel        c + travel_noise^2 D
+//   squared residual of the turn          c + turn_noise_per_m^2 D + turn_noise_per_rad^2 |A|
+//
+// The constants c take up the errors of the localisation itself, which do not grow with the stretch. Residuals beyond
+// five robust deviations of their length, such as of lost localisation, are left out, and counted.
+//
+// The model is that of the simulated odometry (docs/vehicles.md; Borenstein, Feng 1996), so that its parameters can be
+// used there.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "core/pose.hpp"
+
+namespace waitpoint::tools {
+
+struct OdometryFit {
+  double travel_scale = 1, turn_scale = 1, drift_rad_per_m = 0;
+  double travel_noise_m_per_sqrt_m = 0, turn_noise_rad_per_sqrt_m = 0, turn_noise_rad_per_sqrt_rad = 0;
+  std::uint64_t stretches = 0, left_out = 0;
+};
+
+/// The poses at the same times. Fewer than 40 m of travel: BadInput.
+OdometryFit fit_odometry(std::span<const Pose> measured, std::span<const Pose> localised);
+
+}  // namespace waitpoint::tools

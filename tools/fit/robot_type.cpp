@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/fit/robot_type.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/exact_math.hpp"
+#include "core/printable_line.hpp"
+
+namespace waitpoint::tools {
+namespace {
+
+constexpr double degree = exact::pi / 180;
+constexpr double speed_least = 0.1;  // of a log in which the robot stands
+
+std::string base_text(const RobotFit& fit) {
+  const OdometryFit& of = fit.odometry;
+  std::string text = fmt::format(
+      "    # Greatest speeds in the log; its kind and accelerations are not in it.\n"
+      "    base:\n      kind: synchro\n      v_max_m_s: {:.2f}\n      w_max_rad_s: {:.2f}\n",
+      std::max(fit.v_max_m_s, speed_least), std::max(fit.w_max_rad_s, speed_least));
+  text += fmt::format("      # From {} stretches of 1 to 8 m, without {} outliers.\n", of.stretches - of.left_out,
+                      of.left_out);
+  return text + fmt::format(
+                    "      odometry:\n"
+                    "        travel_scale: {:.4f}\n"
+                    "        turn_scale: {:.4f}\n"
+                    "        drift_rad_per_m: {:.5f}\n"
+                    "        travel_noise_m_per_sqrt_m: {:.5f}\n"
+                    "        turn_noise_rad_per_sqrt_m: {:.5f}\n"
+                    "        turn_noise_rad_per_sqrt_rad: {:.5f}\n"
+                    "        units_per_m: 103000\n"
+                    "        units_per_rad: 35000\n",
+                    of.travel_scale, of.turn_scale, of.drift_rad_per_m, of.travel_noise_m_per_sqrt_m,
+                    of.turn_noise_rad_per_sqrt_m, of.turn_noise_rad_per_sqrt_rad);
+}
+
+std::string laser_text(const RobotFit& fit) {
+  const LaserFit& of = fit.laser;
+  std::string text = of.noise_pairs > 0
+                         ? fmt::format("    # Noise from {} pairs of readings at rest.\n", of.noise_pairs)
+                         : "    # The robot never stands still in the log: the noise is that of a SICK LMS 200.\n";
+  text += fmt::format("    # Times between scans deviate by {:.1f} ms; {} scans did not come.\n", of.jitter_s * 1e3,
+                      of.missing);
+  text +=
+      fmt::format("    lasers:\n      - name: laser\n        mount: [{:.3f}, {:.3f}, {:.2f}]\n        height_m: 0.4\n",
+                  fit.mount.x, fit.mount.y, fit.mount.heading / degree);
+  text += fmt::format("        beams: {}\n        field_of_view_deg: {:.2f}\n        range_max_m: {:.2f}\n", of.beams,
+                      of.field_of_view_rad / degree, of.range_max_m);
+  constexpr double of_lms = 0.005;
+  text += fmt::format("        range_noise_m: {:.4f}\n", of.noise_pairs > 0 ? of.range_noise_m : of_lms);
+  if (of.resolution_m > 0) text += fmt::format("        resolution_m: {:g}\n", of.resolution_m);
+  if (of.dropout > 0) text += fmt::format("        dropout: {:.5f}\n", of.dropout);
+  return text + fmt::format("        period_ms: {}\n", std::max(1LL, std::llround(of.period_s * 1e3)));
+}
+
+}  // namespace
+
+std::string robot_type_text(const RobotFit& fit) {
+  std::string text = fmt::format("# Fitted by waitpoint fit {}\n", printable_line(fit.log));
+  text += fmt::format("format: 1\ndescription: robot type {0}\n\nrobot_types:\n  {0}:\n", fit.name);
+  text += "    # Not in the log.\n    shape: {radius_m: 0.26, height_m: 1.2}\n";
+  text += base_text(fit) + laser_text(fit);
+  return text +
+         "    modules:\n"
+         "      - name: rflex\n"
+         "      - name: sick\n" +
+         fmt::format("        mount_x_m: {:.3f}\n        mount_y_m: {:.3f}\n        mount_heading_deg: {:.2f}\n",
+                     fit.mount.x, fit.mount.y, fit.mount.heading / degree) +
+         "      - name: segloc\n"
+         "      - name: pom\n"
+         "      - name: ndd\n"
+         "    bridge:\n"
+         "      - {poster: rflex.command, device: base.command}\n"
+         "      - {poster: rflex.reading, device: base.reading}\n"
+         "      - {poster: sick.command, device: laser.command}\n"
+         "      - {poster: sick.reading, device: laser.reading}\n";
+}
+
+}  // namespace waitpoint::tools
