@@ -45,13 +45,13 @@ PosePairs pairs_of(const playback::Playback& playback) {
   return pairs;
 }
 
-/// The speeds that are exceeded in one scan of a thousand.
+/// The speeds over half a second that are exceeded once in a thousand times.
 void find_speeds(const playback::Playback& playback, RobotFit& fit) {
   std::vector<double> v, w;
   const logs::Played* before = nullptr;
   for (const logs::Played& record : playback.order().records) {
     if (!record.scan) continue;
-    constexpr double least_s = 0.05;
+    constexpr double least_s = 0.5;  // stamps of shorter times jitter too much
     if (before != nullptr && (record.date - before->date).seconds() < least_s) continue;
     if (before != nullptr) {
       const Pose moved = between(before->odometry, record.odometry);

@@ -66,9 +66,7 @@ std::string robot_type_text(const RobotFit& fit) {
   return text +
          "    modules:\n"
          "      - name: rflex\n"
-         "      - name: sick\n" +
-         fmt::format("        mount_x_m: {:.3f}\n        mount_y_m: {:.3f}\n        mount_heading_deg: {:.2f}\n",
-                     fit.mount.x, fit.mount.y, fit.mount.heading / degree) +
+         "      - name: sick\n"
          "      - name: segloc\n"
          "      - name: pom\n"
          "      - name: ndd\n"
