@@ -20,6 +20,7 @@
 #include "tools/exec/exec.hpp"
 #include "tools/exec/program_process.hpp"
 #include "tools/explore/explore.hpp"
+#include "tools/fit/compare.hpp"
 #include "tools/fit/fit.hpp"
 #include "tools/gdb/debug.hpp"
 #include "tools/genom/genom.hpp"
@@ -77,6 +78,7 @@ int carry_out(int argc, const char* const* argv, std::vector<genom::ModuleType> 
     if (const auto* checked = std::get_if<tools::CheckOptions>(&options)) return check(*checked, types);
     if (const auto* replay = std::get_if<tools::ReplayOptions>(&options)) return tools::replay_log(*replay, types);
     if (const auto* fitted = std::get_if<tools::FitOptions>(&options)) return tools::fit(*fitted, types);
+    if (const auto* compared = std::get_if<tools::CompareOptions>(&options)) return tools::compare(*compared, types);
     if (const auto* plan = std::get_if<tools::PlanOptions>(&options)) return tools::show_plan(*plan);
     if (const auto* generated = std::get_if<tools::GenomOptions>(&options)) return tools::genom(*generated);
     if (const auto* debug = std::get_if<tools::DebugOptions>(&options)) tools::debug(*debug);

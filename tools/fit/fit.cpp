@@ -7,49 +7,25 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "modules/logs/log_file.hpp"
-#include "modules/playback/playback.hpp"
 #include "tools/command/distinct_files.hpp"
 #include "tools/command/interruption.hpp"
 #include "tools/command/option_values.hpp"
+#include "tools/fit/replayed_log.hpp"
 #include "tools/fit/robot_type.hpp"
 #include "tools/output/output_file.hpp"
 #include "tools/replay/playback_run.hpp"
-#include "tools/replay/replayed_robot.hpp"
 #include "tools/run/run_watchdog.hpp"
 
 namespace waitpoint::tools {
 namespace {
 
-using playback::PoseSource;
-using playback::StampedPose;
-
-constexpr int status_interrupted = 130;
 constexpr std::string_view letters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-";
 
-struct PosePairs {
-  std::vector<Pose> measured, localised;
-};
-
-/// Of the scans that have both.
-PosePairs pairs_of(const playback::Playback& playback) {
-  PosePairs pairs;
-  const std::vector<StampedPose> odometry = playback.trajectory(PoseSource::odometry);
-  auto at = odometry.begin();
-  for (const StampedPose& localised : playback.trajectory(PoseSource::segloc)) {
-    at = std::find_if(at, odometry.end(), [&](const StampedPose& pose) { return pose.scan == localised.scan; });
-    if (at == odometry.end()) break;
-    pairs.measured.push_back(at->pose);
-    pairs.localised.push_back(localised.pose);
-  }
-  return pairs;
-}
-
 /// The speeds over half a second that are exceeded once in a thousand times.
-void find_speeds(const playback::Playback& playback, RobotFit& fit) {
+void find_speeds(const logs::PlayingOrder& order, RobotFit& fit) {
   std::vector<double> v, w;
   const logs::Played* before = nullptr;
-  for (const logs::Played& record : playback.order().records) {
+  for (const logs::Played& record : order.records) {
     if (!record.scan) continue;
     constexpr double least_s = 0.5;  // stamps of shorter times jitter too much
     if (before != nullptr && (record.date - before->date).seconds() < least_s) continue;
@@ -95,22 +71,16 @@ FitOptions FitArguments::options() const {
 int fit(const FitOptions& options, std::span<const genom::ModuleType> types) {
   heed_signals();
   const RunWatchdog watchdog(RunWatchdog::usual_limit_s);
-  const scenario::RobotScenario robot = replayed_robot(options.source);
-  const logs::SensorLog log = logs::read_log(options.source.log, options.source.choice);
-  playback::Playback playback(log, robot, types, {});
-  if (!playback.has(PoseSource::segloc))
-    throw BadInput("--modules", "expected segloc, to whose poses the odometry is fitted");
   OutputFile file(options.out.value_or("-"));
-  const PlaybackRun run = run_playback(playback, Time::max(), [](std::int64_t) {});
-  if (run.interrupted) return status_interrupted;
+  const std::optional<ReplayedLog> replayed = replayed_log(options.source, types);
+  if (!replayed) return interrupted_status;
   RobotFit fitted;
   fitted.name = options.name;
   fitted.log = options.source.log.filename().string();
-  fitted.mount = log.mount;
-  const PosePairs pairs = pairs_of(playback);
-  fitted.odometry = fit_odometry(pairs.measured, pairs.localised);
-  fitted.laser = fit_laser(log);
-  find_speeds(playback, fitted);
+  fitted.mount = replayed->log.mount;
+  fitted.odometry = fit_odometry(replayed->measured, replayed->localised);
+  fitted.laser = fit_laser(replayed->log);
+  find_speeds(replayed->order, fitted);
   file.write(robot_type_text(fitted));
   file.commit();
   return 0;

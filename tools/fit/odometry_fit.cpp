@@ -17,13 +17,7 @@ constexpr double robust = 1.4826;  // of the median deviation of a normal distri
 constexpr double deviations_max = 5;
 constexpr double at_rest_m = 0.02, at_rest_rad = 0.01;  // shorter steps are of the localisation's noise
 
-/// Travel and turn of a stretch, with those of the odometry.
-struct Stretch {
-  double travel_m = 0, turn_rad = 0, turns_rad = 0;  // localised; the turns without their signs
-  double measured_travel_m = 0, measured_turn_rad = 0;
-};
-
-/// Motion between two pairs of poses, the travel along the mean heading.
+/// Adds a motion, its travel along the mean heading.
 void add_step(const Pose& step, double& travel_m, double& turn_rad) {
   const auto [s, c] = exact::sincos(step.heading / 2);
   travel_m += step.x * c + step.y * s;
@@ -38,26 +32,6 @@ std::vector<std::size_t> steps_of(std::span<const Pose> measured) {
     if (length(step.position()) >= at_rest_m || std::fabs(step.heading) >= at_rest_rad) ends.push_back(i);
   }
   return ends;
-}
-
-std::vector<Stretch> stretches_of(std::span<const Pose> measured, std::span<const Pose> localised, double length_m) {
-  std::vector<Stretch> stretches;
-  Stretch stretch;
-  const std::vector<std::size_t> steps = steps_of(measured);
-  double gone_m = 0;
-  for (std::size_t i = 1; i < steps.size(); ++i) {
-    const Pose own = between(localised[steps[i - 1]], localised[steps[i]]);
-    const Pose odometry = between(measured[steps[i - 1]], measured[steps[i]]);
-    add_step(own, stretch.travel_m, stretch.turn_rad);
-    add_step(odometry, stretch.measured_travel_m, stretch.measured_turn_rad);
-    stretch.turns_rad += std::fabs(odometry.heading);
-    gone_m += length(odometry.position());
-    if (gone_m < length_m) continue;
-    stretches.push_back(stretch);
-    stretch = {};
-    gone_m = 0;
-  }
-  return stretches;
 }
 
 double median(std::vector<double> values) {
@@ -183,6 +157,26 @@ class Fit {
 };
 
 }  // namespace
+
+std::vector<Stretch> stretches_of(std::span<const Pose> measured, std::span<const Pose> localised, double length_m) {
+  std::vector<Stretch> stretches;
+  Stretch stretch;
+  const std::vector<std::size_t> steps = steps_of(measured);
+  double gone_m = 0;
+  for (std::size_t i = 1; i < steps.size(); ++i) {
+    const Pose own = between(localised[steps[i - 1]], localised[steps[i]]);
+    const Pose odometry = between(measured[steps[i - 1]], measured[steps[i]]);
+    add_step(own, stretch.travel_m, stretch.turn_rad);
+    add_step(odometry, stretch.measured_travel_m, stretch.measured_turn_rad);
+    stretch.turns_rad += std::fabs(odometry.heading);
+    gone_m += length(odometry.position());
+    if (gone_m < length_m) continue;
+    stretches.push_back(stretch);
+    stretch = {};
+    gone_m = 0;
+  }
+  return stretches;
+}
 
 OdometryFit fit_odometry(std::span<const Pose> measured, std::span<const Pose> localised) {
   WAITPOINT_CHECK(measured.size() == localised.size(), "poses of other times are compared");

@@ -18,10 +18,21 @@
 
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "core/pose.hpp"
 
 namespace waitpoint::tools {
+
+/// Travel and turn of a stretch as localised, with those of the odometry.
+struct Stretch {
+  double travel_m = 0, turn_rad = 0;
+  double turns_rad = 0;  ///< without their signs
+  double measured_travel_m = 0, measured_turn_rad = 0;
+};
+
+/// Stretches of `length_m` of travel by the odometry, one after another. The poses are those at the same times.
+std::vector<Stretch> stretches_of(std::span<const Pose> measured, std::span<const Pose> localised, double length_m);
 
 struct OdometryFit {
   double travel_scale = 1, turn_scale = 1, drift_rad_per_m = 0;

@@ -10,6 +10,9 @@
 
 namespace waitpoint::tools {
 
+/// The exit status after a signal.
+inline constexpr int interrupted_status = 130;
+
 struct PlaybackRun {
   RunEnd end = RunEnd::time_reached;
   Time reached;  ///< everything before it is done

@@ -14,6 +14,7 @@
 #include "tools/output/output_file.hpp"
 #include "tools/output/progress.hpp"
 #include "tools/output/recorders.hpp"
+#include "tools/replay/log_map.hpp"
 #include "tools/replay/playback_run.hpp"
 #include "tools/replay/relations.hpp"
 #include "tools/replay/replay_picture.hpp"
@@ -27,7 +28,6 @@ namespace {
 
 using playback::PoseSource;
 
-constexpr int status_interrupted = 130;
 constexpr std::array<std::string_view, 3> names_of_sources = {"segloc", "pom", "odometry"};  // by PoseSource
 
 /// The files, opened before the run.
@@ -39,11 +39,13 @@ struct Files {
     open(trajectory, options.trajectory);
     open(summary, options.summary);
     open(picture, options.picture);
+    open(map, options.map);
+    if (options.map) image.emplace(image_of(*options.map));
     if (options.digests) digests.emplace(*options.digests);
     if (options.events) events.emplace(*options.events);
   }
 
-  std::optional<OutputFile> trajectory, summary, picture;
+  std::optional<OutputFile> trajectory, summary, picture, map, image;
   std::optional<DigestRecorder> digests;
   std::optional<EventRecorder> events;
 };
@@ -98,6 +100,11 @@ void write_files(const ReplayOptions& options, const logs::SensorLog& log, const
     write(files.picture, replay_picture_svg(options.source.log.filename().string(), line, log, result.trajectory,
                                             odometry, playback.segments()));
   }
+  if (files.map) {
+    const LogMap drawn = log_map(*options.map, log, result.trajectory);
+    write(files.image, drawn.image);
+    write(files.map, drawn.yaml);
+  }
   if (files.digests) files.digests->finish();
   if (files.events) files.events->finish();
 }
@@ -134,7 +141,7 @@ int replay_log(const ReplayOptions& options, std::span<const genom::ModuleType> 
   write_files(options, log, playback, result, files);
   if (const std::string& trouble = playback.simulation().trouble(); !trouble.empty())
     std::fprintf(stderr, "waitpoint: %s\n", trouble.c_str());
-  if (run.interrupted) return status_interrupted;
+  if (run.interrupted) return interrupted_status;
   return run.end == RunEnd::deadlock || run.end == RunEnd::no_progress ? 1 : 0;
 }
 

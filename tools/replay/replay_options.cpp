@@ -4,6 +4,7 @@
 #include "core/error.hpp"
 #include "tools/command/distinct_files.hpp"
 #include "tools/command/option_values.hpp"
+#include "tools/replay/log_map.hpp"
 
 namespace waitpoint::tools {
 ReplayArguments::ReplayArguments(CommandLine& line)
@@ -21,6 +22,8 @@ ReplayArguments::ReplayArguments(CommandLine& line)
   command_.option("--summary", summary_, "FILE.json",
                   "write the summary as JSON; -: to standard output, in place of the text");
   command_.option("--picture", picture_, "FILE.svg", "draw the path and the map");
+  command_.option("--map", map_, "FILE.yaml",
+                  "write a map for ROS's map_server and scenarios, and its image as FILE.pgm");
   command_.option("--digests", digests_, "FILE", "write a digest per simulated second");
   command_.option("--events", events_, "FILE", "write every event as a line of text");
 }
@@ -44,6 +47,8 @@ ReplayOptions ReplayArguments::options() const {
   check_distinct({{"--trajectory", trajectory_},
                   {"--summary", summary_},
                   {"--picture", picture_},
+                  {"--map", map_},
+                  {"--map", map_.empty() ? "" : image_of(map_).string()},
                   {"--digests", digests_},
                   {"--events", events_},
                   {"--relations", relations_, NamedFile::Use::read},
@@ -52,6 +57,8 @@ ReplayOptions ReplayArguments::options() const {
   options.relations = file(relations_);
   options.summary = file(summary_);
   options.picture = file(picture_);
+  options.map = file(map_);
+  if (options.map && options.map->extension() == ".pgm") refuse("--map", "the name of a YAML file", map_);
   options.digests = file(digests_);
   options.events = file(events_);
   return options;

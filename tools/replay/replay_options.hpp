@@ -18,7 +18,7 @@ struct ReplayOptions {
   LogOptions source;
   std::optional<Duration> until;             ///< none: the end of the log
   std::optional<playback::PoseSource> pose;  ///< of the trajectory; none: the first that there is
-  std::optional<std::filesystem::path> trajectory, relations, summary, picture, digests, events;
+  std::optional<std::filesystem::path> trajectory, relations, summary, picture, map, digests, events;
 };
 
 class ReplayArguments {
@@ -32,7 +32,7 @@ class ReplayArguments {
   Command command_;
   LogArguments source_;
   std::string until_, pose_;
-  std::string trajectory_, relations_, summary_, picture_, digests_, events_;
+  std::string trajectory_, relations_, summary_, picture_, map_, digests_, events_;
 };
 
 }  // namespace waitpoint::tools

@@ -10,6 +10,7 @@
 
 #include "core/polyline.hpp"
 #include "tools/output/svg.hpp"
+#include "tools/replay/spread_scans.hpp"
 
 namespace waitpoint::tools {
 namespace {
@@ -17,8 +18,8 @@ namespace {
 using playback::StampedPose;
 
 constexpr double cell_m = 0.1;
-constexpr std::uint32_t echoes_least = 2;         // of a cell that is drawn: single ones are of people and edges
-constexpr double apart_m = 0.1, apart_rad = 0.1;  // scans in between add little
+constexpr std::uint32_t echoes_least = 2;  // of a cell that is drawn: single ones are of people and edges
+constexpr double drawn_apart = 0.1;        // metres, or radians, between scans
 constexpr double side_pixels = 1400, margin = 24, top = 78, bottom = 44;
 constexpr double path_tolerance_pixels = 0.25;
 
@@ -64,14 +65,8 @@ class EchoMap {
 
 EchoMap echo_map(const logs::SensorLog& log, std::span<const StampedPose> trajectory) {
   EchoMap map;
-  const StampedPose* last = nullptr;
-  for (const StampedPose& at : trajectory) {
-    const bool is_near = last != nullptr && length(at.pose.position() - last->pose.position()) < apart_m &&
-                         std::fabs(exact::wrap_angle(at.pose.heading - last->pose.heading)) < apart_rad;
-    if (is_near) continue;
-    last = &at;
+  for (const StampedPose& at : spread_scans(trajectory, drawn_apart))
     map.add(log.scans[at.scan], compose(at.pose, log.mount));
-  }
   return map;
 }
 

@@ -3,13 +3,16 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <tuple>
 
 #include "core/error.hpp"
 #include "core/random.hpp"
 #include "tests/runs/program.hpp"
 #include "tests/tools/folder.hpp"
+#include "tools/fit/compare.hpp"
 #include "tools/fit/laser_fit.hpp"
 #include "tools/fit/odometry_fit.hpp"
+#include "tools/fit/two_samples.hpp"
 
 namespace waitpoint::tools {
 namespace {
@@ -116,6 +119,47 @@ TEST(Fit, TheLasersNoiseResolutionDropoutsAndTimesAreFound) {
   EXPECT_NEAR(fit.jitter_s, 0.002 * std::sqrt(2.0), 0.0006);
   EXPECT_EQ(fit.missing, 1u);
   EXPECT_NEAR(fit.field_of_view_rad, 2, 1e-9);
+}
+
+TEST(TwoSamples, OfOneDistributionAreProbableAndOfTwoAreNot) {
+  RandomStream random(5, "samples", "normal");
+  std::vector<double> a, b, shifted;
+  for (std::uint64_t i = 0; i < 400; ++i) {
+    a.push_back(random.normal(3 * i));
+    b.push_back(random.normal(3 * i + 1));
+    shifted.push_back(0.5 + random.normal(3 * i + 2));
+  }
+  EXPECT_GT(compare_samples(a, b).probability, 0.05);
+  EXPECT_LT(compare_samples(a, shifted).probability, 1e-6);
+  EXPECT_NEAR(compare_samples(a, shifted).distance, 0.2, 0.06);
+  EXPECT_EQ(compare_samples({1, 2, 2, 3}, {1, 2, 2, 3}).distance, 0);
+  EXPECT_EQ(compare_samples({1, 2}, {3, 4}).distance, 1);
+}
+
+// Kolmogorov's distribution: 5 % of distances exceed 1.36 sqrt(2 / n).
+TEST(TwoSamples, TheProbabilityIsThatOfKolmogorovsTables) {
+  std::vector<double> a, b;
+  for (int i = 0; i < 10000; ++i) {
+    a.push_back(i);
+    b.push_back(i + 10000 * 1.358 * std::sqrt(2.0 / 10000));
+  }
+  EXPECT_NEAR(compare_samples(a, b).probability, 0.05, 0.003);
+}
+
+TEST(Compare, ALogIsLikeItselfAndUnlikeThatOfANoisierRobot) {
+  ReplayedLog first{.log = scans_at_rest(0.003, 0.01, 0), .order = {}, .measured = {}, .localised = {}};
+  ReplayedLog second{.log = scans_at_rest(0.02, 0.01, 0), .order = {}, .measured = {}, .localised = {}};
+  const Drive careful(500, {.turn_noise_rad_per_sqrt_m = 0.005}, 0), rough(500, {.turn_noise_rad_per_sqrt_m = 0.05}, 0);
+  std::tie(first.measured, first.localised) = std::pair(careful.measured, careful.localised);
+  std::tie(second.measured, second.localised) = std::pair(rough.measured, rough.localised);
+  first.order = logs::playing_order(first.log);
+  second.order = logs::playing_order(second.log);
+  const std::vector<Sample> a = samples_of(first), b = samples_of(second);
+  for (const std::size_t quantity : {1u, 5u}) {  // heading, and echoes about their segments
+    EXPECT_EQ(compare_samples(a[quantity].values, a[quantity].values).probability, 1);
+    EXPECT_LT(compare_samples(a[quantity].values, b[quantity].values).probability, 1e-6) << a[quantity].quantity;
+  }
+  EXPECT_NE(comparison_text(a, b).find("time between scans, s"), std::string::npos);
 }
 
 // The shipped robot has the errors of scenarios/rackham.yaml.

@@ -97,6 +97,21 @@ TEST(Replay, TheSummaryHasScansRelationsAndOneDigest) {
   EXPECT_NE(replay({log, "--set", "segloc.length_m_min=2"}).digest(), summary["digest"]);
 }
 
+TEST(Replay, TheMapOfARecordedRunIsAWorldForRobots) {
+  const Folder folder;
+  const std::string log = (folder / "run.log").string(), map = (folder / "floor.yaml").string();
+  ASSERT_EQ(runs::outcome_of(runs::run_command("office.yaml", "20", {"--record", log})).status, 1);  // goals left
+  ASSERT_EQ(replay({log, "--scenario", office(), "--map", map}).status, 0);
+  folder.write("scenario.yaml",
+               "format: 1\nname: again\nuntil_s: 20\nexpect: {goals_reached: all, collisions: 0}\n"
+               "world: {map: floor.yaml}\nrobot_types: {include: " +
+                   (test::project_root() / "scenarios" / "rackham.yaml").string() +
+                   "}\nrobots: [{name: r, type: rackham, start: [0, 0, 0], goals: [[1.5, 0]]}]\n");
+  const runs::Outcome again =
+      runs::outcome_of({.words = {runs::program().string(), "run", (folder / "scenario.yaml").string()}});
+  EXPECT_EQ(again.status, 0) << again.output << again.errors;
+}
+
 TEST(Replay, WhatIsWrongIsToldInOneLine) {
   const Folder folder;
   folder.write("a.log", "FLASER 1 2 0 0 0 0 0 0 1 h 1\n");
