@@ -218,6 +218,22 @@ class RosBag(unittest.TestCase):
         self.assertIn(re.search(r"wp1:\w+", run().stdout)[0], run("--record", folder() / "again.bag").stdout)
         self.assertEqual((folder() / "again.bag").read_bytes(), recorded("office.bag").read_bytes())
 
+    def test_is_replayed_alike_when_the_stock_rosbag_has_compressed_it(self):
+        try:
+            import rosbag
+        except ImportError:
+            self.skipTest("there is no rosbag here")
+        digests = set()
+        for compression in (rosbag.Compression.NONE, rosbag.Compression.BZ2, rosbag.Compression.LZ4):
+            copy = folder() / f"{compression}.bag"
+            with rosbag.Bag(str(recorded("office.bag"))) as read, rosbag.Bag(str(copy), "w", compression=compression) as written:
+                for topic, message, time in read.read_messages():
+                    written.write(topic, message, time)
+            replayed = subprocess.run([BUILD / "tools/waitpoint", "replay", copy], capture_output=True, text=True)
+            self.assertEqual(replayed.returncode, 0, replayed.stderr)
+            digests.add(re.search(r"wp1:\w+", replayed.stdout)[0])
+        self.assertEqual(len(digests), 1)
+
 
 class Carmen(unittest.TestCase):
     def test_has_scans_and_odometry_in_its_words(self):

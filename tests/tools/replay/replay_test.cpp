@@ -131,14 +131,15 @@ TEST(Replay, WhatIsWrongIsToldInOneLine) {
   EXPECT_EQ(message({"replay", "a.log", "--pose", "gps"}), "--pose: expected segloc, pom or odometry, found 'gps'");
 }
 
-TEST(Replay, EveryScanOfRealLogsIsLocalised) {
+TEST(Replay, EveryScanOfARealLogIsLocalised) {
   const auto data = test::data_folder();
   if (!data) GTEST_SKIP() << "no data folder (WAITPOINT_DATA or ../shared/data)";
-  const runs::Outcome outcome = replay({*data + "/logs/mit_csail.gfs.gz", "--summary", "-"});
+  const runs::Outcome outcome = replay({*data + "/logs/mit_csail.gfs.gz", "--until", "60", "--summary", "-"});
   ASSERT_EQ(outcome.status, 0) << outcome.errors;
   const nlohmann::json summary = nlohmann::json::parse(outcome.output);
-  EXPECT_EQ(summary["scans"], 406);
-  EXPECT_EQ(summary["poses"], 406);
+  EXPECT_EQ(summary["scans_of_log"], 406);
+  EXPECT_GT(summary["scans"], 40);
+  EXPECT_EQ(summary["poses"], summary["scans"]);
 }
 
 }  // namespace
