@@ -7,9 +7,19 @@
 #include <utility>
 #include <vector>
 
-#include "modules/logs/topic_log.hpp"
+#include "core/pose.hpp"
+#include "core/time.hpp"
 
 namespace waitpoint::logs {
+
+enum class Encoding { ros1, cdr, json };
+
+/// A frame in its parent, in space.
+struct SpaceFrame {
+  std::string parent;
+  double x = 0, y = 0, z = 0;
+  double qx = 0, qy = 0, qz = 0, qw = 1;
+};
 
 struct ScanMessage {
   Time stamp;

@@ -10,7 +10,6 @@
 #include "core/error.hpp"
 #include "core/nearest_name.hpp"
 #include "core/printable_line.hpp"
-#include "modules/logs/messages.hpp"
 
 namespace waitpoint::logs {
 namespace {

@@ -16,18 +16,10 @@
 #include <string>
 #include <string_view>
 
+#include "modules/logs/messages.hpp"
 #include "modules/logs/sensor_log.hpp"
 
 namespace waitpoint::logs {
-
-enum class Encoding { ros1, cdr, json };
-
-/// A frame in its parent, in space.
-struct SpaceFrame {
-  std::string parent;
-  double x = 0, y = 0, z = 0;
-  double qx = 0, qy = 0, qz = 0, qw = 1;
-};
 
 class TopicLog {
  public:

@@ -49,21 +49,39 @@ double bound_of(const std::vector<double>& residuals) {
   return deviations_max * robust * median(off) + std::fabs(centre);
 }
 
-/// Least squares of `target` by the columns of `rows`, without negative coefficients except for the first `free`: one
-/// that would be negative is 0.
-Eigen::VectorXd least_squares(Eigen::MatrixXd rows, const Eigen::VectorXd& target, Eigen::Index free) {
-  for (;;) {
-    const Eigen::VectorXd solution =
-        (rows.transpose() * rows + 1e-12 * Eigen::MatrixXd::Identity(rows.cols(), rows.cols()))
-            .ldlt()
-            .solve(rows.transpose() * target);
-    Eigen::Index least = -1;
-    for (Eigen::Index i = free; i < solution.size(); ++i)
-      if (solution(i) < 0 && (least < 0 || solution(i) < solution(least))) least = i;
-    if (least < 0) return solution;
-    rows.col(least).setZero();
+/// Least squares of up to three unknowns, summed row by row: the order of Eigen's products of large matrices depends on
+/// the processor's caches.
+class LeastSquares {
+ public:
+  void add(const Eigen::Vector3d& row, double target) {
+    for (Eigen::Index i = 0; i < 3; ++i) {
+      for (Eigen::Index k = 0; k < 3; ++k) normal_(i, k) += row(i) * row(k);
+      right_(i) += row(i) * target;
+    }
   }
-}
+  /// Unknowns without rows are 0. `positive`: so are those that would be negative.
+  Eigen::Vector3d solve(bool positive) const {
+    Eigen::Matrix3d normal = normal_;
+    Eigen::Vector3d right = right_, solution = Eigen::Vector3d::Zero();
+    for (int unknowns = 3; unknowns > 0; --unknowns) {
+      for (Eigen::Index i = 0; i < 3; ++i) normal(i, i) += least_weight;
+      solution = normal.ldlt().solve(right);
+      Eigen::Index least = 0;
+      for (Eigen::Index i = 1; i < 3; ++i)
+        if (solution(i) < solution(least)) least = i;
+      if (!positive || solution(least) >= 0) return solution;
+      for (Eigen::Index i = 0; i < 3; ++i) normal(i, least) = normal(least, i) = 0;
+      right(least) = 0;
+    }
+    return solution.cwiseMax(0);
+  }
+
+ private:
+  static constexpr double least_weight = 1e-12;
+
+  Eigen::Matrix3d normal_ = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d right_ = Eigen::Vector3d::Zero();
+};
 
 /// A residual with the stretch that it is of.
 struct Residual {
@@ -71,19 +89,14 @@ struct Residual {
 };
 
 /// The squared residuals by a constant, travel and turns; relative to their own scale, which grows with the stretch.
-Eigen::VectorXd variances(const std::vector<Residual>& residuals, bool by_turns) {
-  const auto count = static_cast<Eigen::Index>(residuals.size());
-  Eigen::MatrixXd rows(count, by_turns ? 3 : 2);
-  Eigen::VectorXd target(count);
-  for (Eigen::Index i = 0; i < count; ++i) {
-    const Residual& residual = residuals[static_cast<std::size_t>(i)];
+Eigen::Vector3d variances(const std::vector<Residual>& residuals, bool by_turns) {
+  LeastSquares squares;
+  for (const Residual& residual : residuals) {
     const double weight = 1 / (1 + residual.travel_m);
-    rows(i, 0) = weight;
-    rows(i, 1) = weight * residual.travel_m;
-    if (by_turns) rows(i, 2) = weight * residual.turns_rad;
-    target(i) = weight * residual.value * residual.value;
+    squares.add({weight, weight * residual.travel_m, by_turns ? weight * residual.turns_rad : 0},
+                weight * residual.value * residual.value);
   }
-  return least_squares(std::move(rows), target, 0);
+  return squares.solve(true);
 }
 
 class Fit {
@@ -96,7 +109,7 @@ class Fit {
     fit_systematic(all_.back());  // of the longest, in which the localisation's errors weigh least
     std::vector<Residual> travel, turn;
     for (const std::vector<Stretch>& stretches : all_) add_residuals(stretches, travel, turn);
-    const Eigen::VectorXd of_travel = variances(travel, false), of_turn = variances(turn, true);
+    const Eigen::Vector3d of_travel = variances(travel, false), of_turn = variances(turn, true);
     result_.travel_noise_m_per_sqrt_m = std::sqrt(of_travel(1));
     result_.turn_noise_rad_per_sqrt_m = std::sqrt(of_turn(1));
     result_.turn_noise_rad_per_sqrt_rad = std::sqrt(of_turn(2));
@@ -115,19 +128,12 @@ class Fit {
     result_.travel_scale = median(ratios);
     for (const Stretch& of : stretches) turns.push_back(turn_residual(of));
     const double bound = bound_of(turns);
-    std::vector<const Stretch*> used;
-    for (std::size_t i = 0; i < stretches.size(); ++i)
-      if (std::fabs(turns[i]) <= bound) used.push_back(&stretches[i]);
-    const auto count = static_cast<Eigen::Index>(used.size());
-    Eigen::MatrixXd rows(count, 2);
-    Eigen::VectorXd target(count);
-    for (Eigen::Index i = 0; i < count; ++i) {
-      const Stretch& of = *used[static_cast<std::size_t>(i)];
-      rows(i, 0) = of.turn_rad;
-      rows(i, 1) = of.travel_m;
-      target(i) = of.measured_turn_rad - of.turn_rad;
+    LeastSquares squares;
+    for (std::size_t i = 0; i < stretches.size(); ++i) {
+      const Stretch& of = stretches[i];
+      if (std::fabs(turns[i]) <= bound) squares.add({of.turn_rad, of.travel_m, 0}, of.measured_turn_rad - of.turn_rad);
     }
-    const Eigen::VectorXd solution = least_squares(std::move(rows), target, 2);
+    const Eigen::Vector3d solution = squares.solve(false);
     result_.turn_scale = 1 + solution(0);
     result_.drift_rad_per_m = solution(1);
   }
