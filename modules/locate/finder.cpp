@@ -11,14 +11,14 @@ namespace {
 
 // Of the map for tracking, and of that for searches, whose steps are its cells.
 constexpr double fine_cell_m = 0.05, fine_reach_m = 0.4, fine_deviation_m = 0.1;
-constexpr double coarse_cell_m = 0.1, coarse_reach_m = 0.4, coarse_deviation_m = 0.12;
+constexpr double coarse_cell_m = 0.15, coarse_reach_m = 0.45, coarse_deviation_m = 0.15, coarse_arm_m = 4;
 constexpr unsigned levels = 7;
-constexpr double spacing_m = 0.2;
+constexpr double spacing_m = 0.3;
 // Places nearer than these are one.
-constexpr double apart_m = 0.6, apart_rad = 0.25;
-constexpr double rival_slack = 0.1;
-constexpr unsigned peaks_max = 8;
-constexpr std::uint32_t openings_max = 2'000'000;
+constexpr double apart_m = 0.3, apart_rad = 0.15;
+constexpr double rival_slack = 0.05;
+constexpr unsigned peaks_max = 12;
+constexpr std::uint32_t openings_max = 1'000'000;
 
 bool are_one(const Pose& a, const Pose& b) {
   return length(a.position() - b.position()) < apart_m &&
@@ -59,6 +59,7 @@ Finding Finder::look(const Pose& odometry, std::span<const matching::SurfacePoin
   search.score_min = parameters_.score_min;
   search.rival_share = parameters_.rival_share - rival_slack;
   search.peaks_max = peaks_max;
+  search.arm_m = coarse_arm_m;
   search.apart_m = apart_m;
   search.apart_rad = apart_rad;
   search.openings_max = openings_max;

@@ -50,7 +50,7 @@ class Sides {
     const double edge_m = map_.resolution_m();
     for (const CellIndex towards : directions) {
       const CellIndex beyond = {cell.x + towards.x, cell.y + towards.y};
-      if (!map_.contains(beyond) || map_[beyond] != Cell::free) continue;
+      if (!map_.contains(beyond) || map_[beyond] == Cell::occupied) continue;
       const Point normal = {static_cast<double>(towards.x), static_cast<double>(towards.y)};
       points_.push_back({Point{(cell.x + 0.5) * edge_m, (cell.y + 0.5) * edge_m} + 0.5 * edge_m * normal, normal});
     }

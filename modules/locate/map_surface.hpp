@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The surfaces that a map of cells shows to a laser: the sides of occupied cells towards free ones.
+// The surfaces that a map of cells shows to a laser: the sides of occupied cells towards others, since
+// unknown cells are open to its beams.
 #pragma once
 
 #include <vector>

@@ -57,6 +57,11 @@ Assembly::Assembly(const scenario::Scenario& scenario, std::span<const genom::Mo
   scenario::check_on_map(
       scenario, [&](const scenario::RobotScenario& robot) -> const OccupancyGrid& { return maps.of(robot)->map(); },
       file != nullptr && file->grid && scenario.map->known);
+  if (file == nullptr || !file->grid) {
+    const std::size_t beyond = obstacles_beyond(maps.of(scenario.robots.front())->map(), scenario, file.get());
+    if (beyond > 0)
+      warnings_.push_back(counted(beyond, "obstacle") + " far from all robots and goals: not on the planners' map");
+  }
   scenario::check_starts(scenario, world::start_overlaps(description));
   check_rendezvous(scenario);
   make_world(description, seed, make);

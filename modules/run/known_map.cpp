@@ -43,6 +43,26 @@ void hold(Extent& extent, const std::vector<world::MeshObstacle>& meshes) {
     for (const world::SpaceVector& corner : obstacle.mesh->corners) extent.hold({corner.x, corner.y}, 0);
 }
 
+// The map is a grid: the extent of the shapes must fit into one.
+constexpr double floor_m2_max = static_cast<double>(OccupancyGrid::cells_max) * drawn_resolution_m * drawn_resolution_m;
+
+bool fits(const world::Bounds& bounds) {
+  return (bounds.high.x - bounds.low.x + 1) * (bounds.high.y - bounds.low.y + 1) < floor_m2_max;
+}
+
+// The part of `all` within reach of the robots: an object that lies far away, by a mistake in most cases, is not
+// needed.
+world::Bounds near_robots(const scenario::Scenario& scenario, const world::Bounds& all) {
+  Extent near;
+  for (const scenario::RobotScenario& robot : scenario.robots) {
+    near.hold(robot.body.start.position(), drawn_reach_m);
+    for (const scenario::Goal& goal : robot.goals) near.hold(goal.position, drawn_reach_m);
+  }
+  const auto [low, high] = near.bounds();
+  return {{std::max(all.low.x, low.x), std::max(all.low.y, low.y)},
+          {std::min(all.high.x, high.x), std::min(all.high.y, high.y)}};
+}
+
 OccupancyGrid grid_around(const scenario::Scenario& scenario, const world::WorldFile* map) {
   Extent extent;
   for (const world::Obstacle& obstacle : scenario.shapes) extent.hold(bounds_of(outline_of(obstacle.shape)));
@@ -61,12 +81,12 @@ OccupancyGrid grid_around(const scenario::Scenario& scenario, const world::World
     hold_place(robot.body.start.position());
     for (const scenario::Goal& goal : robot.goals) hold_place(goal.position);
   }
-  const auto [low, high] = extent.bounds();
-  // The map is a grid: the extent of the shapes must fit into one.
-  const double floor_m2_max = static_cast<double>(OccupancyGrid::cells_max) * drawn_resolution_m * drawn_resolution_m;
-  if (!((high.x - low.x + 1) * (high.y - low.y + 1) < floor_m2_max))
+  world::Bounds bounds = extent.bounds();
+  if (!fits(bounds)) bounds = near_robots(scenario, bounds);
+  if (!fits(bounds))
     throw BadInput(map != nullptr ? scenario.map->file.string() : scenario.file,
                    "the shapes span more than " + std::to_string(static_cast<long>(floor_m2_max)) + " m2");
+  const auto [low, high] = bounds;
   const auto cells = [](double length_m) {
     return std::max(1, static_cast<int>(std::ceil(length_m / drawn_resolution_m - 1e-9)));
   };
@@ -96,6 +116,19 @@ OccupancyGrid known_map(const scenario::Scenario& scenario, const world::WorldFi
   draw(scenario.meshes);
   if (map != nullptr && is_known) draw(map->meshes);
   return grid;
+}
+
+std::size_t obstacles_beyond(const OccupancyGrid& map, const scenario::Scenario& scenario,
+                             const world::WorldFile* file) {
+  const Point low = map.origin().position();
+  const world::Bounds extent = {low,
+                                {low.x + map.width() * map.resolution_m(), low.y + map.height() * map.resolution_m()}};
+  const auto count = [&](const std::vector<world::Obstacle>& obstacles) {
+    return static_cast<std::size_t>(std::count_if(obstacles.begin(), obstacles.end(), [&](const auto& obstacle) {
+      return !extent.overlaps(bounds_of(outline_of(obstacle.shape)));
+    }));
+  };
+  return count(scenario.shapes) + (file == nullptr ? 0 : count(file->obstacles));
 }
 
 }  // namespace waitpoint::run

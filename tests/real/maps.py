@@ -8,6 +8,7 @@ Each seed draws a start and six goals among the cells that are connected and far
 import argparse
 import collections
 import json
+import os
 import pathlib
 import random
 import re
@@ -113,7 +114,7 @@ def main():
     parser.add_argument("--map", choices=MAPS, action="append")
     parser.add_argument("--seeds", default="1..10")
     parser.add_argument("--localisation", choices=("locate", "segloc"), default="locate")
-    parser.add_argument("--data", type=pathlib.Path, default=ROOT.parent / "shared" / "data")
+    parser.add_argument("--data", type=pathlib.Path, default=pathlib.Path(os.environ.get("WAITPOINT_DATA", ROOT.parent / "shared" / "data")))
     arguments = parser.parse_args()
     first, last = (int(word) for word in (arguments.seeds.split("..") * 2)[:2])
     options = [f"robot_types.rackham.modules.{module}.enabled={str(module == arguments.localisation).lower()}"

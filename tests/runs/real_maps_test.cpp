@@ -89,11 +89,13 @@ struct Round {
   scenario::Scenario scenario() const {
     std::string list;
     for (const Point goal : goals) list += (list.empty() ? "[" : ", [") + number(goal.x) + ", " + number(goal.y) + "]";
-    return scenario::read_scenario(test::project_root() / "scenarios" / "office.yaml",
-                                   {"world.shapes=[]", "world.map.file=" + map.string(), "until_s=4000",
-                                    "robots.0.start=[" + number(start.x) + ", " + number(start.y) + ", " +
-                                        number(start.heading * 180 / exact::pi) + "]",
-                                    "robots.0.goals=[" + list + "]"});
+    return scenario::read_scenario(
+        test::project_root() / "scenarios" / "office.yaml",
+        {"world.shapes=[]", "world.map.file=" + map.string(), "until_s=4000",
+         "robot_types.rackham.modules.segloc.enabled=false", "robot_types.rackham.modules.locate.enabled=true",
+         "robots.0.start=[" + number(start.x) + ", " + number(start.y) + ", " +
+             number(start.heading * 180 / exact::pi) + "]",
+         "robots.0.goals=[" + list + "]"});
   }
 };
 
@@ -135,7 +137,7 @@ TEST_P(RealMap, EveryGoalThatIsFreeAndConnectedIsReached) {
   for (std::uint64_t seed = 1; seed <= rounds; ++seed) {
     const Round round = draw_round(map, seed);
     const scenario::Scenario scenario = round.scenario();
-    run::Experiment experiment(scenario, tools::papers_modules(),
+    run::Experiment experiment(scenario, tools::shipped_modules(),
                                {.seed = seed, .order = kernel::Order::fifo, .replay = ""});
     TruePath path;
     experiment.robots().at(0)->add_path_sink(path);
@@ -143,6 +145,7 @@ TEST_P(RealMap, EveryGoalThatIsFreeAndConnectedIsReached) {
     const bridge::RunResult result = experiment.result();
     const bridge::RobotResult& robot = result.robots[0];
     EXPECT_EQ(robot.collisions, 0u) << "seed " << seed;
+    EXPECT_LT(robot.position_error_max_m, 0.1) << "seed " << seed;
     for (const bridge::GoalResult& goal : robot.goals) {
       EXPECT_TRUE(goal.reached()) << "seed " << seed << ", goal (" << goal.position.x << ", " << goal.position.y
                                   << "): " << goal.report;

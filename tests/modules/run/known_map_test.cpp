@@ -43,6 +43,17 @@ TEST(KnownMap, AGoalOutsideTheShapesHasAMargin) {
   EXPECT_FALSE(map.cell_at({-0.1, 2}).has_value());  // the start is inside: its margin is the shapes' extent
 }
 
+TEST(KnownMap, AnObjectFarFromEveryRobotIsNotOnIt) {
+  scenario::Scenario scenario = with_robot({1, 1}, {{8, 3}});
+  scenario.shapes.push_back(box({2, 2}, 4, 4));
+  scenario.shapes.push_back(box({25000, 26000}, 1, 1));
+  const OccupancyGrid map = known_map(scenario, nullptr, scenario.robots.front());
+  EXPECT_TRUE(map.cell_at({1, 1}).has_value());
+  EXPECT_TRUE(map.cell_at({100, 100}).has_value()) << "within reach of the goal";
+  EXPECT_FALSE(map.cell_at({150, 1}).has_value());
+  EXPECT_EQ(obstacles_beyond(map, scenario, nullptr), 1u);
+}
+
 TEST(KnownMap, OfAMapThatRobotsDoNotKnowOnlyTheExtentIsKnown) {
   world::WorldFile file;
   file.obstacles.push_back(box({5, 5}, 10, 10));

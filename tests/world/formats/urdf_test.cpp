@@ -144,7 +144,7 @@ TEST(Urdf, ArgumentsOfXacroStandForTheirValues) {
   const std::string text =
       "<robot name='r'>\n<xacro:arg name='mast' default='mast'/><xacro:property name='radius' value='0.2'/>\n" +
       link("${namespace}base", collision("<cylinder radius='${radius}' length='0.3'/>")) + link("$(arg mast)") +
-      joint("${ namespace }base", "$(arg mast)") + "<gazebo reference='${2 * radius}'/></robot>";
+      joint("${namespace}base", "$(arg mast)") + "<gazebo reference='${2 * radius}'/></robot>";
   const auto read = [&](const XacroArguments& arguments) {
     LeftOut left_out;
     ReadRobot result;
