@@ -12,6 +12,7 @@
 #include "core/printable_line.hpp"
 #include "fibers/kernel/fault_reports.hpp"
 #include "fibers/sync/post_mortem.hpp"
+#include "modules/playback/playback.hpp"
 #include "modules/run/experiment.hpp"
 #include "modules/scenario/scenario_reader.hpp"
 #include "tools/check/self_check.hpp"
@@ -28,6 +29,7 @@
 #include "tools/output/output_file.hpp"
 #include "tools/papers_modules.hpp"
 #include "tools/ranks/launcher.hpp"
+#include "tools/replay/log_source.hpp"
 #include "tools/replay/replay.hpp"
 #include "tools/run/run.hpp"
 #include "tools/run/run_watchdog.hpp"
@@ -37,10 +39,20 @@
 namespace waitpoint {
 namespace {
 
+int check_log(const scenario::Scenario& scenario, std::span<const genom::ModuleType> types) {
+  const tools::LogSource source = tools::log_source(scenario);
+  const logs::SensorLog log = source.read();
+  const playback::Playback playback(log, source.robot, types, {});
+  tools::write_standard_output(fmt::format("{}: good: {} modules, {} scans of {}\n", printable_line(scenario.file),
+                                           playback.modules(), log.scans.size(), printable_line(log.file)));
+  return 0;
+}
+
 int check(const tools::CheckOptions& options, std::span<const genom::ModuleType> types) {
   const scenario::Scenario scenario = scenario::read_scenario(options.scenario, options.assignments);
   tools::begin_with_program_layer(scenario);
   const tools::RunWatchdog watchdog(tools::RunWatchdog::usual_limit_s);
+  if (scenario.log) return check_log(scenario, types);
   const run::Experiment experiment(scenario, types, {});
   std::size_t modules = 0, goals = 0;
   for (const scenario::RobotScenario& robot : scenario.robots) {
@@ -76,7 +88,10 @@ int carry_out(int argc, const char* const* argv, std::vector<genom::ModuleType> 
     if (const auto* run = std::get_if<tools::RunOptions>(&options))
       return run->check ? tools::self_check(*run, types) : tools::run(*run, types);
     if (const auto* checked = std::get_if<tools::CheckOptions>(&options)) return check(*checked, types);
-    if (const auto* replay = std::get_if<tools::ReplayOptions>(&options)) return tools::replay_log(*replay, types);
+    if (const auto* replay = std::get_if<tools::ReplayOptions>(&options)) {
+      const tools::RunWatchdog watchdog(tools::RunWatchdog::usual_limit_s);
+      return tools::replay_log(*replay, types);
+    }
     if (const auto* fitted = std::get_if<tools::FitOptions>(&options)) return tools::fit(*fitted, types);
     if (const auto* compared = std::get_if<tools::CompareOptions>(&options)) return tools::compare(*compared, types);
     if (const auto* plan = std::get_if<tools::PlanOptions>(&options)) return tools::show_plan(*plan);

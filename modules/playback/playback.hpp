@@ -52,6 +52,7 @@ class Playback {
 
   const logs::PlayingOrder& order() const { return order_; }
   const LogPlayer& player() const { return *player_; }
+  std::size_t modules() const { return modules_.size(); }
   Simulation& simulation() { return simulation_; }
   const Simulation& simulation() const { return simulation_; }
   /// The date of the last record.

@@ -46,6 +46,8 @@ class KnownMaps {
 Assembly::Assembly(const scenario::Scenario& scenario, std::span<const genom::ModuleType> types, io::Network* network,
                    std::uint64_t seed, const Placement& placement, const MakeWorld& make)
     : scenario_(scenario) {
+  if (scenario.log)
+    throw scenario.log->written.bad("expected a world: a log is played by 'waitpoint run' and 'waitpoint replay' only");
   world::WorldDescription description = scenario.world_without_map();
   std::shared_ptr<const world::WorldFile> file;
   if (scenario.map) {

@@ -208,6 +208,14 @@ std::shared_ptr<const YamlNode> read_plan_document(const YamlNode& node) {
   return std::make_shared<const YamlNode>(load_yaml(file));
 }
 
+/// An element of `robots`, alone or laid over its type.
+YamlMap map_of_robot(const YamlNode& node) {
+  return YamlMap(node, name_of(node).empty() ? "a robot" : "robot '" + std::string(name_of(node)) + "'",
+                 {"name",    "type",   "start",     "goals",      "shape",          "base",    "lasers",    "sonars",
+                  "modules", "bridge", "executive", "processors", "start_height_m", "bumpers", "infrareds", "urdf",
+                  "imu",     "gps",    "battery",   "programs",   "control",        "plan"});
+}
+
 /// The keys of a robot type: all but name, start and goals.
 RobotScenario read_equipment(const YamlMap& map, const BodyReading* given = nullptr) {
   RobotScenario robot;
@@ -245,33 +253,10 @@ const YamlNode& type_of(const YamlMap& robot, const YamlNode* types) {
 }  // namespace
 
 RobotScenario read_robot(const YamlNode& node, const YamlNode* types) {
-  const std::string title = name_of(node).empty() ? "a robot" : "robot '" + std::string(name_of(node)) + "'";
-  const auto keys = {std::string_view("name"),
-                     std::string_view("type"),
-                     std::string_view("start"),
-                     std::string_view("goals"),
-                     std::string_view("shape"),
-                     std::string_view("base"),
-                     std::string_view("lasers"),
-                     std::string_view("sonars"),
-                     std::string_view("modules"),
-                     std::string_view("bridge"),
-                     std::string_view("executive"),
-                     std::string_view("processors"),
-                     std::string_view("start_height_m"),
-                     std::string_view("bumpers"),
-                     std::string_view("infrareds"),
-                     std::string_view("urdf"),
-                     std::string_view("imu"),
-                     std::string_view("gps"),
-                     std::string_view("battery"),
-                     std::string_view("programs"),
-                     std::string_view("control"),
-                     std::string_view("plan")};
-  const YamlMap own(node, title, keys);
+  const YamlMap own = map_of_robot(node);
   const std::string name = read_name(own.require("name"), "the name of a robot");
   const YamlNode whole = own.has("type") ? laid_over(type_of(own, types), node) : node;
-  RobotScenario robot = read_equipment(YamlMap(whole, title, keys));
+  RobotScenario robot = read_equipment(map_of_robot(whole));
   robot.name = name;
   robot.written = node.written;
   robot.body.name = name;
@@ -280,14 +265,26 @@ RobotScenario read_robot(const YamlNode& node, const YamlNode* types) {
   robot.start_written = start.written;
   if (const YamlNode* height = own.find("start_height_m")) {
     if (robot.body.base.kind != world::BaseDescription::Kind::aerial)
-      throw height->written.bad("expected no start_height_m: " + title + " does not fly");
+      throw height->written.bad("expected no start_height_m: " + own.what() + " does not fly");
     own.read("start_height_m", robot.body.start_height_m, height_number);
   }
   if (const YamlNode* goals = own.find("goals")) robot.goals = read_goals(*goals);
   if (const YamlNode* plan = own.find("plan")) {
-    if (!robot.goals.empty()) throw plan->written.bad("expected goals or a plan, found both in " + title);
+    if (!robot.goals.empty()) throw plan->written.bad("expected goals or a plan, found both in " + own.what());
     robot.plan = read_plan_document(*plan);
   }
+  return robot;
+}
+
+RobotScenario read_robot_without_body(const YamlNode& node, const YamlNode* types) {
+  const YamlMap own = map_of_robot(node);
+  const YamlNode whole = own.has("type") ? laid_over(type_of(own, types), node) : node;
+  BodyReading given;
+  given.body.lasers.emplace_back();
+  given.laser_names = {"laser"};
+  RobotScenario robot = read_equipment(map_of_robot(whole), &given);
+  robot.name = robot.body.name = read_name(own.require("name"), "the name of a robot");
+  robot.written = node.written;
   return robot;
 }
 

@@ -12,6 +12,10 @@ namespace waitpoint::scenario {
 /// Reads an element of `robots`. `types` is the map `robot_types`, or null; a robot with all keys of a type needs none.
 RobotScenario read_robot(const YamlNode& node, const YamlNode* types);
 
+/// Reads name, type and equipment of an element of `robots`, which may lack start and shape; other keys are not read.
+/// Without lasers it has the default one.
+RobotScenario read_robot_without_body(const YamlNode& node, const YamlNode* types);
+
 /// Reads an element of `robots_from_map` for the robot `name`. `given` has its start, and the defaults for keys that
 /// neither the type nor the element has.
 RobotScenario read_robot_of_map(const YamlNode& node, const YamlNode* types, const std::string& name,

@@ -19,6 +19,8 @@
 #include "core/start_condition.hpp"
 #include "core/time.hpp"
 #include "fibers/io/medium.hpp"
+#include "modules/logs/given_laser.hpp"
+#include "modules/logs/sensor_log.hpp"
 #include "modules/scenario/location.hpp"
 #include "modules/scenario/yaml_tree.hpp"
 #include "world/description.hpp"
@@ -56,6 +58,14 @@ struct MapFile {
 
   /// Reads the file unless it has been read. BadInput as from world::read_world_file().
   void read();
+};
+
+/// A log of sensors that drives the modules of one robot, in place of a world.
+struct LogFile {
+  std::filesystem::path file;  ///< resolved
+  logs::LogChoice choice;
+  logs::GivenLaser laser;
+  Location written;
 };
 
 struct Goal {
@@ -126,11 +136,12 @@ struct Scenario {
   std::string file, name, description;
   std::uint64_t fingerprint = 0;  ///< of all files and options, without their places
   Expectation expect;
-  Duration until = std::chrono::hours(1);
+  Duration until = std::chrono::hours(1);  ///< with a log: no limit, unless given
   Duration step = std::chrono::milliseconds(10);
   world::Engine engine = world::Engine::fcl;
   Location engine_written;  ///< valid if given
   std::optional<MapFile> map;
+  std::optional<LogFile> log;               ///< then the world is empty, and there is one robot
   std::optional<io::Medium> medium;         ///< between robots; none: no communication between robots
   std::vector<world::Obstacle> shapes;      ///< without those of the map
   std::vector<Location> shapes_written;     ///< of each shape

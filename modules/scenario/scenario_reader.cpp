@@ -8,6 +8,7 @@
 #include "core/digest.hpp"
 #include "core/printable_line.hpp"
 #include "modules/scenario/control_reader.hpp"
+#include "modules/scenario/log_reader.hpp"
 #include "modules/scenario/map_robots.hpp"
 #include "modules/scenario/medium_reader.hpp"
 #include "modules/scenario/robot_reader.hpp"
@@ -165,7 +166,7 @@ Scenario read_scenario(const std::filesystem::path& file, const std::vector<std:
   const YamlNode document = scenario_document(file, assignments);
   const YamlMap map(document, "the scenario",
                     {"format", "name", "description", "expect", "until_s", "world", "medium", "robot_types", "robots",
-                     "robots_from_map", "control"});
+                     "robots_from_map", "control", "log"});
   Scenario scenario;
   scenario.file = file.string();
   scenario.fingerprint = fingerprint(document);
@@ -173,6 +174,11 @@ Scenario read_scenario(const std::filesystem::path& file, const std::vector<std:
   if (const YamlNode* description = map.find("description"))
     scenario.description = read_lines(*description, "description");
   if (const YamlNode* expect = map.find("expect")) scenario.expect = read_expectation(*expect);
+  if (const YamlNode* log = map.find("log")) {
+    check_beside_log(map);
+    scenario.log = read_log(*log);
+    scenario.until = Time::max().since_start();
+  }
   map.read("until_s", scenario.until, 1s);
   if (const YamlNode* world = map.find("world")) read_world(*world, scenario);
   if (const YamlNode* medium = map.find("medium")) scenario.medium = read_medium(*medium);
@@ -184,7 +190,10 @@ Scenario read_scenario(const std::filesystem::path& file, const std::vector<std:
     }
     for (const YamlEntry& type : types->entries) check_robot_type(type, from_map != nullptr);
   }
-  if (from_map == nullptr || map.has("robots")) read_robots(map.require("robots"), types, scenario);
+  if (scenario.log)
+    scenario.robots.push_back(read_robot_of_log(map.require("robots"), types));
+  else if (from_map == nullptr || map.has("robots"))
+    read_robots(map.require("robots"), types, scenario);
   if (from_map != nullptr) read_robots_from_map(*from_map, types, scenario);
   if (const YamlNode* control = map.find("control")) read_common_control(*control, scenario);
   add_rules_to_fingerprint(scenario);

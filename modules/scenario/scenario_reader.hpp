@@ -8,6 +8,8 @@
 //   world: {step_ms: 10, include: office-floor.yaml, shapes: [...], map: {file: x.yaml, height_m: 2}}
 //   robot_types: {rackham: {shape: ..., base: ..., lasers: [...], modules: [...], bridge: [...]}}
 //   robots: [{name: rackham, type: rackham, start: [x, y, heading_deg], goals: [[x, y], ...]}]
+//
+// or with `log: FILE` in place of the world (log_reader.hpp).
 #pragma once
 
 #include <filesystem>

@@ -5,10 +5,9 @@
 #include <utility>
 
 #include "core/error.hpp"
-#include "modules/logs/log_file.hpp"
 #include "modules/playback/playback.hpp"
+#include "tools/replay/log_source.hpp"
 #include "tools/replay/playback_run.hpp"
-#include "tools/replay/replayed_robot.hpp"
 
 namespace waitpoint::tools {
 
@@ -16,9 +15,9 @@ using playback::PoseSource;
 using playback::StampedPose;
 
 std::optional<ReplayedLog> replayed_log(const LogOptions& options, std::span<const genom::ModuleType> types) {
-  const scenario::RobotScenario robot = replayed_robot(options);
-  ReplayedLog result{.log = logs::read_log(options.log, options.choice), .order = {}, .measured = {}, .localised = {}};
-  playback::Playback playback(result.log, robot, types, {});
+  const LogSource source = log_source(options);
+  ReplayedLog result{.log = source.read(), .order = {}, .measured = {}, .localised = {}};
+  playback::Playback playback(result.log, source.robot, types, {});
   if (!playback.has(PoseSource::segloc))
     throw BadInput("--modules", "expected segloc, with whose poses the odometry is compared");
   if (run_playback(playback, Time::max(), [](std::int64_t) {}).interrupted) return std::nullopt;

@@ -8,7 +8,6 @@
 #include <optional>
 #include <string_view>
 
-#include "modules/logs/log_file.hpp"
 #include "modules/playback/playback.hpp"
 #include "tools/command/interruption.hpp"
 #include "tools/output/output_file.hpp"
@@ -19,9 +18,7 @@
 #include "tools/replay/relations.hpp"
 #include "tools/replay/replay_picture.hpp"
 #include "tools/replay/replay_summary.hpp"
-#include "tools/replay/replayed_robot.hpp"
 #include "tools/replay/trajectory_file.hpp"
-#include "tools/run/run_watchdog.hpp"
 
 namespace waitpoint::tools {
 namespace {
@@ -32,7 +29,7 @@ constexpr std::array<std::string_view, 3> names_of_sources = {"segloc", "pom", "
 
 /// The files, opened before the run.
 struct Files {
-  explicit Files(const ReplayOptions& options) {
+  explicit Files(const PlayOptions& options) {
     const auto open = [](std::optional<OutputFile>& file, const std::optional<std::filesystem::path>& name) {
       if (name) file.emplace(*name);
     };
@@ -61,7 +58,7 @@ std::string text_of(RunEnd end, bool interrupted) {
   return "";
 }
 
-PoseSource source_of(const ReplayOptions& options, const playback::Playback& playback) {
+PoseSource source_of(const PlayOptions& options, const playback::Playback& playback) {
   if (options.pose) {
     if (!playback.has(*options.pose))
       throw BadInput("--pose", "expected poses of a module that runs, found '" +
@@ -73,7 +70,7 @@ PoseSource source_of(const ReplayOptions& options, const playback::Playback& pla
   return PoseSource::odometry;
 }
 
-ReplayResult result_of(const ReplayOptions& options, playback::Playback& playback, std::vector<Relation> relations) {
+ReplayResult result_of(const PlayOptions& options, playback::Playback& playback, std::vector<Relation> relations) {
   ReplayResult result;
   result.relations = std::move(relations);
   result.digest = playback.simulation().digest();
@@ -84,7 +81,7 @@ ReplayResult result_of(const ReplayOptions& options, playback::Playback& playbac
   return result;
 }
 
-void write_files(const ReplayOptions& options, const logs::SensorLog& log, const playback::Playback& playback,
+void write_files(const PlayOptions& options, const logs::SensorLog& log, const playback::Playback& playback,
                  const ReplayResult& result, Files& files) {
   const auto write = [](std::optional<OutputFile>& file, const std::string& text) {
     file->write(text);
@@ -97,8 +94,8 @@ void write_files(const ReplayOptions& options, const logs::SensorLog& log, const
     const std::string line =
         fmt::format("{} · {} after {:.1f} s · {} scans · {}", result.pose_source, result.outcome,
                     result.simulated.seconds(), playback.player().scans(), to_string(result.digest));
-    write(files.picture, replay_picture_svg(options.source.log.filename().string(), line, log, result.trajectory,
-                                            odometry, playback.segments()));
+    write(files.picture, replay_picture_svg(std::filesystem::path(log.file).filename().string(), line, log,
+                                            result.trajectory, odometry, playback.segments()));
   }
   if (files.map) {
     const LogMap drawn = log_map(*options.map, log, result.trajectory);
@@ -111,20 +108,21 @@ void write_files(const ReplayOptions& options, const logs::SensorLog& log, const
 
 }  // namespace
 
-int replay_log(const ReplayOptions& options, std::span<const genom::ModuleType> types) {
-  heed_signals();
-  const RunWatchdog watchdog(RunWatchdog::usual_limit_s);
+int play_log(const LogSource& source, const PlayOptions& options, std::span<const genom::ModuleType> types) {
   std::vector<Relation> relations;
   if (options.relations) relations = read_relations(*options.relations);
-  const scenario::RobotScenario robot = replayed_robot(options.source);
-  const logs::SensorLog log = logs::read_log(options.source.log, options.source.choice);
-  playback::Playback playback(log, robot, types, {});
+  const logs::SensorLog log = source.read();
+  SimulationOptions simulation;
+  simulation.order = options.order;
+  simulation.seed = options.seed;
+  playback::Playback playback(log, source.robot, types, simulation);
   static_cast<void>(source_of(options, playback));  // bad input is told before the run
   Files files(options);
   if (files.events) files.events->watch(playback.simulation());
 
   const double start_s = wall_clock_s();
-  const Time until = options.until ? Time() + *options.until : Time::max();
+  const std::optional<Duration> limit = options.until ? options.until : source.until;
+  const Time until = limit ? Time() + *limit : Time::max();
   const PlaybackRun run = run_playback(playback, until, [&](std::int64_t second) {
     if (files.digests) files.digests->record(playback.simulation(), second);
   });
@@ -143,6 +141,11 @@ int replay_log(const ReplayOptions& options, std::span<const genom::ModuleType> 
     std::fprintf(stderr, "waitpoint: %s\n", trouble.c_str());
   if (run.interrupted) return interrupted_status;
   return run.end == RunEnd::deadlock || run.end == RunEnd::no_progress ? 1 : 0;
+}
+
+int replay_log(const ReplayOptions& options, std::span<const genom::ModuleType> types) {
+  heed_signals();
+  return play_log(log_source(options.source), options.play, types);
 }
 
 }  // namespace waitpoint::tools

@@ -31,13 +31,14 @@ ReplayArguments::ReplayArguments(CommandLine& line)
 ReplayOptions ReplayArguments::options() const {
   ReplayOptions options;
   options.source = source_.options();
-  options.until = positive_seconds("--until", until_);
+  PlayOptions& play = options.play;
+  play.until = positive_seconds("--until", until_);
   if (pose_ == "segloc") {
-    options.pose = playback::PoseSource::segloc;
+    play.pose = playback::PoseSource::segloc;
   } else if (pose_ == "pom") {
-    options.pose = playback::PoseSource::pom;
+    play.pose = playback::PoseSource::pom;
   } else if (pose_ == "odometry") {
-    options.pose = playback::PoseSource::odometry;
+    play.pose = playback::PoseSource::odometry;
   } else if (!pose_.empty()) {
     refuse("--pose", "segloc, pom or odometry", pose_);
   }
@@ -53,14 +54,14 @@ ReplayOptions ReplayArguments::options() const {
                   {"--events", events_},
                   {"--relations", relations_, NamedFile::Use::read},
                   {"LOG", source_.log(), NamedFile::Use::read}});
-  options.trajectory = file(trajectory_);
-  options.relations = file(relations_);
-  options.summary = file(summary_);
-  options.picture = file(picture_);
-  options.map = file(map_);
-  if (options.map && options.map->extension() == ".pgm") refuse("--map", "the name of a YAML file", map_);
-  options.digests = file(digests_);
-  options.events = file(events_);
+  play.trajectory = file(trajectory_);
+  play.relations = file(relations_);
+  play.summary = file(summary_);
+  play.picture = file(picture_);
+  play.map = file(map_);
+  if (play.map && play.map->extension() == ".pgm") refuse("--map", "the name of a YAML file", map_);
+  play.digests = file(digests_);
+  play.events = file(events_);
   return options;
 }
 

@@ -2,23 +2,32 @@
 // The options of `waitpoint replay LOG ...` as values. Opens and runs nothing.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "core/time.hpp"
+#include "fibers/kernel/chooser.hpp"
 #include "modules/playback/playback.hpp"
 #include "tools/command/command_line.hpp"
 #include "tools/replay/log_options.hpp"
 
 namespace waitpoint::tools {
 
-struct ReplayOptions {
-  LogOptions source;
-  std::optional<Duration> until;             ///< none: the end of the log
+/// How a log is played, and what is written.
+struct PlayOptions {
+  std::uint64_t seed = 1;
+  kernel::Order order = kernel::Order::fifo;
+  std::optional<Duration> until;             ///< none: as of the log's source
   std::optional<playback::PoseSource> pose;  ///< of the trajectory; none: the first that there is
   std::optional<std::filesystem::path> trajectory, relations, summary, picture, map, digests, events;
+};
+
+struct ReplayOptions {
+  LogOptions source;
+  PlayOptions play;
 };
 
 class ReplayArguments {

@@ -22,6 +22,7 @@
 #include "tools/ranks/launcher.hpp"
 #include "tools/run/duration_files.hpp"
 #include "tools/run/journal_file.hpp"
+#include "tools/run/log_run.hpp"
 #include "tools/run/outputs.hpp"
 #include "tools/run/prompt.hpp"
 #include "tools/run/reports.hpp"
@@ -237,6 +238,7 @@ int run(const RunOptions& options, std::span<const genom::ModuleType> types) {
   const scenario::Scenario scenario = scenario_of(options);
   heed_signals();
   const RunWatchdog watchdog(options.watchdog_s);
+  if (scenario.log) return run_log(options, scenario, types);
   if (!options.seeds) return run_alone(options, scenario, types, nullptr);
   return run_seeds(options, scenario, [&](std::uint64_t seed, const std::string& replay) {
     return run_seed(options, scenario, types, seed, replay);

@@ -23,6 +23,7 @@ void check_clocks(const std::vector<Setting>& settings) {
 }  // namespace
 
 void check_dividable(const scenario::Scenario& scenario) {
+  if (scenario.log) throw scenario.log->written.bad("expected a world, as there are several ranks, found a log");
   for (const scenario::RobotScenario& robot : scenario.robots) {
     check_clocks(robot.executive);
     for (const scenario::ModuleScenario& module : robot.modules)

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "modules/scenario/log_reader.hpp"
+
+#include <algorithm>
+#include <initializer_list>
+#include <string>
+#include <string_view>
+
+#include "core/confinement.hpp"
+#include "core/number_text.hpp"
+#include "modules/scenario/robot_reader.hpp"
+#include "modules/scenario/shape_reader.hpp"
+
+namespace waitpoint::scenario {
+namespace {
+
+using Keys = std::initializer_list<std::string_view>;
+
+/// Throws at the first key of `map` that has a value and is not among `good`.
+void check_keys(const YamlNode& map, const Keys& good, const std::string& reason) {
+  for (const YamlEntry& entry : map.entries)
+    if (!entry.value.is_null() && std::find(good.begin(), good.end(), entry.key) == good.end())
+      throw entry.written.bad("expected no '" + entry.key + "' " + reason);
+}
+
+std::filesystem::path read_file(const YamlNode& node) {
+  std::filesystem::path file = node.written.resolve(read_text(node, "log"));
+  if (!Confinement::allows(file))
+    throw node.written.bad("'" + file.string() + "' lies outside of the folders that --confined allows");
+  return file;
+}
+
+}  // namespace
+
+LogFile read_log(const YamlNode& node) {
+  LogFile log;
+  log.written = node.written;
+  if (node.kind == YamlNode::Kind::scalar) {
+    log.file = read_file(node);
+    return log;
+  }
+  const YamlMap map(node, "the log",
+                    {"file", "scan", "odometry", "robot", "field_of_view_deg", "mount", "range_max_m"});
+  log.file = read_file(map.require("file"));
+  log.choice = {map.text("scan", ""), map.text("odometry", ""), map.text("robot", "")};
+  if (map.has("field_of_view_deg"))
+    log.laser.field_of_view_rad = radians(map.number("field_of_view_deg", {0.1, 360, "an angle from 0.1 to 360"}));
+  if (const YamlNode* mount = map.find("mount")) log.laser.mount = read_pose(*mount, "mount");
+  if (map.has("range_max_m")) log.laser.range_max_m = map.number("range_max_m", length_number);
+  return log;
+}
+
+void check_beside_log(const YamlMap& scenario) {
+  check_keys(scenario.node(), {"format", "name", "description", "until_s", "log", "robot_types", "robots"},
+             "beside a log, which is in place of a world");
+}
+
+RobotScenario read_robot_of_log(const YamlNode& list, const YamlNode* types) {
+  const std::vector<YamlNode>& robots = read_list(list, "robots");
+  if (robots.size() != 1)
+    throw(robots.empty() ? list : robots[1])
+        .written.bad("expected one robot, whose modules the log drives, found " + std::to_string(robots.size()));
+  const YamlNode& node = robots.front();
+  check_keys(node, {"name", "type", "modules", "bridge", "processors"}, "in a robot whose modules a log drives");
+  RobotScenario robot = read_robot_without_body(node, types);
+  // Nothing commands the modules.
+  robot.programs.clear();
+  robot.control.reset();
+  robot.script.reset();
+  return robot;
+}
+
+}  // namespace waitpoint::scenario

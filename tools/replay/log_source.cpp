@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/replay/log_source.hpp"
+
+#include <algorithm>
+
+#include "core/error.hpp"
+#include "modules/logs/log_file.hpp"
+#include "modules/scenario/scenario_reader.hpp"
+#include "tools/command/option_values.hpp"
+
+namespace waitpoint::tools {
+namespace {
+
+using scenario::ModuleScenario;
+
+const std::vector<std::string> localising = {"rflex", "sick", "segloc", "pom"};
+
+const scenario::RobotScenario& first_robot(const scenario::Scenario& scenario) {
+  if (scenario.robots.empty()) throw BadInput(scenario.file, "expected a robot, whose modules a log is replayed to");
+  return scenario.robots.front();
+}
+
+ModuleScenario* find(scenario::RobotScenario& robot, const std::string& name) {
+  const auto found = std::find_if(robot.modules.begin(), robot.modules.end(),
+                                  [&](const ModuleScenario& module) { return module.name == name; });
+  return found != robot.modules.end() ? &*found : nullptr;
+}
+
+/// Keeps modules of these names only, and adds those that are not there with their own parameters.
+void choose_modules(scenario::RobotScenario& robot, const std::vector<std::string>& names) {
+  std::erase_if(robot.modules, [&](const ModuleScenario& module) {
+    return std::find(names.begin(), names.end(), module.name) == names.end();
+  });
+  for (const std::string& name : names)
+    if (find(robot, name) == nullptr)
+      robot.modules.push_back({.name = name, .type = name, .settings = {}, .written = {"--modules", 0}});
+}
+
+void assign(scenario::RobotScenario& robot, const std::string& assignment) {
+  const std::size_t dot = assignment.find('.'), equals = assignment.find('=');
+  if (dot == assignment.npos || equals == assignment.npos || equals < dot)
+    refuse("--set", "MODULE.KEY=VALUE", assignment);
+  const std::string name = assignment.substr(0, dot), key = assignment.substr(dot + 1, equals - dot - 1);
+  ModuleScenario* const module = find(robot, name);
+  if (module == nullptr) refuse("--set", "the name of a module that runs, and a key of it", assignment);
+  std::erase_if(module->settings, [&](const Setting& setting) { return setting.key == key; });
+  module->settings.push_back({key, assignment.substr(equals + 1), "--set " + assignment, 0});
+}
+
+/// Those of `names` that the robot does not switch off.
+std::vector<std::string> not_disabled(scenario::RobotScenario& robot, std::vector<std::string> names) {
+  std::erase_if(names, [&](const std::string& name) {
+    const ModuleScenario* const module = find(robot, name);
+    return module != nullptr && !module->enabled;
+  });
+  return names;
+}
+
+/// Replaces what is chosen in `choice`.
+void choose(logs::LogChoice& choice, const logs::LogChoice& other) {
+  const auto replace = [](std::string& name, const std::string& by) {
+    if (!by.empty()) name = by;
+  };
+  replace(choice.scan, other.scan);
+  replace(choice.odometry, other.odometry);
+  replace(choice.robot, other.robot);
+}
+
+}  // namespace
+
+LogSource log_source(const scenario::Scenario& scenario) {
+  WAITPOINT_CHECK(scenario.log && scenario.robots.size() == 1, "a scenario with a log has one robot");
+  LogSource source{.file = scenario.log->file,
+                   .choice = scenario.log->choice,
+                   .laser = scenario.log->laser,
+                   .until = {},
+                   .robot = scenario.robots.front()};
+  if (scenario.until != Time::max().since_start()) source.until = scenario.until;
+  if (source.robot.modules.empty()) choose_modules(source.robot, localising);
+  return source;
+}
+
+LogSource log_source(const LogOptions& options) {
+  LogSource source;
+  source.robot.name = "robot";
+  std::optional<scenario::Scenario> scenario;
+  if (options.scenario) scenario = scenario::read_scenario(*options.scenario);
+  const bool has_log = scenario && scenario->log;
+  if (has_log)
+    source = log_source(*scenario);
+  else if (scenario)
+    source.robot = first_robot(*scenario);
+  source.file = options.log;
+  choose(source.choice, options.choice);
+  if (!options.modules.empty())
+    choose_modules(source.robot, options.modules);
+  else if (!has_log)
+    choose_modules(source.robot, not_disabled(source.robot, localising));
+  for (const std::string& assignment : options.assignments) assign(source.robot, assignment);
+  return source;
+}
+
+logs::SensorLog LogSource::read() const {
+  logs::SensorLog log = logs::read_log(file, choice);
+  logs::apply(laser, log);
+  return log;
+}
+
+}  // namespace waitpoint::tools

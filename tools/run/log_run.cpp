@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/run/log_run.hpp"
+
+#include <utility>
+
+#include "core/error.hpp"
+#include "tools/command/distinct_files.hpp"
+#include "tools/replay/replay.hpp"
+
+namespace waitpoint::tools {
+namespace {
+
+void check_options(const RunOptions& options, const scenario::LogFile& log) {
+  const std::pair<const char*, bool> of_worlds[] = {
+      {"--seeds", options.seeds.has_value()},
+      {"--place", !options.places.empty()},
+      {"--speed", options.speed != 0},
+      {"--idle", options.idle != RunOptions().idle},
+      {"--interactive", options.interactive},
+      {"--tcl", options.tcl},
+      {options.partners.name(), options.partners.any()},
+      {"--journal", options.journal.has_value()},
+      {"--replay-journal", options.replay_journal.has_value()},
+      {"--record", options.record.has_value()},
+      {"--decisions", options.decisions.has_value()},
+      {"--record-durations", options.record_durations.has_value()},
+      {"--replay-durations", options.replay_durations.has_value()},
+  };
+  for (const auto& [option, is_given] : of_worlds)
+    if (is_given) throw BadInput(option, "expected a scenario with a world, found the log of " + log.written.text());
+}
+
+}  // namespace
+
+int run_log(const RunOptions& options, const scenario::Scenario& scenario, std::span<const genom::ModuleType> types) {
+  check_options(options, *scenario.log);
+  PlayOptions play;
+  play.seed = options.seed;
+  play.order = options.order;
+  play.until = options.until;
+  play.trajectory = options.trajectory;
+  play.summary = options.summary;
+  play.picture = options.picture;
+  play.digests = options.digests;
+  play.events = options.events;
+  const auto name = [](const std::optional<std::filesystem::path>& file) { return file ? file->string() : ""; };
+  check_distinct({{"--summary", name(play.summary)},
+                  {"--picture", name(play.picture)},
+                  {"--trajectory", name(play.trajectory)},
+                  {"--digests", name(play.digests)},
+                  {"--events", name(play.events)},
+                  {"the scenario's log", scenario.log->file.string(), NamedFile::Use::read}});
+  return play_log(log_source(scenario), play, types);
+}
+
+}  // namespace waitpoint::tools
