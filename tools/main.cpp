@@ -89,6 +89,7 @@ int carry_out(int argc, const char* const* argv, std::vector<genom::ModuleType> 
       return run->check ? tools::self_check(*run, types) : tools::run(*run, types);
     if (const auto* checked = std::get_if<tools::CheckOptions>(&options)) return check(*checked, types);
     if (const auto* replay = std::get_if<tools::ReplayOptions>(&options)) {
+      if (replay->check) return tools::self_check(*replay, types);
       const tools::RunWatchdog watchdog(tools::RunWatchdog::usual_limit_s);
       return tools::replay_log(*replay, types);
     }

@@ -9,6 +9,7 @@
 #include "core/error.hpp"
 #include "tools/command/command_line.hpp"
 #include "tools/command/installed_part.hpp"
+#include "tools/command/shell_words.hpp"
 
 namespace waitpoint::tools {
 namespace {
@@ -104,7 +105,11 @@ Options read_options(int argc, const char* const* argv, const std::string& versi
   if (exec.parsed()) return exec.options(program);
   if (plan.parsed()) return PlanOptions{plan_file, plan_picture};
   if (genom->parsed()) return generated;
-  if (replay.parsed()) return replay.options();
+  if (replay.parsed()) {
+    ReplayOptions options = replay.options();
+    options.command = quoted(name_in_replay_lines(argv[0])) + quoted(std::vector<std::string>(argv + 1, argv + argc));
+    return options;
+  }
   if (fit.parsed()) return fit.options();
   if (compare.parsed()) return compare.options();
   if (check.parsed()) {

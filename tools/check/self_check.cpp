@@ -7,12 +7,14 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <memory>
+#include <optional>
 
 #include "core/number_text.hpp"
 #include "fibers/sync/duration_record.hpp"
 #include "fibers/sync/system_calls.hpp"
-#include "modules/run/experiment.hpp"
 #include "modules/scenario/scenario_reader.hpp"
+#include "tools/check/checked_run.hpp"
 #include "tools/check/event_comparison.hpp"
 #include "tools/check/event_log.hpp"
 #include "tools/check/perturbed_memory.hpp"
@@ -22,7 +24,6 @@
 #include "tools/command/program_layer.hpp"
 #include "tools/output/output_file.hpp"
 #include "tools/output/progress.hpp"
-#include "tools/run/duration_files.hpp"
 
 namespace waitpoint::tools {
 namespace {
@@ -80,39 +81,32 @@ std::string contents(int file) {
 
 class SelfCheck {
  public:
-  SelfCheck(const RunOptions& options, const scenario::Scenario& scenario, std::span<const genom::ModuleType> types,
-            const std::string& replay, bool (*interrupted)())
-      : options_(options), scenario_(scenario), types_(types), replay_(replay), interrupted_(interrupted) {}
+  SelfCheck(const CheckSubject& subject, bool (*interrupted)()) : subject_(subject), interrupted_(interrupted) {}
 
   int all();
   int perturbed(const PerturbedFiles& files);
 
  private:
-  run::ExperimentOptions experiment_options() const { return {options_.seed, options_.order, replay_}; }
   Carried first(EventLog& log);
   Carried compared(EventComparison& comparison);
-  Carried carry_out(run::Experiment& experiment, const EventComparison* comparison);
+  Carried carry_out(CheckedRun& checked, const EventComparison* comparison);
   int tell(const std::optional<Difference>& difference, const std::string& run) const;
   void tell_same(const Carried& run, const SharedPage& seen) const;
 
-  const RunOptions& options_;
-  const scenario::Scenario& scenario_;
-  std::span<const genom::ModuleType> types_;
-  const std::string& replay_;
+  const CheckSubject& subject_;
   bool (*interrupted_)();
   SystemThreads threads_;
   DurationRecord durations_;  // of the first run
 };
 
-Carried SelfCheck::carry_out(run::Experiment& experiment, const EventComparison* comparison) {
-  const Time until = options_.limit(scenario_.until);
+Carried SelfCheck::carry_out(CheckedRun& checked, const EventComparison* comparison) {
   const double start_s = wall_clock_s();
   Carried run;
   try {
     RunEnd end = RunEnd::time_reached;
-    for (Time reached; end == RunEnd::time_reached && reached < until && !interrupted_();) {
-      reached = std::min(until, reached + window);
-      end = experiment.run_before(reached);
+    for (Time reached; end == RunEnd::time_reached && reached < subject_.until && !interrupted_();) {
+      reached = std::min(subject_.until, reached + window);
+      end = checked.run_before(reached);
       threads_.look();
       if (comparison != nullptr && comparison->parted()) break;
     }
@@ -122,46 +116,44 @@ Carried SelfCheck::carry_out(run::Experiment& experiment, const EventComparison*
     if (is_first && dynamic_cast<const BadInput*>(&error) != nullptr) throw;  // as in a run without a check
     run.end = std::string("it failed: ") + error.what();
   }
-  run.digest = experiment.simulation().digest();
-  run.events = experiment.simulation().scheduler().events();
+  run.digest = checked.simulation().digest();
+  run.events = checked.simulation().scheduler().events();
   run.wall_s = wall_clock_s() - start_s;
   return run;
 }
 
 Carried SelfCheck::first(EventLog& log) {
-  run::Experiment experiment(scenario_, types_, experiment_options());
-  const DurationFiles given(options_, scenario_, experiment);
+  const std::unique_ptr<CheckedRun> checked = subject_.make();
   std::optional<DurationRecorder> recorder;
-  if (!options_.replay_durations) recorder.emplace(experiment.simulation(), durations_name);
-  log.watch(experiment.simulation());
-  Carried run = carry_out(experiment, nullptr);
+  if (!subject_.replays_durations) recorder.emplace(checked->simulation(), durations_name);
+  log.watch(checked->simulation());
+  Carried run = carry_out(*checked, nullptr);
   if (recorder) durations_ = recorder->record();
   log.finish(run.digest, run.end);
   return run;
 }
 
 Carried SelfCheck::compared(EventComparison& comparison) {
-  run::Experiment experiment(scenario_, types_, experiment_options());
-  const DurationFiles given(options_, scenario_, experiment);
+  const std::unique_ptr<CheckedRun> checked = subject_.make();
   std::optional<DurationReplay> replay;
-  if (!durations_.entries.empty()) replay.emplace(experiment.simulation(), durations_, durations_name, durations_name);
-  comparison.watch(experiment.simulation());
-  return carry_out(experiment, &comparison);
+  if (!durations_.entries.empty()) replay.emplace(checked->simulation(), durations_, durations_name, durations_name);
+  comparison.watch(checked->simulation());
+  return carry_out(*checked, &comparison);
 }
 
 int SelfCheck::tell(const std::optional<Difference>& difference, const std::string& run) const {
   if (!difference) return 0;
-  write_standard_output(fmt::format("{}, seed {}: not the same run: {} differs from the first\n{}", scenario_.name,
-                                    options_.seed, run, to_text(*difference)));
+  write_standard_output(fmt::format("{}, seed {}: not the same run: {} differs from the first\n{}", subject_.name,
+                                    subject_.seed, run, to_text(*difference)));
   for (const std::string& thread : threads_.found())
     line("OS thread", thread + " was started during the run and is not repeatable");
-  line("replay", replay_ + " --check");
+  line("replay", subject_.command);
   return 1;
 }
 
 void SelfCheck::tell_same(const Carried& run, const SharedPage& seen) const {
   write_standard_output(fmt::format("{}, seed {}: the same run, twice in this process and once in a perturbed one\n",
-                                    scenario_.name, options_.seed));
+                                    subject_.name, subject_.seed));
   line("events", fmt::format("{}, each compared with its robot's digest", run.events));
   line("digest", to_string(run.digest));
   if (run.end.starts_with("it failed")) line("ended", run.end);
@@ -216,7 +208,8 @@ int SelfCheck::all() {
 
 bool is_interrupted() { return interruption() != 0; }
 
-int status_of(SelfCheck& check) {
+int checked(const CheckSubject& subject) {
+  SelfCheck check(subject, is_interrupted);
   const std::optional<PerturbedFiles> files = files_of_perturbed_process();
   if (!files) return check.all();
   struct Call {
@@ -239,9 +232,12 @@ int self_check(const RunOptions& options, std::span<const genom::ModuleType> typ
   const scenario::Scenario scenario = scenario::read_scenario(options.scenario, options.assignments);
   begin_with_program_layer(scenario);
   heed_signals();
-  const std::string replay = replay_line(options, options.seed);
-  SelfCheck check(options, scenario, types, replay, is_interrupted);
-  return status_of(check);
+  return checked(subject_of(options, scenario, types));
+}
+
+int self_check(const ReplayOptions& options, std::span<const genom::ModuleType> types) {
+  heed_signals();
+  return checked(subject_of(log_source(options.source), options.play, options.command, types));
 }
 
 }  // namespace waitpoint::tools

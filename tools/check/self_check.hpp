@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `waitpoint run SCENARIO --check`: verifies that the run is repeatable.
+// `waitpoint run SCENARIO --check`, `waitpoint replay LOG --check`: verifies that the run is repeatable.
 //
 //   first run          its events are logged
 //   second run         in the same process: shows effects of an earlier run, clocks, system random numbers
@@ -13,6 +13,7 @@
 #include <span>
 
 #include "modules/genom/module_type.hpp"
+#include "tools/replay/replay_options.hpp"
 #include "tools/run/run_options.hpp"
 
 namespace waitpoint::tools {
@@ -20,5 +21,6 @@ namespace waitpoint::tools {
 /// Returns the exit status: 0 if all three runs are equal, 1 if two differ, 130 if a signal ended the check. Throws
 /// BadInput where a run would, and if the log or a process cannot be created.
 int self_check(const RunOptions& options, std::span<const genom::ModuleType> types);
+int self_check(const ReplayOptions& options, std::span<const genom::ModuleType> types);
 
 }  // namespace waitpoint::tools

@@ -33,4 +33,10 @@ std::optional<Duration> positive_seconds(const std::string& where, const std::st
   return Duration::from_seconds(seconds);
 }
 
+void check_not_together(const char* option, std::initializer_list<std::pair<const char*, const std::string&>> others) {
+  for (const auto& [name, value] : others) {
+    if (!value.empty()) throw BadInput(option, std::string("cannot be used together with ") + name);
+  }
+}
+
 }  // namespace waitpoint::tools

@@ -3,8 +3,10 @@
 #pragma once
 
 #include <cstdint>
+#include <initializer_list>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "core/time.hpp"
 
@@ -24,5 +26,8 @@ SeedRange seed_range_of(const std::string& where, const std::string& text);
 
 /// From 1 ns to 10^9 s; nothing if `text` is empty; else BadInput.
 std::optional<Duration> positive_seconds(const std::string& where, const std::string& text);
+
+/// Throws BadInput, naming both, if one of `others`, options with their values, was given together with `option`.
+void check_not_together(const char* option, std::initializer_list<std::pair<const char*, const std::string&>> others);
 
 }  // namespace waitpoint::tools

@@ -100,6 +100,11 @@ LogSource log_source(const LogOptions& options) {
   return source;
 }
 
+Time LogSource::end(std::optional<Duration> given) const {
+  const std::optional<Duration> limit = given ? given : until;
+  return limit ? Time() + *limit : Time::max();
+}
+
 logs::SensorLog LogSource::read() const {
   logs::SensorLog log = logs::read_log(file, choice);
   logs::apply(laser, log);

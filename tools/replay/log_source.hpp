@@ -20,6 +20,8 @@ struct LogSource {
   std::optional<Duration> until;  ///< the scenario's limit; none: the end of the log
   scenario::RobotScenario robot;
 
+  /// The end of a run, for a limit that an option may give.
+  Time end(std::optional<Duration> given) const;
   /// BadInput as of logs::read_log().
   logs::SensorLog read() const;
 };

@@ -112,18 +112,13 @@ int play_log(const LogSource& source, const PlayOptions& options, std::span<cons
   std::vector<Relation> relations;
   if (options.relations) relations = read_relations(*options.relations);
   const logs::SensorLog log = source.read();
-  SimulationOptions simulation;
-  simulation.order = options.order;
-  simulation.seed = options.seed;
-  playback::Playback playback(log, source.robot, types, simulation);
+  playback::Playback playback(log, source.robot, types, options.simulation());
   static_cast<void>(source_of(options, playback));  // bad input is told before the run
   Files files(options);
   if (files.events) files.events->watch(playback.simulation());
 
   const double start_s = wall_clock_s();
-  const std::optional<Duration> limit = options.until ? options.until : source.until;
-  const Time until = limit ? Time() + *limit : Time::max();
-  const PlaybackRun run = run_playback(playback, until, [&](std::int64_t second) {
+  const PlaybackRun run = run_playback(playback, source.end(options.until), [&](std::int64_t second) {
     if (files.digests) files.digests->record(playback.simulation(), second);
   });
   ReplayResult result = result_of(options, playback, std::move(relations));

@@ -7,6 +7,7 @@
 #include "tools/replay/log_map.hpp"
 
 namespace waitpoint::tools {
+
 ReplayArguments::ReplayArguments(CommandLine& line)
     : command_(line.add_command("replay", "Feeds a log of sensors to a robot's modules (docs/replay.md).")) {
   source_.add(command_);
@@ -26,10 +27,30 @@ ReplayArguments::ReplayArguments(CommandLine& line)
                   "write a map for ROS's map_server and scenarios, and its image as FILE.pgm");
   command_.option("--digests", digests_, "FILE", "write a digest per simulated second");
   command_.option("--events", events_, "FILE", "write every event as a line of text");
+  command_.flag("--check", check_,
+                "replay twice in this process and once in a perturbed one and compare event\n"
+                "by event, as run --check (docs/determinism.md)");
+}
+
+SimulationOptions PlayOptions::simulation() const {
+  SimulationOptions options;
+  options.order = order;
+  options.seed = seed;
+  return options;
 }
 
 ReplayOptions ReplayArguments::options() const {
   ReplayOptions options;
+  options.check = check_;
+  if (check_)
+    check_not_together("--check", {{"--pose", pose_},
+                                   {"--trajectory", trajectory_},
+                                   {"--relations", relations_},
+                                   {"--summary", summary_},
+                                   {"--picture", picture_},
+                                   {"--map", map_},
+                                   {"--digests", digests_},
+                                   {"--events", events_}});
   options.source = source_.options();
   PlayOptions& play = options.play;
   play.until = positive_seconds("--until", until_);

@@ -10,6 +10,7 @@
 
 #include "core/time.hpp"
 #include "fibers/kernel/chooser.hpp"
+#include "fibers/sync/simulation.hpp"
 #include "modules/playback/playback.hpp"
 #include "tools/command/command_line.hpp"
 #include "tools/replay/log_options.hpp"
@@ -23,11 +24,15 @@ struct PlayOptions {
   std::optional<Duration> until;             ///< none: as of the log's source
   std::optional<playback::PoseSource> pose;  ///< of the trajectory; none: the first that there is
   std::optional<std::filesystem::path> trajectory, relations, summary, picture, map, digests, events;
+
+  SimulationOptions simulation() const;
 };
 
 struct ReplayOptions {
   LogOptions source;
   PlayOptions play;
+  bool check = false;   ///< self-check: compare runs instead of reporting a result
+  std::string command;  ///< as given, for a shell
 };
 
 class ReplayArguments {
@@ -42,6 +47,7 @@ class ReplayArguments {
   LogArguments source_;
   std::string until_, pose_;
   std::string trajectory_, relations_, summary_, picture_, map_, digests_, events_;
+  bool check_ = false;
 };
 
 }  // namespace waitpoint::tools

@@ -10,7 +10,8 @@
 namespace waitpoint::tools {
 namespace {
 
-void check_options(const RunOptions& options, const scenario::LogFile& log) {
+/// Of the options that run has and a replay lacks, none is given.
+void check_no_world(const RunOptions& options, const scenario::LogFile& log) {
   const std::pair<const char*, bool> of_worlds[] = {
       {"--seeds", options.seeds.has_value()},
       {"--place", !options.places.empty()},
@@ -32,8 +33,8 @@ void check_options(const RunOptions& options, const scenario::LogFile& log) {
 
 }  // namespace
 
-int run_log(const RunOptions& options, const scenario::Scenario& scenario, std::span<const genom::ModuleType> types) {
-  check_options(options, *scenario.log);
+PlayOptions play_options(const RunOptions& options, const scenario::LogFile& log) {
+  check_no_world(options, log);
   PlayOptions play;
   play.seed = options.seed;
   play.order = options.order;
@@ -49,8 +50,12 @@ int run_log(const RunOptions& options, const scenario::Scenario& scenario, std::
                   {"--trajectory", name(play.trajectory)},
                   {"--digests", name(play.digests)},
                   {"--events", name(play.events)},
-                  {"the scenario's log", scenario.log->file.string(), NamedFile::Use::read}});
-  return play_log(log_source(scenario), play, types);
+                  {"the scenario's log", log.file.string(), NamedFile::Use::read}});
+  return play;
+}
+
+int run_log(const RunOptions& options, const scenario::Scenario& scenario, std::span<const genom::ModuleType> types) {
+  return play_log(log_source(scenario), play_options(options, *scenario.log), types);
 }
 
 }  // namespace waitpoint::tools

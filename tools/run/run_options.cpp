@@ -3,10 +3,8 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <initializer_list>
 #include <iterator>
 #include <string_view>
-#include <utility>
 
 #include "core/error.hpp"
 #include "core/number_text.hpp"
@@ -19,14 +17,6 @@
 
 namespace waitpoint::tools {
 namespace {
-
-using Given = std::initializer_list<std::pair<const char*, const std::string&>>;
-
-void check_not_together(const char* option, const Given& others) {
-  for (const auto& [name, value] : others) {
-    if (!value.empty()) throw BadInput(option, std::string("cannot be used together with ") + name);
-  }
-}
 
 /// A picture's format does not follow from its name: a viewer would take it for another.
 void check_picture(const std::string& name) {

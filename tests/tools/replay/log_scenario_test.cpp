@@ -87,6 +87,21 @@ TEST_F(LogScenario, ARunWritesWhatAReplayWrites) {
   EXPECT_EQ(written({"run", "s.yaml"}), written({"replay", "run.log", "--scenario", "s.yaml"}));
 }
 
+TEST_F(LogScenario, ACheckComparesReplaysEventByEvent) {
+  write("run.log");
+  const runs::Outcome run = waitpoint({"run", "s.yaml", "--check"}),
+                      replay = waitpoint({"replay", "run.log", "--check"});
+  EXPECT_EQ(run.status, 0) << run.errors;
+  EXPECT_EQ(replay.status, 0) << replay.errors;
+  EXPECT_NE(run.output.find("s, seed 1: the same run, twice in this process and once in a perturbed one"),
+            std::string::npos)
+      << run.output;
+  EXPECT_NE(replay.output.find("run.log, seed 1: the same run"), std::string::npos) << replay.output;
+  EXPECT_NE(replay.output.find(summary({"replay", "run.log"})["digest"].get<std::string>()), std::string::npos);
+  EXPECT_EQ(waitpoint({"replay", "run.log", "--check", "--map", "m.yaml"}).errors,
+            "waitpoint: --check: cannot be used together with --map\n");
+}
+
 TEST_F(LogScenario, ALimitOfTheScenarioHolds) {
   write("run.log\nuntil_s: 4");
   const json run = summary({"run", "s.yaml"});
