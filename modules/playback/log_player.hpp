@@ -31,6 +31,12 @@ struct DevicePosters {
   std::string base = "rflex.reading", laser = "sick.reading";
 };
 
+/// The base's counters, and the pose to which dead reckoning comes by them.
+struct Counted {
+  rflex::DeadReckoning reckoning{{}, units_per_metre, units_per_radian};
+  std::int64_t travel = 0, side = 0, turn = 0;
+};
+
 class LogPlayer {
  public:
   /// Creates the posters. Log, order and names must outlive the player.
@@ -47,12 +53,6 @@ class LogPlayer {
   const std::string& unread() const { return unread_; }
 
  private:
-  /// The base's counters, and the pose to which dead reckoning comes by them.
-  struct Counted {
-    rflex::DeadReckoning reckoning{{}, units_per_metre, units_per_radian};
-    std::int64_t travel = 0, side = 0, turn = 0;
-  };
-
   bool wait_until_read();
   void write_report(const logs::Played& record);
   void write_scan(const logs::Played& record);
