@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "core/fields.hpp"
+#include "modules/genom/settings.hpp"
 
 namespace waitpoint::segloc {
 
@@ -73,5 +74,8 @@ struct PointParameters {
     field("agree_rad", &P::agree_rad);
   }
 };
+
+/// Those of `points`. Throws BadInput at the setting for values out of range.
+PointParameters read_point_parameters(genom::Settings& settings);
 
 }  // namespace waitpoint::segloc

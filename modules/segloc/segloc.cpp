@@ -26,6 +26,7 @@ Parameters Segloc::read(genom::Settings& settings) {
 Segloc::Segloc(genom::ModuleSetup& setup)
     : Module(setup, 23),
       parameters_(read(setup.settings)),
+      point_parameters_(read_point_parameters(setup.settings)),
       slam_(add_task("slam", {.period_ms = 20ms, .delay_ms = {}, .cost_us = {}})),
       segments_(read_poster<posters::Segments>("sick.segments")),
       odometry_(read_poster<posters::Odometry>("rflex.odometry")),
@@ -44,7 +45,6 @@ Segloc::Segloc(genom::ModuleSetup& setup)
                                                            return State::exec;
                                                          }},
                                                     {"Localise"});
-  setup.settings.read_one("points", point_parameters_);
   localise.cost = 1ms;
   setup.settings.read_one("localise_cost_us", localise.cost);
   add_control<Nothing>("Stop", [](const Nothing&, Nothing&) { return genom::ok; }, {"Localise"});
