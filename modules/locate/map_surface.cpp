@@ -16,6 +16,7 @@ constexpr double wall_m = 0.25;
 // They are on one line if their standard deviation about it is at most this many cells: that of a stair of cells.
 constexpr double straight_cells = 0.5;
 constexpr std::size_t neighbours_min = 4;
+constexpr int edge_cells = 4;
 
 /// The sides in the map's own frame, whose x axis points along its rows, and for each cell the first of its sides.
 class Sides {
@@ -45,12 +46,22 @@ class Sides {
     return first_[static_cast<std::size_t>(y) * static_cast<std::size_t>(map_.width()) + static_cast<std::size_t>(x)];
   }
 
+  // True if free cells lie on that side, perhaps beyond the unknown ones of a wall's blurred edge: then a robot may see
+  // it.
+  bool shows(CellIndex cell, CellIndex towards) const {
+    for (int k = 1; k <= edge_cells; ++k) {
+      const CellIndex beyond = {cell.x + k * towards.x, cell.y + k * towards.y};
+      if (!map_.contains(beyond) || map_[beyond] == Cell::occupied) return false;
+      if (map_[beyond] == Cell::free) return true;
+    }
+    return false;
+  }
+
   void add_sides_of(CellIndex cell) {
     constexpr std::array<CellIndex, 4> directions = {{{1, 0}, {0, 1}, {-1, 0}, {0, -1}}};
     const double edge_m = map_.resolution_m();
     for (const CellIndex towards : directions) {
-      const CellIndex beyond = {cell.x + towards.x, cell.y + towards.y};
-      if (!map_.contains(beyond) || map_[beyond] == Cell::occupied) continue;
+      if (!shows(cell, towards)) continue;
       const Point normal = {static_cast<double>(towards.x), static_cast<double>(towards.y)};
       points_.push_back({Point{(cell.x + 0.5) * edge_m, (cell.y + 0.5) * edge_m} + 0.5 * edge_m * normal, normal});
     }

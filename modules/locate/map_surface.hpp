@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The surfaces that a map of cells shows to a laser: the sides of occupied cells towards others, since
-// unknown cells are open to its beams.
+// The surfaces that a map of cells shows to a laser: the sides of occupied cells towards free ones, also beyond a few
+// unknown cells, as those between the two on a map of greys.
 #pragma once
 
 #include <vector>

@@ -163,7 +163,7 @@ TEST(Urdf, ArgumentsOfXacroStandForTheirValues) {
   EXPECT_EQ(own.robot.frames[1].link, "mast");
   EXPECT_EQ(own.robot.shape.radius_m, 0.2);
   EXPECT_EQ(own.warnings.front(),
-            "r.urdf:3: '${namespace}' remains as it is: it has no value in the urdf's 'arguments'");
+            "r.urdf:3: '${namespace}' remains as it is: it has no value in the urdf's 'arguments' (2 times)");
   EXPECT_TRUE(complains([&] { read({{"namespac", "a"}}); }, "r.urdf: ", "did you mean 'namespace'?"));
 }
 
