@@ -86,6 +86,10 @@ std::vector<Setting> Playback::settings_of(const scenario::ModuleScenario& modul
     set("units_per_m", units_per_metre);
     set("units_per_rad", units_per_radian);
   }
+  // Of real scans, few are held by segments.
+  const auto is_start = [](const Setting& setting) { return setting.key == "points.from_start"; };
+  if (module.type == "segloc" && std::none_of(settings.begin(), settings.end(), is_start))
+    settings.push_back({"points.from_start", "true", log_.file, 0});
   if (module.type == "sick") {
     set("mount_x_m", log_.mount.x);
     set("mount_y_m", log_.mount.y);

@@ -10,6 +10,7 @@
 namespace waitpoint::segloc {
 
 struct PointParameters {
+  bool from_start = false;  ///< from the first scan on, in place of segments; true where a log is replayed
   double cell_m = 0.05;     ///< of the grids that scans are matched with
   double reach_m = 0.3;     ///< greatest distance of a point from the map that pulls at it
   double range_m_max = 20;  ///< farther echoes are not used
@@ -44,6 +45,7 @@ struct PointParameters {
 
   static void fields(auto field) {
     using P = PointParameters;
+    field("from_start", &P::from_start);
     field("cell_m", &P::cell_m);
     field("reach_m", &P::reach_m);
     field("range_m_max", &P::range_m_max);

@@ -60,6 +60,7 @@ void Segloc::start(const posters::KnownPose& input) {
   points_.reset();
   early_.clear();
   held_ = 1;
+  if (point_parameters_.from_start) change_to_points(false);
 }
 
 void Segloc::localise() {

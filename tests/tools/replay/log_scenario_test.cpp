@@ -48,7 +48,8 @@ TEST_F(LogScenario, ARunIsTheReplayOfTheLogWithTheScenariosParameters) {
   EXPECT_EQ(run["scans"], run["scans_of_log"]);
   EXPECT_EQ(run["pose"], "segloc");
   EXPECT_EQ(run, summary({"replay", "run.log", "--scenario", "s.yaml"}));
-  EXPECT_NE(run["digest"], summary({"run", "s.yaml", "--set", "robots.r.modules.segloc.length_m_min=2"})["digest"]);
+  EXPECT_NE(run["digest"],
+            summary({"run", "s.yaml", "--set", "robots.r.modules.segloc.points.key_travel_m=0.2"})["digest"]);
   write("run.log");
   EXPECT_EQ(summary({"run", "s.yaml"})["digest"], summary({"replay", "run.log", "--scenario", "s.yaml"})["digest"]);
 }

@@ -147,6 +147,14 @@ TEST(Playback, LocalisationHasAPoseForEveryScanNearThatOfTheRoom) {
   }
   EXPECT_TRUE(playback.has(PoseSource::pom));
   EXPECT_GE(playback.trajectory(PoseSource::pom).size(), log.scans.size() - 2);
+}
+
+TEST(Playback, WithSegmentsTheMapHasTheWallsOfTheRoom) {
+  const logs::SensorLog log = log_of_room();
+  scenario::RobotScenario robot = robot_with({"rflex", "sick", "segloc"});
+  robot.modules.back().settings = {{"points.from_start", "false", "", 0}};
+  Playback playback(log, robot, types(), {});
+  playback.run_before(Time::max());
   EXPECT_GE(playback.segments().size(), 4u);
 }
 

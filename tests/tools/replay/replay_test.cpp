@@ -94,7 +94,7 @@ TEST(Replay, TheSummaryHasScansRelationsAndOneDigest) {
   EXPECT_GT(summary["relations"]["translation_mean_m"], 0);
   EXPECT_NE(folder.read("map.svg").find("</svg>"), std::string::npos);
   EXPECT_EQ(replay({log}).digest(), summary["digest"]);
-  EXPECT_NE(replay({log, "--set", "segloc.length_m_min=2"}).digest(), summary["digest"]);
+  EXPECT_NE(replay({log, "--set", "segloc.points.key_travel_m=0.2"}).digest(), summary["digest"]);
 }
 
 TEST(Replay, TheMapOfARecordedRunIsAWorldForRobots) {
