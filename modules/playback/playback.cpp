@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 
 #include "core/error.hpp"
 #include "core/number_text.hpp"
@@ -21,6 +22,9 @@ constexpr Duration window = 10ms;
 constexpr Duration after_last = 1s;
 
 /// The pose at `date` by samples around it; nothing before the first and after the last.
+// Beyond it, nothing is known of the way between two poses.
+constexpr Duration gap_max = std::chrono::seconds(2);
+
 std::optional<Pose> pose_at(const std::vector<bridge::DatedPose>& samples, Time date) {
   const auto after = std::lower_bound(samples.begin(), samples.end(), date,
                                       [](const bridge::DatedPose& sample, Time t) { return sample.date < t; });
@@ -28,6 +32,7 @@ std::optional<Pose> pose_at(const std::vector<bridge::DatedPose>& samples, Time 
   if (after->date == date) return after->pose;
   if (after == samples.begin()) return std::nullopt;
   const bridge::DatedPose& before = *(after - 1);
+  if (after->date - before.date > gap_max) return std::nullopt;
   const double fraction =
       static_cast<double>((date - before.date).ns()) / static_cast<double>((after->date - before.date).ns());
   return interpolate(before.pose, after->pose, fraction);
@@ -151,14 +156,17 @@ bool Playback::has(PoseSource source) const {
          (source == PoseSource::segloc ? localisation_ != nullptr : position_ != nullptr);
 }
 
+// What the module does not correct, as it was known at the time.
 std::vector<bridge::DatedPose> Playback::corrected() const {
+  std::vector<bridge::DatedPose> poses;
   for (const auto& module : modules_)
-    if (const auto* const source = dynamic_cast<const posters::CorrectedTrajectory*>(module.get())) {
-      std::vector<bridge::DatedPose> poses;
+    if (const auto* const source = dynamic_cast<const posters::CorrectedTrajectory*>(module.get());
+        source && poses.empty())
       for (const posters::StampedPose& at : source->corrected()) poses.push_back({at.date, at.pose});
-      if (!poses.empty()) return poses;
-    }
-  return localised_;
+  std::vector<bridge::DatedPose> all;
+  const auto by_date = [](const bridge::DatedPose& a, const bridge::DatedPose& b) { return a.date < b.date; };
+  std::set_union(poses.begin(), poses.end(), localised_.begin(), localised_.end(), std::back_inserter(all), by_date);
+  return all;
 }
 
 std::vector<StampedPose> Playback::trajectory(PoseSource source) const {

@@ -112,7 +112,7 @@ void PointMap::match(const Pose& motion, std::span<const matching::SurfacePoint>
     search.rival_share = 0.7;
     search.apart_m = 0.15;
     search.apart_rad = 0.1;
-    const double half_m = 0.1 + 3 * deviation_m;
+    const double half_m = std::min(0.1 + 3 * deviation_m, p.search_m_max);
     for (const matching::Peak& peak :
          matching::search(pyramid, scan, {predicted, half_m, half_m, 0.05 + 3 * deviation_rad}, search)) {
       const matching::Refined other = matching::refine(active_->map, scan, peak.pose, {}, refinement);

@@ -19,7 +19,7 @@ PointParameters read_point_parameters(genom::Settings& settings) {
   check("range_m_max", p.range_m_max, 0.1, 1000);
   check("key_travel_m", p.key_travel_m, 0.01, 100);
   check("key_turn_rad", p.key_turn_rad, 0.01, 100);
-  check("submap_keys", p.submap_keys, 2, 1000);  // halves of them are counted
+  check("submap_keys", p.submap_keys, 4, 1000);  // halves of them are counted, beginning at one
   check("search_m_min", p.search_m_min, 0.01, 100);
   check("search_m_max", p.search_m_max, 0.01, 100);
   // Deviations whose inverse squares are weights.

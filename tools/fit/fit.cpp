@@ -64,7 +64,9 @@ FitOptions FitArguments::options() const {
   if (options.name.find_first_not_of(letters) != options.name.npos)
     refuse("--name", "letters, digits, '_' and '-'", options.name);
   if (!out_.empty()) options.out = out_;
-  check_distinct({{"--out", out_}, {"LOG", source_.log(), NamedFile::Use::read}});
+  check_distinct({{"--out", out_},
+                  {"--scenario", source_.scenario(), NamedFile::Use::read},
+                  {"LOG", source_.log(), NamedFile::Use::read}});
   return options;
 }
 

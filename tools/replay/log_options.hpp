@@ -27,6 +27,8 @@ class LogArguments {
   /// Throws BadInput for invalid values.
   LogOptions options() const;
   const std::string& log() const { return log_; }
+  /// Empty without one.
+  const std::string& scenario() const { return scenario_; }
 
  private:
   std::string log_, scan_, odometry_, robot_, scenario_, modules_;

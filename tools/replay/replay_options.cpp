@@ -74,6 +74,7 @@ ReplayOptions ReplayArguments::options() const {
                   {"--digests", digests_},
                   {"--events", events_},
                   {"--relations", relations_, NamedFile::Use::read},
+                  {"--scenario", source_.scenario(), NamedFile::Use::read},
                   {"LOG", source_.log(), NamedFile::Use::read}});
   play.trajectory = file(trajectory_);
   play.relations = file(relations_);

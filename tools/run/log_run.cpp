@@ -50,6 +50,7 @@ PlayOptions play_options(const RunOptions& options, const scenario::LogFile& log
                   {"--trajectory", name(play.trajectory)},
                   {"--digests", name(play.digests)},
                   {"--events", name(play.events)},
+                  {"the scenario", options.scenario.string(), NamedFile::Use::read},
                   {"the scenario's log", log.file.string(), NamedFile::Use::read}});
   return play;
 }

@@ -23,7 +23,7 @@ TEST(PointParameters, ValuesOutOfRangeAreToldWithTheirLine) {
   EXPECT_EQ(complaint({}), "");
   EXPECT_EQ(complaint({{"points.cell_m", "0.1", "s.yaml", 3}}), "");
   EXPECT_EQ(complaint({{"points.submap_keys", "1", "s.yaml", 3}}),
-            "s.yaml:3: expected 'points.submap_keys' to be 2 or more, found '1'");
+            "s.yaml:3: expected 'points.submap_keys' to be 4 or more, found '1'");
   EXPECT_EQ(complaint({{"points.cell_m", "0", "s.yaml", 3}}),
             "s.yaml:3: expected 'points.cell_m' to be 0.01 or more, found '0'");
   EXPECT_EQ(complaint({{"points.rival_share", "1.5", "s.yaml", 3}}),
