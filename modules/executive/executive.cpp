@@ -110,9 +110,7 @@ void Executive::find_robot() {
     if (lost()) drive_on();
   }
   looks_.clear();
-  if (!surveyor_) return;
-  surveyor_.emplace(planner_.space().map(), parameters_.seen_range_m);  // what was seen, was seen elsewhere
-  surveyor_->connect(names_);
+  if (surveyor_) surveyor_->forget();  // what was seen, was seen elsewhere
 }
 
 void Executive::turn_on_the_spot(Time until) {

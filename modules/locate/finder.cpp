@@ -25,17 +25,20 @@ bool are_one(const Pose& a, const Pose& b) {
          std::fabs(exact::wrap_angle(a.heading - b.heading)) < apart_rad;
 }
 
-matching::SurfaceMap surfaces(const OccupancyGrid& map, double cell_m, double reach_m, double deviation_m) {
+matching::SurfaceMap of_points(const std::vector<matching::SurfacePoint>& points, double cell_m, double reach_m,
+                               double deviation_m) {
   matching::SurfaceMap result(cell_m, reach_m, deviation_m);
-  result.add({}, surface_of(map));
+  result.add({}, points);
   return result;
 }
 
 }  // namespace
 
-MapSurfaces::MapSurfaces(const OccupancyGrid& map)
-    : fine(surfaces(map, fine_cell_m, fine_reach_m, fine_deviation_m)),
-      coarse(surfaces(map, coarse_cell_m, coarse_reach_m, coarse_deviation_m)),
+MapSurfaces::MapSurfaces(const OccupancyGrid& map) : MapSurfaces(surface_of(map)) {}
+
+MapSurfaces::MapSurfaces(const std::vector<matching::SurfacePoint>& points)
+    : fine(of_points(points, fine_cell_m, fine_reach_m, fine_deviation_m)),
+      coarse(of_points(points, coarse_cell_m, coarse_reach_m, coarse_deviation_m)),
       pyramid(coarse, levels) {}
 
 Finding Finder::look(const Pose& odometry, std::span<const matching::SurfacePoint> scan) {

@@ -21,6 +21,9 @@ struct MapSurfaces {
 
   matching::SurfaceMap fine, coarse;
   matching::ScorePyramid pyramid;  ///< of the coarse ones
+
+ private:
+  explicit MapSurfaces(const std::vector<matching::SurfacePoint>& points);
 };
 
 enum class Finding : std::uint8_t {

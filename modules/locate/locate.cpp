@@ -7,10 +7,6 @@ using genom::Nothing;
 using genom::State;
 using namespace std::chrono_literals;
 
-namespace {
-constexpr double square(double value) { return value * value; }
-}  // namespace
-
 Parameters Locate::read(genom::Settings& settings) {
   Parameters parameters;
   settings.read(parameters);
@@ -63,8 +59,8 @@ void Locate::start(const std::optional<posters::KnownPose>& known) {
   odometry_at_tracker_.reset();
   if (!known) return;
   posters::UncertainPose pose = {known->pose, {}};
-  pose.covariance[0] = pose.covariance[4] = square(known->position_deviation_m);
-  pose.covariance[8] = square(known->heading_deviation_rad);
+  pose.covariance[0] = pose.covariance[4] = exact::square(known->position_deviation_m);
+  pose.covariance[8] = exact::square(known->heading_deviation_rad);
   tracker_.emplace(surfaces_->fine, parameters_.tracking, pose);
 }
 
@@ -108,8 +104,8 @@ void Locate::find(const Pose& odometry) {
   if (finding != Finding::unchanged && finding != Finding::too_little) threads::compute(search_cost_us_);
   if (finding != Finding::found) return;
   posters::UncertainPose pose = {finder_->pose(), {}};
-  pose.covariance[0] = pose.covariance[4] = square(0.05);
-  pose.covariance[8] = square(0.02);
+  pose.covariance[0] = pose.covariance[4] = exact::square(0.05);
+  pose.covariance[8] = exact::square(0.02);
   tracker_.emplace(surfaces_->fine, parameters_.tracking, pose);
   finder_.reset();
   odometry_at_tracker_ = odometry;

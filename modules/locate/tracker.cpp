@@ -15,11 +15,10 @@ void Tracker::predict(const Pose& motion) {
   const double travel_m = length(motion.position()), turn_rad = std::fabs(motion.heading);
   travel_m_ += travel_m;
   turn_rad_ += turn_rad;
-  const auto square = [](double value) { return value * value; };
   posters::UncertainPose step = {motion, {}};
-  step.covariance[0] = step.covariance[4] = square(parameters_.travel_noise_m_per_sqrt_m) * travel_m;
-  step.covariance[8] = square(parameters_.drift_noise_rad_per_sqrt_m) * travel_m +
-                       square(parameters_.turn_noise_rad_per_sqrt_rad) * turn_rad;
+  step.covariance[0] = step.covariance[4] = exact::square(parameters_.travel_noise_m_per_sqrt_m) * travel_m;
+  step.covariance[8] = exact::square(parameters_.drift_noise_rad_per_sqrt_m) * travel_m +
+                       exact::square(parameters_.turn_noise_rad_per_sqrt_rad) * turn_rad;
   estimate_ = compose(estimate_, step);
 }
 
@@ -42,10 +41,9 @@ bool Tracker::update(std::span<const matching::SurfacePoint> scan) {
   Matrix3 covariance;
   if (invert(prior + parameters_.independent_share * refined.information, covariance))
     estimate_.covariance = covariance;
-  const double floor_m2 = parameters_.position_floor_m * parameters_.position_floor_m;
+  const double floor_m2 = exact::square(parameters_.position_floor_m);
   for (const std::size_t i : {0, 4}) estimate_.covariance[i] = std::max(estimate_.covariance[i], floor_m2);
-  estimate_.covariance[8] =
-      std::max(estimate_.covariance[8], parameters_.heading_floor_rad * parameters_.heading_floor_rad);
+  estimate_.covariance[8] = std::max(estimate_.covariance[8], exact::square(parameters_.heading_floor_rad));
   return true;
 }
 

@@ -21,10 +21,10 @@ using namespace std::chrono_literals;
 constexpr Duration window = 10ms;
 constexpr Duration after_last = 1s;
 
-/// The pose at `date` by samples around it; nothing before the first and after the last.
 // Beyond it, nothing is known of the way between two poses.
-constexpr Duration gap_max = std::chrono::seconds(2);
+constexpr Duration gap_max = 2s;
 
+/// The pose at `date` by samples around it; nothing before the first and after the last, and in a gap between two.
 std::optional<Pose> pose_at(const std::vector<bridge::DatedPose>& samples, Time date) {
   const auto after = std::lower_bound(samples.begin(), samples.end(), date,
                                       [](const bridge::DatedPose& sample, Time t) { return sample.date < t; });
