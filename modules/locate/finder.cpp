@@ -70,6 +70,7 @@ Finding Finder::look(const Pose& odometry, std::span<const matching::SurfacePoin
   const std::vector<matching::Peak> peaks = matching::search(surfaces_.pyramid, points, window, search);
   // The coarse scores tell which places to compare; which of them is best, and by how much, the fine map tells.
   std::vector<matching::Refined> places;
+  places.reserve(peaks.size());
   for (const matching::Peak& peak : peaks) places.push_back(refine(surfaces_.fine, points, peak.pose, {}, {}));
   const auto best = std::max_element(
       places.begin(), places.end(), [](const auto& one, const auto& other) { return one.explained < other.explained; });

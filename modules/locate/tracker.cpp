@@ -8,8 +8,6 @@ namespace waitpoint::locate {
 
 using posters::invert;
 using posters::Matrix3;
-using posters::operator*;
-using posters::operator+;
 
 void Tracker::predict(const Pose& motion) {
   const double travel_m = length(motion.position()), turn_rad = std::fabs(motion.heading);
