@@ -36,9 +36,8 @@ bool Tracker::update(std::span<const matching::SurfacePoint> scan) {
   }
   unexplained_ = 0;
   estimate_.pose = refined.pose;
-  Matrix3 covariance;
-  if (invert(prior + parameters_.independent_share * refined.information, covariance))
-    estimate_.covariance = covariance;
+  for (std::size_t i = 0; i < prior.size(); ++i) prior[i] += parameters_.independent_share * refined.information[i];
+  if (Matrix3 covariance; invert(prior, covariance)) estimate_.covariance = covariance;
   const double floor_m2 = exact::square(parameters_.position_floor_m);
   for (const std::size_t i : {0, 4}) estimate_.covariance[i] = std::max(estimate_.covariance[i], floor_m2);
   estimate_.covariance[8] = std::max(estimate_.covariance[8], exact::square(parameters_.heading_floor_rad));

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "modules/segloc/segloc.hpp"
 
+#include <cmath>
+
 namespace waitpoint::segloc {
 
 using genom::Nothing;
@@ -127,7 +129,7 @@ void Segloc::use_points(const Pose& then) {
   posters::Localisation told;
   told.position = {scan_.date, points_->pose(), points_->covariance()};
   told.observed = static_cast<std::uint32_t>(surface_.size());
-  told.matched = static_cast<std::uint32_t>(points_->explained() * static_cast<double>(surface_.size()) + 0.5);
+  told.matched = static_cast<std::uint32_t>(std::lround(points_->explained() * static_cast<double>(surface_.size())));
   told.lost = points_->lost();
   told.jumps = points_->jumps();
   localisation_.write(told);

@@ -71,7 +71,7 @@ class Witness : public genom::Module {
   explicit Witness(genom::ModuleSetup& setup) : Module(setup, 99), task_(add_task("look", {.period_ms = 10ms})) {
     odometry.clear();
     scans.clear();
-    task_.set_permanent([this, &of_base = read_poster<posters::Odometry>("rflex.odometry"),
+    task_.set_permanent([&of_base = read_poster<posters::Odometry>("rflex.odometry"),
                          &of_laser = read_poster<posters::Segments>("sick.segments")] {
       posters::Odometry position;
       if (of_base.read(position) == genom::PosterStatus::ok) odometry[position.position.date] = position.position.pose;
