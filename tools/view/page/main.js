@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Puts the page together.
+
+async function openSource() {
+  const run = byId("run");
+  if (run) return RecordedSource.open(run.textContent);
+  const url = new URL("live", location.href);
+  url.protocol = location.protocol === "https:" ? "wss:" : "ws:";
+  url.search = new URLSearchParams({token: new URLSearchParams(location.search).get("token") ?? ""}).toString();
+  setText(byId("connection"), "connecting …");
+  return LiveSource.open(url.href);
+}
+
+/** A line for the user; it stays for a while, or until the next. */
+function report(text) {
+  setText(byId("message"), text);
+  clearTimeout(report.timer);
+  report.timer = setTimeout(() => setText(byId("message"), ""), 8000);
+}
+
+/** Calls a function at most once in a while, and once after the last wish. */
+function seldom(milliseconds, action) {
+  let waiting = false, last = -Infinity;
+  return () => {
+    if (waiting) return;
+    waiting = true;
+    setTimeout(() => {
+      waiting = false;
+      last = performance.now();
+      action();
+    }, Math.max(0, last + milliseconds - performance.now()));
+  };
+}
+
+async function start() {
+  theme.choose("auto");
+  const source = await openSource(), session = new Session(source), clock = new Clock(session, report);
+  document.title = `${source.header.scenario} – waitpoint`;
+  setText(byId("scenario"), source.header.scenario);
+  const parts = buildParts(session, clock);
+  connectParts(session, clock, parts);
+  await clock.seek(0);
+  parts.axis.showAll();
+  if (source.kind === "live") clock.setLive(true);
+  window.waitpoint = testHook(session, clock, parts);
+  document.documentElement.dataset.ready = "true";
+}
+
+function showFacts(session) {
+  const {header, source} = session, {status} = source;
+  setText(byId("facts"), [`seed ${header.seed}`, `order ${header.order}`, status.over ? status.outcome || "finished" : "running", status.over ? status.digest : "", header.program].filter(Boolean).join(" · "));
+  const state = source.kind === "recorded" ? "recorded run" : source.connection.state === "open" ? (status.over ? "connected, run over" : "connected") : "connection lost, trying again …";
+  setText(byId("connection"), state);
+  byId("connection").className = source.kind === "recorded" ? "" : source.connection.state === "open" ? "good" : "bad";
+}
+
+start().catch((error) => report(`The page cannot show this run: ${error.message}`));

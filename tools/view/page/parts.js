@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The parts of the page, and what each is told of changes.
+
+function buildParts(session, clock) {
+  const axis = new TimeAxis(session), camera = new Camera(), parts = {axis, camera};
+  parts.plan = new PlanView(byId("plan-canvas"), session, camera, () => session.frame, () => session.line);
+  parts.repaintPlans = () => parts.plan.surface.invalidate();
+  parts.planTools = new PlanTools(session, parts.plan, parts.repaintPlans);
+  parts.planGestures = new PlanGestures(parts.plan, session, {repaint: parts.repaintPlans, measuring: () => parts.planTools.measuring, status: (text) => setText(byId("pointer"), text)});
+  const host = element("div", {class: "lanes-of"});
+  byId("lanes").append(host);
+  parts.timeline = new TimelineView(host, session, axis, () => session.line, () => session.frame);
+  parts.timelineGestures = new TimelineGestures(parts.timeline, session, axis, clock, byId("tip"));
+  parts.transport = new Transport(session, clock, axis);
+  parts.transport.counts = () => parts.timeline.data.counts;
+  parts.tabs = new Tabs(byId("tabs"), byId("panels"));
+  parts.panels = new Map([["robots", new RobotsPanel(parts.tabs.add("robots", "Robots"), session)]]);
+  makeSplitter(byId("split-side"), byId("side"), 160);
+  makeSplitter(byId("split-lower"), byId("timeline"), 70);
+  drawLegend();
+  return parts;
+}
+
+function connectParts(session, clock, parts) {
+  const {axis, timeline, plan} = parts;
+  const updatePanel = seldom(150, () => parts.panels.get(parts.tabs.chosen)?.update()), describe = seldom(1000, () => parts.planTools.describe());
+  session.on("time", () => {
+    plan.surface.invalidate();
+    timeline.surface.invalidate();
+    if (!axis.whole) axis.reveal(session.time);
+    updatePanel();
+    describe();
+  });
+  session.on("layers robot", () => plan.surface.invalidate());
+  session.on("robot event line run log source", updatePanel);
+  session.on("event", () => timeline.scrolled());
+  session.on("theme", () => {
+    for (const surface of surfaces) surface.invalidate();
+    drawLegend();
+  });
+  session.on("run source", () => showFacts(session));
+  parts.tabs.listeners.push(updatePanel);
+  axis.listeners.push(() => {
+    timeline.viewChanged();
+    setText(byId("view-text"), `${spanText(axis.span)} in view`);
+  });
+  byId("show-all").addEventListener("click", () => axis.showAll());
+  byId("show-cursor").addEventListener("click", () => showCursor(session, axis));
+  byId("lane-filter").addEventListener("input", (event) => {
+    timeline.rows.wanted = event.target.value;
+    timeline.rows.layOut();
+    timeline.layOut();
+  });
+  byId("theme").addEventListener("click", () => toggleTheme(session));
+  theme.system.addEventListener("change", () => chooseTheme(session, theme.chosen));
+  parts.keyboard = new Keyboard(session, clock, pageActions(session, parts));
+  showFacts(session);
+}
+
+function pageActions(session, parts) {
+  const {plan, planTools, axis} = parts;
+  const zoom = (factor) => {
+    plan.camera.fitted = false;
+    plan.camera.zoom(factor, plan.camera.width / 2, plan.camera.height / 2);
+    parts.repaintPlans();
+  };
+  return {
+    tab: (index) => parts.tabs.tabs[index] && parts.tabs.choose(parts.tabs.tabs[index].key),
+    time: () => byId("time").select(),
+    follow: () => planTools.toggleFollow(),
+    layers: () => planTools.toggleMenu(),
+    measure: () => planTools.toggleMeasure(),
+    oblique: () => planTools.toggleOblique(),
+    theme: () => toggleTheme(session),
+    cursor: () => showCursor(session, axis),
+    fit: () => plan.fit(),
+    zoomIn: () => zoom(1.25),
+    zoomOut: () => zoom(0.8),
+    escape: () => planTools.measuring ? planTools.toggleMeasure(false) : planTools.toggleMenu(false),
+  };
+}
+
+/** Ten milliseconds about the cursor, or a tenth of what is in view if that is less. */
+function showCursor(session, axis) {
+  const span = Math.min(10 * MILLISECOND, axis.span <= 11 * MILLISECOND ? axis.span / 10 : Infinity);
+  axis.set(session.time - span / 2, session.time + span / 2);
+}
+
+function chooseTheme(session, chosen) {
+  theme.choose(chosen);
+  byId("theme").setAttribute("aria-pressed", String(theme.dark));
+  session.changed("theme");
+}
+
+const toggleTheme = (session) => chooseTheme(session, theme.dark ? "light" : "dark");
+
+function drawLegend() {
+  byId("legend").replaceChildren(...Object.entries(STATES).map(([key, state]) => {
+    const canvas = element("canvas", {width: 22, height: 11, "aria-hidden": "true"}), pen = canvas.getContext("2d");
+    pen.fillStyle = key === "idle" ? theme.colours.idle : stateFill(pen, key);
+    pen.fillRect(0, key === "idle" ? 5 : 0, 22, key === "idle" ? 2 : 11);
+    return element("li", {}, canvas, state.name);
+  }));
+}
+
+/** For tests: the page's state, and where things are on the canvases. */
+function testHook(session, clock, parts) {
+  const {camera, axis} = parts;
+  return {session, clock, parts, pictures, theme,
+    pixels: (x, y, z = 0) => ({x: camera.across(x, y), y: camera.down(x, y, z)}),
+    timePixels: (time) => axis.x(time),
+    paint: () => paintSurfaces()};
+}

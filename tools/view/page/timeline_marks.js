@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What is drawn in the timeline's lanes: states and events if they are few, their density if they are many.
+
+/**
+ * Places of events on the axis. Events of one instant have one time; where there is room before the next instant, they are set
+ * apart in the order of their execution.
+ */
+class EventPlaces {
+  constructor(store, axis, begin, end) {
+    Object.assign(this, {store, axis, begin, end});
+    this.x = new Float64Array(Math.max(0, end - begin));
+    this.instants = [];  // those set apart: {x, end}
+    for (let i = begin; i < end;) {
+      let next = i + 1;
+      while (next < end && store.time[next] === store.time[i]) ++next;
+      const x = axis.x(store.time[i]), room = (next < store.count ? axis.x(store.time[next]) : axis.left + axis.width) - x;
+      const apart = Math.min(8, 0.8 * Math.min(room, axis.width) / (next - i));
+      if (apart >= 1.5 && next - i > 1) this.instants.push({x, end: x + apart * (next - i)});
+      for (let k = i; k < next; ++k) this.x[k - begin] = apart >= 1.5 ? x + apart * (k - i) : x;
+      i = next;
+    }
+  }
+
+  of(index) {
+    return index >= this.begin && index < this.end ? this.x[index - this.begin] : this.axis.x(this.store.time[index]);
+  }
+}
+
+function stateFill(pen, state) {
+  const colour = theme.colours[state];
+  return STATES[state].pattern ? hatch(pen, STATES[state].pattern, colour, `${colour}44`) : colour;
+}
+
+/** A task's states between its events, and their ticks. period: of the task, or 0. */
+function drawLane(pen, store, places, axis, task, period, top, height, thin) {
+  const lane = store.lanes[task], begin = Math.max(0, store.atInLane(task, axis.from) - 1), left = axis.left, right = axis.left + axis.width;
+  const middle = top + height / 2, body = thin ? height * 0.4 : height * 0.62;
+  let activation = period > 0 ? activationAt(store, lane, begin) : null, drawnTo = -Infinity;
+  const draw = (before, after, from, to) => {
+    const x0 = Math.max(left, from), x1 = Math.min(right, to);
+    if (x1 <= x0 || (x1 - drawnTo < 0.5 && x1 - x0 < 0.5)) return;
+    drawnTo = x1;
+    const {state, object} = stateBetween(store, before, after);
+    if (!state) return;
+    if (state === "idle") {
+      pen.fillStyle = theme.colours.idle;
+      pen.fillRect(x0, middle - 0.75, x1 - x0, 1.5);
+      return;
+    }
+    pen.fillStyle = stateFill(pen, state);
+    const size = state === "blocked" ? body * 0.55 : body;
+    pen.fillRect(x0, middle - size / 2, Math.max(1, x1 - x0), size);
+    if (state === "blocked" && x1 - x0 > 80 && !thin) laneText(pen, object >= 0 ? store.objectText(object) : "waits", x0 + 4, middle, x1 - x0 - 8);
+    const end = after >= 0 ? store.time[after] : axis.to;
+    if (period > 0 && activation !== null && state !== "blocked" && end > activation + period) {
+      const late = Math.max(x0, Math.min(axis.x(activation + period), x1));
+      pen.fillStyle = stateFill(pen, "late");
+      pen.fillRect(late, middle - body / 2, Math.max(2, x1 - late), body);
+    }
+  };
+  if (begin === 0 && lane.length > 0) draw(-1, lane[0], axis.x(store.from), places.of(lane[0]));
+  for (let i = begin; i < lane.length; ++i) {
+    const event = lane[i];
+    if (period > 0 && store.operationName(event) === "resume" && store.object[event] >= 0 && store.objects[store.object[event]].kind === "timer") activation = store.time[event];
+    const after = i + 1 < lane.length ? lane[i + 1] : -1;
+    draw(event, after, places.of(event), after >= 0 ? places.of(after) : axis.x(store.to));
+    if (store.operationName(event) === "timer_wait") activation = null;
+    if (store.time[event] > axis.to) break;
+  }
+}
+
+function laneText(pen, text, x, y, room) {
+  pen.save();
+  pen.beginPath();
+  pen.rect(x - 2, y - 10, room + 4, 20);
+  pen.clip();
+  pen.font = "11px system-ui, sans-serif";
+  pen.textAlign = "left";
+  pen.textBaseline = "middle";
+  haloText(pen, text, x, y + 0.5);
+  pen.restore();
+}
+
+function drawTicks(pen, store, places, axis, task, top, height) {
+  const lane = store.lanes[task], begin = store.atInLane(task, axis.from), middle = top + height / 2;
+  pen.fillStyle = theme.colours.text;
+  for (let i = begin; i < lane.length && store.time[lane[i]] <= axis.to; ++i) pen.fillRect(places.of(lane[i]) - 0.5, middle - height * 0.38, 1.25, height * 0.76);
+}
+
+/** Events a pixel, as the height of a bar. at(x): the number of events before that pixel. */
+function drawDensity(pen, axis, numbers, top, height, greatest) {
+  pen.fillStyle = theme.colours.running;
+  pen.globalAlpha = 0.75;
+  for (const {x, width, count} of numbers) {
+    const part = Math.sqrt(count / greatest) * (height - 4);
+    if (count > 0) pen.fillRect(x, top + height - 2 - Math.max(1.5, part), width, Math.max(1.5, part));
+  }
+  pen.globalAlpha = 1;
+}
+
+/** The numbers for drawDensity of some tasks: of the store if it has all events in view, else of the counts by period. */
+function densityOf(tasks, store, counts, axis) {
+  const numbers = [], step = 2;
+  if (store && store.complete && store.from <= Math.max(0, axis.from) && store.to >= Math.min(axis.to, axis.end)) {
+    const lanes = tasks.map((task) => store.byKey.get(task.key)).filter((task) => task !== undefined);
+    const before = (x) => lanes.reduce((sum, task) => sum + store.atInLane(task, axis.time(x)), 0);
+    for (let x = axis.left, was = before(x); x < axis.left + axis.width; x += step) {
+      const is = before(x + step);
+      numbers.push({x, width: step, count: is - was});
+      was = is;
+    }
+    return numbers;
+  }
+  if (!counts) return numbers;
+  const rows = tasks.map((task) => counts.byKey.get(task.key)).filter((row) => row !== undefined).map((row) => counts.events[row]);
+  const first = Math.max(0, Math.floor((axis.from - counts.from) / counts.period)), last = Math.ceil((axis.to - counts.from) / counts.period);
+  const merge = Math.max(1, Math.ceil(step / (axis.x(counts.period) - axis.x(0))));
+  for (let i = first - first % merge; i < last; i += merge) {
+    let count = 0;
+    for (const row of rows) for (let k = i; k < i + merge; ++k) count += row[k] ?? 0;
+    const x = Math.max(axis.left, axis.x(counts.from + i * counts.period)), end = Math.min(axis.left + axis.width, axis.x(counts.from + (i + merge) * counts.period));
+    if (end > x) numbers.push({x, width: end - x, count: count / merge});
+  }
+  return numbers;
+}
+
+/** Marks of deadlines that were missed, at wide zoom. */
+function drawMissed(pen, counts, tasks, axis, top, height) {
+  pen.fillStyle = theme.colours.late;
+  for (const task of tasks) {
+    const missed = counts.missed?.[counts.byKey.get(task.key)] ?? [];
+    missed.forEach((count, i) => {
+      const x = axis.x(counts.from + i * counts.period);
+      if (count > 0 && x > axis.left - 2 && x < axis.left + axis.width) pen.fillRect(x, top + 1, Math.max(3, axis.x(counts.period) - axis.x(0)), 4);
+    });
+  }
+}
+
+/** From a task that wakes to the one that resumes. */
+function drawArrow(pen, x0, y0, x1, y1, strong) {
+  const bend = Math.max(6, Math.min(30, Math.abs(y1 - y0) / 3)), direction = Math.sign(y1 - y0) || 1;
+  pen.strokeStyle = pen.fillStyle = strong ? theme.colours.select : theme.colours.arrow;
+  pen.globalAlpha = strong ? 1 : 0.65;
+  pen.lineWidth = strong ? 2 : 1;
+  pen.beginPath();
+  pen.moveTo(x0, y0);
+  pen.bezierCurveTo(x0 + bend / 3, y0 + direction * bend, x1, y1 - direction * bend, x1, y1);
+  pen.stroke();
+  pen.beginPath();
+  pen.moveTo(x1, y1), pen.lineTo(x1 - 3, y1 - direction * 6), pen.lineTo(x1 + 3, y1 - direction * 6);
+  pen.fill();
+  pen.globalAlpha = 1;
+}
