@@ -14,7 +14,15 @@ function buildParts(session, clock) {
   parts.transport = new Transport(session, clock, axis);
   parts.transport.counts = () => parts.timeline.data.counts;
   parts.tabs = new Tabs(byId("tabs"), byId("panels"));
-  parts.panels = new Map([["robots", new RobotsPanel(parts.tabs.add("robots", "Robots"), session)]]);
+  parts.panels = new Map();
+  const panel = (key, name, make) => parts.panels.set(key, make(parts.tabs.add(key, name)));
+  panel("robots", "Robots", (at) => new RobotsPanel(at, session));
+  panel("tasks", "Tasks", (at) => new TasksPanel(at, session, (task) => selectTask(session, parts, task)));
+  panel("modules", "Modules", (at) => new ModulesPanel(at, session, (wanted) => parts.plots.add(wanted)));
+  panel("event", "Event", (at) => new EventPanel(at, session, clock, () => parts.timelineGestures));
+  panel("log", "Log", (at) => new LogPanel(at, session, clock));
+  panel("summary", "Summary", (at) => new SummaryPanel(at, session));
+  parts.plots = new PlotsView(session, axis, clock);
   makeSplitter(byId("split-side"), byId("side"), 160);
   makeSplitter(byId("split-lower"), byId("timeline"), 70);
   drawLegend();
@@ -26,14 +34,17 @@ function connectParts(session, clock, parts) {
   const updatePanel = seldom(150, () => parts.panels.get(parts.tabs.chosen)?.update()), describe = seldom(1000, () => parts.planTools.describe());
   session.on("time", () => {
     plan.surface.invalidate();
-    timeline.surface.invalidate();
+    timeline.moveCursor();
     if (!axis.whole) axis.reveal(session.time);
     updatePanel();
     describe();
   });
   session.on("layers robot", () => plan.surface.invalidate());
   session.on("robot event line run log source", updatePanel);
-  session.on("event", () => timeline.scrolled());
+  session.on("event", () => {
+    timeline.scrolled();
+    if (session.event && parts.tabs.chosen !== "tasks") parts.tabs.choose("event");
+  });
   session.on("theme", () => {
     for (const surface of surfaces) surface.invalidate();
     drawLegend();
@@ -55,6 +66,16 @@ function connectParts(session, clock, parts) {
   theme.system.addEventListener("change", () => chooseTheme(session, theme.chosen));
   parts.keyboard = new Keyboard(session, clock, pageActions(session, parts));
   showFacts(session);
+}
+
+/** The task's event at the cursor, or its last before it. */
+function selectTask(session, parts, {name, robot, number}) {
+  const {store} = parts.timeline.data, task = store?.byKey.get(`${robot}/${name}/${number}`);
+  if (task === undefined || store.lanes[task].length === 0) return;
+  const lane = store.lanes[task], next = firstWhere(lane.length, (i) => lane[i] > session.frame.events - store.first);
+  parts.timelineGestures.select(lane[Math.max(0, next - 1)]);
+  parts.timeline.reveal(session.event.key);
+  parts.axis.reveal(session.event.time);
 }
 
 function pageActions(session, parts) {

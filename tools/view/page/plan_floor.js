@@ -23,12 +23,32 @@ function tracePolygon(path, corners) {
 class PlanFloor {
   constructor() {
     this.obstacles = null;
+    this.picture = document.createElement("canvas");  // of what is still, for a camera that is
+    this.drawn = "";
+  }
+
+  /** The floor from the picture of the last time, if it would be the same. */
+  drawStill(pen, camera, ratio, bounds, layers) {
+    const wanted = [camera.a, camera.b, camera.c, camera.d, camera.e, camera.f, camera.width, camera.height, ratio, layers.grid, layers.furniture, layers.unknown, theme.dark].join();
+    if (wanted !== this.drawn) {
+      this.drawn = wanted;
+      this.picture.width = Math.round(camera.width * ratio);
+      this.picture.height = Math.round(camera.height * ratio);
+      const own = this.picture.getContext("2d");
+      own.setTransform(ratio, 0, 0, ratio, 0, 0);
+      this.drawGround(own, camera, ratio, bounds, layers);
+      if (!camera.oblique) this.draw(own, camera, ratio, layers);
+    }
+    pen.setTransform(1, 0, 0, 1, 0, 0);
+    pen.drawImage(this.picture, 0, 0);
+    pen.setTransform(ratio, 0, 0, ratio, 0, 0);
   }
 
   /** Called with each frame's list; paths are made anew only if it is another one. */
   set(obstacles) {
     if (obstacles === this.obstacles) return;
     this.obstacles = obstacles;
+    this.drawn = "";
     this.shapes = obstacles.map((obstacle) => ({obstacle, corners: cornersOf(obstacle)}));
     const pathOf = (wanted) => {
       const path = new Path2D();

@@ -46,9 +46,8 @@ class PlanView {
     }
     camera.update();
     this.floor.set(frame.obstacles ?? header.obstacles);
-    this.floor.drawGround(pen, camera, ratio, this.bounds(), layers);
+    this.floor.drawStill(pen, camera, ratio, this.bounds(), layers);
     const seen = robotsInView(camera, header, frame), detailed = this.detailed(seen);
-    if (!camera.oblique) this.floor.draw(pen, camera, ratio, layers);
     this.drawBelow(pen, frame, detailed);
     if (camera.oblique) {
       drawStalks(pen, camera, frame, seen);
@@ -82,14 +81,15 @@ class PlanView {
       if (layers.segments) drawSegments(pen, camera, state);
       if (layers.trail) drawTrail(pen, camera, session.source.trail(this.line(), index, frame.time, session.trail), robotColour(index));
       if (layers.route) drawRoute(pen, camera, state);
-      if (layers.goals && (index === session.robot || header.robots.length === 1)) drawGoals(pen, camera, robot, state, layers.names);
+      if (layers.goals && index === session.robot && !camera.oblique) drawGoals(pen, camera, robot, state, layers.names);
     }
   }
 
   drawAbove(pen, frame, indices) {
-    const {camera} = this, {layers, header} = this.session, colours = theme.colours;
+    const {camera, session} = this, {layers, header} = session, colours = theme.colours;
     for (const index of indices) {
       const state = frame.robots[index], robot = header.robots[index];
+      if (layers.goals && index === session.robot && camera.oblique) drawGoals(pen, camera, robot, state, layers.names);
       if (layers.covariance && state.estimate && state.covariance) drawCovariance(pen, camera, state.estimate, state.covariance);
       if (layers.odometry) drawGhost(pen, camera, robot, state.odometry, colours.odometry, [2, 3]);
       if (layers.estimate) drawGhost(pen, camera, robot, state.estimate, colours.estimate, [5, 3]);

@@ -90,7 +90,7 @@ class RecordedSource {
 
   async plot(line, wanted) {
     const found = (this.run.plots ?? []).find((plot) => plot.robot === wanted.robot && plot.poster === wanted.poster && plot.field === wanted.field);
-    return found ?? {t: [], v: []};
+    return found ? {t: found.t ?? this.run.plot_times, v: found.v} : {t: [], v: []};
   }
 
   /** The robot's true places up to `time`, of frames no older than `span`. */

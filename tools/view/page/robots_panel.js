@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The table of robots: the plan's contents as text, and the selected robot's in more detail.
 
-const MOST_ROWS = 200;  // of many robots only the selected one's neighbours in the list
+const MOST_ROWS = 60;  // of many robots only the selected one's neighbours in the list
 
 class RobotsPanel {
   constructor(panel, session) {

@@ -4,8 +4,8 @@
 
 const STATES = {
   running: {name: "running", pattern: null},
-  ready: {name: "ready", pattern: "rising"},
-  blocked: {name: "blocked", pattern: "crossed"},
+  ready: {name: "ready", pattern: "dotted"},
+  blocked: {name: "blocked", pattern: "rising"},
   idle: {name: "idle", pattern: null},
   late: {name: "late", pattern: "upright"},
 };

@@ -98,11 +98,10 @@ class TimeAxis {
     pen.textAlign = "left";
     for (const time of times) pen.fillText(this.tickText(time, step), Math.round(this.x(time)) + 3, 10);
   }
+}
 
-  /** The line of the present instant. */
-  drawCursor(pen, x, height) {
-    if (x < this.left - 1 || x > this.left + this.width + 1) return;
-    pen.fillStyle = theme.colours.cursor;
-    pen.fillRect(Math.round(x) - 0.5, 0, 1.5, height);
-  }
+/** Puts the line of the present instant to a pixel of the axis, or away. */
+function placeCursor(line, axis, x) {
+  line.hidden = x < axis.left - 1 || x > axis.left + axis.width + 1;
+  line.style.transform = `translateX(${x.toFixed(1)}px)`;
 }

@@ -110,7 +110,7 @@ class TimelineGestures {
       const task = store.byKey.get(rows[i].tasks[0].key), lane = store.lanes[task] ?? [];
       if (lane.length === 0) continue;
       this.select(lane[Math.min(lane.length - 1, store.atInLane(task, selected.time))]);
-      if (rows[i].y < this.view.top || rows[i].y + ROW > this.view.top + this.view.surface.height - RULER) this.view.scroller.scrollTop = rows[i].y - 60;
+      this.view.reveal(rows[i].tasks[0].key);
       return;
     }
   }

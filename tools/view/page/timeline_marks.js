@@ -48,9 +48,9 @@ function drawLane(pen, store, places, axis, task, period, top, height, thin) {
       return;
     }
     pen.fillStyle = stateFill(pen, state);
-    const size = state === "blocked" ? body * 0.55 : body;
+    const size = state === "blocked" ? body * 0.5 : body;
     pen.fillRect(x0, middle - size / 2, Math.max(1, x1 - x0), size);
-    if (state === "blocked" && x1 - x0 > 80 && !thin) laneText(pen, object >= 0 ? store.objectText(object) : "waits", x0 + 4, middle, x1 - x0 - 8);
+    if (state === "blocked" && x1 - x0 > 80 && !thin) laneText(pen, object >= 0 ? store.objectText(object) : "waits", x0 + 6, middle, x1 - x0 - 12);
     const end = after >= 0 ? store.time[after] : axis.to;
     if (period > 0 && activation !== null && state !== "blocked" && end > activation + period) {
       const late = Math.max(x0, Math.min(axis.x(activation + period), x1));
@@ -69,16 +69,17 @@ function drawLane(pen, store, places, axis, task, period, top, height, thin) {
   }
 }
 
+/** A text on the ground of the lane, which interrupts what is below it; none if there is no room. */
 function laneText(pen, text, x, y, room) {
-  pen.save();
-  pen.beginPath();
-  pen.rect(x - 2, y - 10, room + 4, 20);
-  pen.clip();
   pen.font = "11px system-ui, sans-serif";
+  const width = pen.measureText(text).width + 8;
+  if (width > room) return;
+  pen.fillStyle = theme.colours.floor;
+  pen.fillRect(x, y - 7, width, 14);
   pen.textAlign = "left";
   pen.textBaseline = "middle";
-  haloText(pen, text, x, y + 0.5);
-  pen.restore();
+  pen.fillStyle = theme.colours.dim;
+  pen.fillText(text, x + 4, y + 0.5);
 }
 
 function drawTicks(pen, store, places, axis, task, top, height) {

@@ -15,7 +15,8 @@ class TimelineView {
     this.canvas = element("canvas", {tabindex: 0, role: "application", "aria-label": "Timeline of tasks. Left and right select events of a task, up and down another task, plus and minus zoom.", "aria-describedby": "event-text"});
     this.labels = element("div", {class: "lane-labels"});
     this.space = element("div", {class: "lane-space"});
-    this.window = element("div", {class: "lane-window"}, this.canvas, this.labels);
+    this.cursor = element("div", {class: "cursor"});
+    this.window = element("div", {class: "lane-window"}, this.canvas, this.cursor, this.labels);
     this.scroller = element("div", {class: "lane-scroller"}, this.window, this.space);
     host.append(this.scroller);
     this.surface = new Surface(this.canvas, (pen, width, height) => this.paint(pen, width, height));
@@ -114,7 +115,12 @@ class TimelineView {
     if (counts) for (const row of visible) if (row.tasks.length > 1 ? row.closed : true) if (!few) drawMissed(pen, counts, row.tasks, axis, y(row), row.height);
     if (this.mark !== null) this.paintMark(pen, height);
     pen.restore();
-    axis.drawCursor(pen, this.cursorX(), height);
+    this.moveCursor();
+  }
+
+  /** The cursor's line is an element: it moves without painting the lanes again. */
+  moveCursor() {
+    placeCursor(this.cursor, this.axis, this.cursorX());
   }
 
   paintEvents(pen, visible, y, count) {
@@ -160,12 +166,10 @@ class TimelineView {
 
   paintDensities(pen, visible, y) {
     const {store, counts} = this.data;
-    for (const row of visible) {
-      if (row.kind === "robot" && !row.closed) continue;
-      const numbers = densityOf(row.tasks, store, counts, this.axis);
-      const greatest = Math.max(1, ...numbers.map((number) => number.count));
-      drawDensity(pen, this.axis, numbers, y(row), row.height, greatest);
-    }
+    const lanes = visible.filter((row) => row.kind !== "robot" || row.closed).map((row) => ({row, numbers: densityOf(row.tasks, store, counts, this.axis)}));
+    // One measure for all, so that lanes can be compared.
+    const greatest = lanes.reduce((most, {numbers}) => numbers.reduce((least, {count}) => Math.max(least, count), most), 1);
+    for (const {row, numbers} of lanes) drawDensity(pen, this.axis, numbers, y(row), row.height, greatest);
   }
 
   paintMark(pen, height) {
@@ -191,6 +195,12 @@ class TimelineView {
   periodOf(task) {
     this.periods ??= new Map(this.session.header.robots.flatMap((robot) => (robot.modules ?? []).flatMap((module) => module.tasks.map((one) => [`${robot.name}/${module.name}.${one.name}`, one.period]))));
     return this.periods.get(`${task.robot}/${task.name}`) ?? 0;
+  }
+
+  /** Scrolls to a task's row. */
+  reveal(key) {
+    const row = this.rows.rowOf.get(key), room = this.surface.height - RULER;
+    if (row && (row.y < this.top || row.y + row.height > this.top + room)) this.scroller.scrollTop = row.y - room / 3;
   }
 
   /** The task's row and the event nearest to a pixel: {row, task, event index or -1}. */
