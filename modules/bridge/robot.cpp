@@ -222,6 +222,7 @@ void Robot::end_modules() {
 }
 
 void Robot::set_watch(genom::ModuleWatch* watch) {
+  watch_ = watch;
   for (const auto& module : modules_) module->set_watch(watch);
 }
 
@@ -247,6 +248,11 @@ std::uint64_t Robot::goals_reached() const {
   if (executive_)
     for (const executive::GoalRecord& goal : executive_->goals()) count += goal.times_reached;
   return count;
+}
+
+std::optional<std::size_t> Robot::current_goal() const {
+  if (!executive_ || executive_->current_goal() >= executive_->goals().size()) return std::nullopt;
+  return executive_->current_goal();
 }
 
 void Robot::set_goals(std::uint64_t goals, std::uint64_t reached) {

@@ -70,6 +70,7 @@ class Robot {
 
   /// Reports the modules' activity to `watch`, which must outlive the robot's tasks. Before run(). Null: no watch.
   void set_watch(genom::ModuleWatch* watch);
+  genom::ModuleWatch* watch() const { return watch_; }
 
   /// The execution control; null without rules.
   control::Controller* controller() const { return controller_.get(); }
@@ -101,6 +102,8 @@ class Robot {
   /// Visits to goals: those of all rounds, or in rounds without end those that have ended.
   std::uint64_t goals() const;
   std::uint64_t goals_reached() const;
+  /// Index of the goal that the executive is on its way to; nothing if there is none.
+  std::optional<std::size_t> current_goal() const;
   /// Of a robot that is elsewhere.
   void set_goals(std::uint64_t goals, std::uint64_t reached);
   /// Name, clock and processor of the task of run().
@@ -132,8 +135,9 @@ class Robot {
   genom::NameSpace names_;
   std::vector<std::unique_ptr<genom::Module>> modules_;
   std::vector<const scenario::ModuleScenario*> module_scenarios_;  // by module
-  std::optional<RobotBridge> bridge_;                              // none: it is elsewhere
-  scenario::ModuleScenario procedures_scenario_;                   // of the module that the script is below a plan
+  genom::ModuleWatch* watch_ = nullptr;
+  std::optional<RobotBridge> bridge_;             // none: it is elsewhere
+  scenario::ModuleScenario procedures_scenario_;  // of the module that the script is below a plan
   genom::TaskComputing computing_;
   genom::TaskComputing script_computing_;                 // of a script below a plan
   tcl::Procedures* procedures_ = nullptr;                 // of a script below a plan

@@ -79,7 +79,7 @@ void DistanceTransform::divide(std::span<std::uint16_t> row) {
     const auto begin = near - std::min<std::ptrdiff_t>(near - done, no_cell);
     auto last = near;
     // The next obstacle's part would overlap, or touch, this one.
-    while (near != row.end() && near - last <= 2 * no_cell) {
+    while (near != row.end() && near - last <= std::ptrdiff_t{2} * no_cell) {
       last = near;
       near = std::find_if(near + 1, row.end(), is_near);
     }

@@ -64,6 +64,7 @@ class Executive : public RobotExecutive {
   void stop() override { stopping_ = true; }
 
   const std::vector<GoalRecord>& goals() const override { return mission_.goals(); }
+  std::size_t current_goal() const override { return mission_.current(); }
 
  private:
   void start_modules();

@@ -21,6 +21,8 @@ class RobotExecutive {
 
   /// The state of each goal. While run() is active, only from tasks that cannot run concurrently with it.
   virtual const std::vector<GoalRecord>& goals() const = 0;
+  /// Index of the goal that it is on its way to; the number of goals when it has none.
+  virtual std::size_t current_goal() const = 0;
 };
 
 }  // namespace waitpoint::executive

@@ -61,6 +61,8 @@ class Module {
   const RequestType* find_request(const std::string& name) const;
   Report report(StandardReport code) const { return data_.report(code); }
   const std::deque<ExecutionTask>& tasks() const { return tasks_; }
+  /// For observers between events.
+  const ActivityTable& activities() const { return data_.activities; }
 
   /// Throws BadInput if `settings`, from which the module was made, has a cost for a task without permanent codels.
   void check_costs(const Settings& settings) const;

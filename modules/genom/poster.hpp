@@ -61,6 +61,20 @@ class PosterBase {
   /// Reads the value as text by its declared fields (core/field_text.hpp), with the cost of a module's access; nothing
   /// if empty.
   virtual std::optional<std::string> read_text() const = 0;
+  /// The structure of that text.
+  virtual FieldShape shape() const = 0;
+
+  // For observers outside the robot's software: no events in simulation.
+
+  /// The value as read_text() has it; nothing if empty.
+  virtual std::optional<std::string> look_text() const = 0;
+  /// As read_numbers().
+  virtual PosterStatus look_numbers(std::span<FieldReading> readings, Time& date) const = 0;
+  /// The date of the last write; nothing before the first.
+  std::optional<Time> look_date() const {
+    const threads::observer_lock guard(mutex_);
+    return writes_ > 0 ? std::optional(date_) : std::nullopt;
+  }
 
  protected:
   PosterBase(std::string name, std::string writer);
@@ -89,10 +103,11 @@ class Poster : public PosterBase {
   }
   PosterStatus read_numbers(std::span<FieldReading> readings, Time& date) const override {
     const std::lock_guard guard(mutex_);
-    if (writes_ == 0) return PosterStatus::empty;
-    for (FieldReading& reading : readings) reading.outcome = read_number(value_, reading.path, reading.number);
-    date = date_;
-    return PosterStatus::ok;
+    return numbers(readings, date);
+  }
+  PosterStatus look_numbers(std::span<FieldReading> readings, Time& date) const override {
+    const threads::observer_lock guard(mutex_);
+    return numbers(readings, date);
   }
 
   /// Publishes a new value. Only for the poster's writer.
@@ -135,6 +150,12 @@ class Poster : public PosterBase {
     return status == PosterStatus::ok ? std::optional(text_of(*value)) : std::nullopt;
   }
 
+  FieldShape shape() const override { return shape_of<T>(); }
+  std::optional<std::string> look_text() const override {
+    const threads::observer_lock guard(mutex_);
+    return writes_ > 0 ? std::optional(text_of(value_)) : std::nullopt;
+  }
+
   /// The value for an observer outside the robot's software; nothing if empty. No event in simulation.
   std::optional<T> look() const {
     const threads::observer_lock guard(mutex_);
@@ -142,6 +163,13 @@ class Poster : public PosterBase {
   }
 
  private:
+  PosterStatus numbers(std::span<FieldReading> readings, Time& date) const {
+    if (writes_ == 0) return PosterStatus::empty;
+    for (FieldReading& reading : readings) reading.outcome = read_number(value_, reading.path, reading.number);
+    date = date_;
+    return PosterStatus::ok;
+  }
+
   T value_{};
 };
 

@@ -135,7 +135,8 @@ class Search {
 
   void push(Block block) {
     std::uint32_t sum = 0;
-    for (const CellOfPoint& cell : cells_[static_cast<std::size_t>(block.turn + turns_)]) {
+    const int turn = block.turn + turns_;
+    for (const CellOfPoint& cell : cells_[static_cast<std::size_t>(turn)]) {
       sum += pyramid_.bound(block.level, cell.x + block.x, cell.y + block.y);
     }
     if (sum < least_) return;

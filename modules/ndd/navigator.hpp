@@ -54,6 +54,7 @@ class Navigator {
   /// Replaces the present route by another one to the same goal, in motion. False without a route.
   bool reroute(const posters::PositionEstimate& position, std::span<const Point> via_points);
   void stop() { route_.clear(); }
+  const Route& route() const { return route_; }
 
   /// The command for the next control period. `position` is in the map frame, of any date within the odometry trail.
   /// After `arrived` or `blocked` the route has ended and the next decision is `idle`.

@@ -11,15 +11,18 @@
 #include "modules/genom/module.hpp"
 #include "modules/ndd/navigator.hpp"
 #include "modules/posters/base.hpp"
+#include "modules/posters/followed_route.hpp"
 #include "modules/posters/laser.hpp"
 #include "modules/posters/navigation.hpp"
 #include "modules/posters/position.hpp"
 
 namespace waitpoint::ndd {
 
-class Ndd : public genom::Module {
+class Ndd : public genom::Module, public posters::FollowedRoute {
  public:
   explicit Ndd(genom::ModuleSetup& setup);
+
+  std::span<const Point> route_ahead() const override { return navigator_.route().ahead(); }
 
  private:
   static Parameters read(genom::Settings& settings);

@@ -26,6 +26,8 @@ class Route {
   /// The next via point; an empty route is a bug.
   Point target() const;
   bool target_is_last() const { return next_ + 1 == points_.size(); }
+  /// The via points that the robot has not reached.
+  std::span<const Point> ahead() const { return std::span(points_).subspan(empty() ? 0 : next_); }
   /// The length from `robot` over the via points to the last.
   double remaining_m(Point robot) const;
 

@@ -10,7 +10,7 @@ namespace waitpoint::pom {
 using posters::congruent;
 using posters::greatest_deviation_m;
 using posters::Matrix3;
-using posters::operator+;
+using posters::operator+;  // NOLINT(misc-unused-using-decls): clang-tidy 14 sees no uses of operators
 namespace {
 
 /// The difference between a fix and the antenna of a pose: h = p + R(heading) a,

@@ -8,7 +8,7 @@
 namespace waitpoint::pom {
 
 using posters::greatest_deviation_m;
-using posters::operator*;
+using posters::operator*;  // NOLINT(misc-unused-using-decls): clang-tidy 14 sees no uses of operators
 
 PositionFusion::PositionFusion(const FusionParameters& parameters, const UncertainPose& start)
     : parameters_(parameters), odometry_(odometry_count_max), base_{Time(), start} {

@@ -38,7 +38,7 @@ const PointMap::Drawn& PointMap::drawn(std::size_t submap) {
 // The key scans of old sub-maps near the newest one, the nearest of each sub-map, nearest first.
 std::vector<PointMap::Candidate> PointMap::old_ones_nearby() const {
   const std::size_t key = keys_.size() - 1, half = parameters_.submap_keys / 2;
-  const std::size_t age = adrift_since_ ? key - *adrift_since_ + 1 : 2 * parameters_.submap_keys;
+  const std::size_t age = adrift_since_ ? key - *adrift_since_ + 1 : std::size_t{2} * parameters_.submap_keys;
   std::vector<Candidate> candidates;
   for (std::size_t k = 0; k + age <= key; ++k) {
     const double distance = length(graph_[k].position() - graph_[key].position());

@@ -236,4 +236,9 @@ Answer TclExecutive::plan(const std::vector<std::string>& words) {
   return {true, list_of(plan.via_points)};
 }
 
+std::size_t TclExecutive::current_goal() const {
+  const auto is_ahead = [](const auto& goal) { return goal.state == executive::GoalState::ahead; };
+  return static_cast<std::size_t>(std::find_if(goals_.begin(), goals_.end(), is_ahead) - goals_.begin());
+}
+
 }  // namespace waitpoint::tcl

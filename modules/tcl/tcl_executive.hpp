@@ -55,6 +55,8 @@ class TclExecutive : public executive::RobotExecutive, private ModuleLink {
   void run() override;
   void stop() override;
   const std::vector<executive::GoalRecord>& goals() const override { return goals_; }
+  /// The first of which the script has not told what became of it.
+  std::size_t current_goal() const override;
 
  private:
   /// Thrown by blocking commands after stop().

@@ -7,9 +7,9 @@ import sys
 data = pathlib.Path(sys.argv[1]).read_bytes()
 rows = ",\n".join(",".join(str(byte) for byte in data[i:i + 24]) for i in range(0, len(data), 24))
 pathlib.Path(sys.argv[2]).write_text(f"""#include "{sys.argv[3]}"
-namespace {{
-const unsigned char data[] = {{
+std::span<const unsigned char> {sys.argv[4]}() {{
+static constexpr unsigned char data[] = {{
 {rows}}};
+return data;
 }}
-std::span<const unsigned char> {sys.argv[4]}() {{ return data; }}
 """)

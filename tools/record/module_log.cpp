@@ -26,7 +26,10 @@ std::string words_of_report(const genom::ModuleEvent& event) {
 
 }  // namespace
 
-void ModuleLog::on(const genom::Module& module, const genom::ModuleEvent& event) { told_.push_back({&module, event}); }
+void ModuleLog::on(const genom::Module& module, const genom::ModuleEvent& event) {
+  told_.push_back({&module, event});
+  if (next_ != nullptr) next_->on(module, event);
+}
 
 std::vector<ModuleLog::Line> ModuleLog::take() {
   std::vector<Line> lines;

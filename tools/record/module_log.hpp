@@ -18,6 +18,9 @@ class ModuleLog final : public genom::ModuleWatch {
     bool is_bad = false;  ///< ended with a report other than ok
   };
 
+  /// Events are passed on to `next`; null: to none.
+  explicit ModuleLog(genom::ModuleWatch* next = nullptr) : next_(next) {}
+
   void on(const genom::Module& module, const genom::ModuleEvent& event) override;
   /// All lines since the last call, in chronological order.
   std::vector<Line> take();
@@ -27,6 +30,7 @@ class ModuleLog final : public genom::ModuleWatch {
     const genom::Module* module;
     genom::ModuleEvent event;
   };
+  genom::ModuleWatch* next_;
   std::vector<Told> told_;  // formatted later: the stacks of the modules' tasks are small
 };
 

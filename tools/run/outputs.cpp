@@ -11,11 +11,17 @@
 #include "tools/output/picture.hpp"
 #include "tools/output/summary.hpp"
 #include "tools/record/formats.hpp"
+#include "tools/version.hpp"
 
 namespace waitpoint::tools {
 namespace {
 
 Outputs* of_this_run = nullptr;
+
+std::string program_name() {
+  const std::string version = version_text();
+  return version.substr(0, version.find('\n'));
+}
 
 std::string picture_of(const run::Experiment& experiment, const bridge::RunResult& result) {
   const world::WorldDescription& world = experiment.world().description();
@@ -35,6 +41,8 @@ Outputs::Outputs(const RunOptions& options, const scenario::Scenario& scenario, 
   if (options.journal) journal_.emplace(*options.journal);
   if (options.summary) summary_.emplace(*options.summary);
   if (options.picture) picture_.emplace(*options.picture);
+  if (options.page) page_.emplace(*options.page);
+  scene_ = {options.seed, options.order, options.limit(scenario.until), program_name()};
   if (options.digests) digests_.emplace(*options.digests);
   if (options.events) events_.emplace(*options.events);
   if (options.decisions) decisions_.emplace(*options.decisions);
@@ -63,12 +71,19 @@ void Outputs::watch() {
     if (picture_) experiment_.robots()[i]->keep_paths();
     if (trajectory_) experiment_.robots()[i]->add_path_sink(trajectory_->sink(i));
   }
-  if (!recording_) return;
-  reader_.emplace(scenario_, experiment_,
-                  recording_->shows_obstacles() ? NewsReader::Obstacles::read : NewsReader::Obstacles::left_out);
+  if (recording_ || page_) watch_steps();
+}
+
+void Outputs::watch_steps() {
+  if (recording_)
+    reader_.emplace(scenario_, experiment_,
+                    recording_->shows_obstacles() ? NewsReader::Obstacles::read : NewsReader::Obstacles::left_out);
+  if (page_) page_->begin(scenario_, experiment_, scene_);
   // A library that writes bags knows nothing of forked copies.
   experiment_.set_observer([this](Time now) {
-    if (getpid() == process_) recording_->add(reader_->take(now));
+    if (getpid() != process_) return;
+    if (recording_) recording_->add(reader_->take(now));
+    if (page_) page_->step(now);
   });
 }
 
@@ -107,6 +122,7 @@ void Outputs::complete(const bridge::RunResult& result, const std::string& cut_o
     if (is_cut) file.write("<!-- cut off: " + cut_off + " -->\n");
     file.commit();
   });
+  attempt(page_, [&](view::RecordedPage& file) { file.finish(result); });
   attempt(trajectory_, [&](TrajectoryFiles& files) { is_cut ? files.cut_off(cut_off) : files.finish(); });
   attempt(recording_, [&](Recording& file) {
     if (reader_) file.hold(reader_->lines());

@@ -24,6 +24,7 @@
 #include "tools/run/journal_file.hpp"
 #include "tools/run/rank_outputs.hpp"
 #include "tools/run/run_options.hpp"
+#include "tools/view/recorded_page.hpp"
 
 namespace waitpoint::tools {
 
@@ -53,12 +54,14 @@ class Outputs {
   template <class Attempt>
   void complete(const bridge::RunResult& result, const std::string& cut_off, Attempt attempt);
   void watch_ranks();
+  void watch_steps();
 
   const scenario::Scenario& scenario_;
   run::Experiment& experiment_;
   std::optional<JournalFile> journal_;
   std::optional<DurationFiles> durations_;
   std::optional<OutputFile> summary_, picture_;
+  std::optional<view::RecordedPage> page_;
   std::optional<TrajectoryFiles> trajectory_;
   std::optional<DigestRecorder> digests_;
   std::optional<EventRecorder> events_;
@@ -66,6 +69,7 @@ class Outputs {
   std::unique_ptr<Recording> recording_;
   std::optional<NewsReader> reader_;  // for the recording of one process
   std::optional<RankOutputs> ranks_;  // of several
+  view::SceneOptions scene_;          // for the page
   std::uint64_t seed_;
   pid_t process_;  // of the run
   bool is_running_ = false;

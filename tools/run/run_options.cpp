@@ -32,14 +32,16 @@ void check_picture(const std::string& name) {
 }  // namespace
 
 bool RunOptions::writes_standard_output() const {
-  for (const auto* file : {&summary, &picture, &record, &digests, &events, &decisions, &record_durations, &journal})
+  for (const auto* file :
+       {&summary, &picture, &page, &record, &digests, &events, &decisions, &record_durations, &journal})
     if (*file && is_standard_output(**file)) return true;
   return false;
 }
 
 void check_files(const RunOptions& options, std::span<const std::string> robots) {
   const auto name = [](const std::optional<std::filesystem::path>& file) { return file ? file->string() : ""; };
-  std::vector<NamedFile> files = {{"--summary", name(options.summary)}, {"--picture", name(options.picture)}};
+  std::vector<NamedFile> files = {
+      {"--summary", name(options.summary)}, {"--picture", name(options.picture)}, {"--page", name(options.page)}};
   if (options.trajectory)
     for (const std::filesystem::path& path : trajectory_names(*options.trajectory, robots))
       files.push_back({"--trajectory", path.string()});
@@ -134,6 +136,9 @@ RunArguments::RunArguments(CommandLine& line)
   command_.option("--summary", summary_, "FILE.json",
                   "write the summary as JSON; -: to standard output, in place of the text");
   command_.option("--picture", picture_, "FILE.svg", "draw the floor and the paths");
+  command_.option("--page", page_, "FILE.html",
+                  "write a page for browsers that shows the run: floor, timeline of tasks, plots,\n"
+                  "modules; one file, which needs no network (docs/view.md)");
   command_.option("--trajectory", trajectory_, "FILE.tum",
                   "write the paths in TUM format: the true one to FILE.tum, the others to\n"
                   "FILE.estimated.tum and FILE.odometry.tum; several robots: with their names");
@@ -166,6 +171,7 @@ void RunArguments::check_of_many(const char* option) const {
   check_not_together(option, {{"--journal", journal_},
                               {"--replay-journal", replay_journal_},
                               {"--picture", picture_},
+                              {"--page", page_},
                               {"--trajectory", trajectory_},
                               {"--record", record_},
                               {"--digests", digests_},
@@ -190,6 +196,7 @@ void RunArguments::check_alone() const {
 void RunArguments::check_for_ranks() const {
   check_not_together("--ranks", {{"--seeds", seeds_},
                                  {"--decisions", decisions_},
+                                 {"--page", page_},
                                  {"--record-durations", record_durations_},
                                  {"--replay-durations", replay_durations_}});
   if (check_) throw BadInput("--ranks", "cannot be used together with --check");
@@ -269,6 +276,7 @@ RunOptions RunArguments::options() const {
     refuse("--trajectory", "a name that ends in .tum: it writes three files", trajectory_);
   options.summary = file(summary_);
   options.picture = file(picture_);
+  options.page = file(page_);
   options.trajectory = file(trajectory_);
   options.record = file(record_);
   options.digests = file(digests_);

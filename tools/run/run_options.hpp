@@ -42,7 +42,7 @@ struct RunOptions {
   std::optional<std::filesystem::path> replay_journal;  ///< to repeat
   PartnerOptions partners;                              ///< outside
   bool check = false;                                   ///< self-check: compare runs instead of reporting a result
-  std::optional<std::filesystem::path> summary, picture, trajectory, record, digests, events, decisions;
+  std::optional<std::filesystem::path> summary, picture, page, trajectory, record, digests, events, decisions;
   std::optional<std::filesystem::path> record_durations, replay_durations;  ///< not both
 
   /// The end of a run, for a scenario whose own limit is `own`.
@@ -89,7 +89,7 @@ class RunArguments {
   Command command_;
   ScenarioArguments scenario_;
   std::string seed_, seeds_, jobs_, ranks_, order_, until_, speed_, watchdog_, idle_, journal_, replay_journal_;
-  std::string summary_, picture_, trajectory_, record_, digests_, events_, decisions_;
+  std::string summary_, picture_, page_, trajectory_, record_, digests_, events_, decisions_;
   std::string record_durations_, replay_durations_;
   std::vector<std::string> places_;
   PartnerOptions partners_;

@@ -58,7 +58,7 @@ TEST(FirstInFirstOut, IsRobotByRobotAtOneInstant) {
     run.scheduler.add(robots[i], name.c_str());
     first.push_back(spawn(i, name + "-first"));
     second.push_back(spawn(i, name + "-second"));
-    expected += name + "-second@5 " + name + "-first@5 ";
+    expected.append(name).append("-second@5 ").append(name).append("-first@5 ");
   }
   run.spawn([&] {
     run.sleep(5);

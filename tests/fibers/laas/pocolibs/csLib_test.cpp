@@ -144,6 +144,7 @@ TEST(CsLib, AReportBecomesTheClientsErrorCode) {
 TEST(CsLib, AClientHasTwentyRequestsAtATime) {
   with_server([](CLIENT_ID client) {
     std::vector<int> ids;
+    ids.reserve(CLIENT_NMAX_RQST_ID);
     for (int i = 0; i < CLIENT_NMAX_RQST_ID; ++i) ids.push_back(send(client, add_one, i));
     int value = 0, id = 0;
     EXPECT_EQ(csClientRqstSend(client, add_one, reinterpret_cast<char*>(&value), 4, nullptr, FALSE, 0, 0, &id), ERROR);
@@ -220,7 +221,7 @@ TEST(CsLib, ATaskWaitsForRequestsRepliesOrBoth) {
 
 int twice_coded(char* from, int bytes, char* to, int room) {
   if (room < 2 * bytes) return ERROR;
-  for (int i = 0; i < bytes; ++i) to[2 * i] = to[2 * i + 1] = from[i];
+  for (std::ptrdiff_t i = 0; i < bytes; ++i) to[2 * i] = to[2 * i + 1] = from[i];
   return 2 * bytes;
 }
 

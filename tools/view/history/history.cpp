@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/view/history/history.hpp"
+
+#include <algorithm>
+
+#include "core/error.hpp"
+
+namespace waitpoint::tools::view {
+namespace {
+
+constexpr std::size_t snapshots_max = 48, lines_max = 32, cursors_max = 24;
+
+std::string error_text(const std::string& text) { return text_of(Json{{"error", text}}); }
+
+/// The reply of a process, or why there is none.
+std::string text_of_reply(Channel::Message* message) {
+  return message != nullptr ? std::move(message->text)
+                            : error_text("the run dies on the way there: see what it wrote when it was run");
+}
+
+Time time_of(const Json& request, const char* key) { return Time::from_ns(request.at(key).get<std::int64_t>()); }
+
+std::string without_view_members(Json request, const char* what) {
+  request["do"] = what;
+  request.erase("id");
+  request.erase("ask");
+  request.erase("line");
+  return text_of(request);
+}
+
+}  // namespace
+
+History::~History() {
+  for (const Line& line : lines_)
+    for (const Snapshot& snapshot : line.snapshots) loop_.forget(snapshot.peer->number());
+  for (const auto& [key, cursor] : cursors_)
+    if (cursor->peer) loop_.forget(cursor->peer->number());
+}
+
+std::shared_ptr<Peer> History::join(Channel channel) {
+  const auto peer = std::make_shared<Peer>(std::move(channel));
+  loop_.watch(peer->number(), [this, peer] {
+    peer->take_replies();
+    if (!peer->is_open()) loop_.forget(peer->number());
+  });
+  return peer;
+}
+
+// The last owner of a peer closes its channel, and the process ends.
+void History::leave(const std::shared_ptr<Peer>& peer) { loop_.forget(peer->number()); }
+
+void History::add_snapshot(Time time, Channel channel) {
+  Line& line = lines_.front();
+  line.snapshots.push_back({time, join(std::move(channel))});
+  line.reached = std::max(line.reached, time);
+  if (line.snapshots.size() > snapshots_max) thin_out(line);
+}
+
+// Every second one, but not the first and the last.
+void History::thin_out(Line& line) {
+  std::vector<Snapshot> kept;
+  for (std::size_t i = 0; i < line.snapshots.size(); ++i) {
+    const bool stays = i % 2 == 0 || i + 1 == line.snapshots.size() || !line.snapshots[i].peer->is_idle();
+    if (stays)
+      kept.push_back(line.snapshots[i]);
+    else
+      leave(line.snapshots[i].peer);
+  }
+  line.snapshots = std::move(kept);
+}
+
+History::Line& History::line_of(const Json& request) {
+  const std::size_t number = request.value("line", std::size_t{0});
+  if (number >= lines_.size()) throw BadInput("the view", "there is no line of time of this number");
+  return lines_[number];
+}
+
+const History::Snapshot& History::snapshot_before(const Line& line, Time time) const {
+  const Snapshot* found = nullptr;
+  for (const Snapshot& snapshot : line.snapshots)
+    if (snapshot.peer->is_open() && (found == nullptr || snapshot.time <= time)) found = &snapshot;
+  if (found == nullptr) throw BadInput("the view", "there is no snapshot of this run");
+  return *found;
+}
+
+void History::copy(const Snapshot& from, std::function<void(std::shared_ptr<Peer>)> use) {
+  from.peer->ask(R"({"do":"fork"})", [this, use = std::move(use)](Channel::Message* reply) {
+    const bool is_made = reply != nullptr && reply->descriptor.number() >= 0;
+    use(is_made ? join(Channel(std::move(reply->descriptor))) : nullptr);
+  });
+}
+
+// An old cursor serves if it stands before `time` and no snapshot is nearer.
+History::Cursor& History::cursor_at(const CursorKey& key, const Line& line, Time time) {
+  const Snapshot& snapshot = snapshot_before(line, time);
+  const auto old = cursors_.find(key);
+  if (old != cursors_.end() && old->second->time <= time && old->second->time >= snapshot.time &&
+      (!old->second->is_made || old->second->peer->is_open()))
+    return *old->second;
+  if (old != cursors_.end()) {
+    if (old->second->peer) leave(old->second->peer);
+    cursors_.erase(old);
+  }
+  if (cursors_.size() >= cursors_max) throw BadInput("the view", "there are too many viewers of the past");
+  const auto cursor = std::make_shared<Cursor>();
+  cursor->time = snapshot.time;
+  cursors_[key] = cursor;
+  copy(snapshot, [this, cursor](const std::shared_ptr<Peer>& peer) {
+    cursor->peer = peer;
+    cursor->is_made = true;
+    for (auto& [request, reply] : std::exchange(cursor->waiting, {}))
+      ask(*cursor, std::move(request), std::move(reply));
+  });
+  return *cursor;
+}
+
+void History::ask(Cursor& cursor, std::string request, Reply reply) {
+  if (!cursor.is_made) {
+    cursor.waiting.emplace_back(std::move(request), std::move(reply));
+    return;
+  }
+  if (!cursor.peer) return reply(error_text("a copy of the run cannot be made"));
+  cursor.peer->ask(std::move(request),
+                   [reply = std::move(reply)](Channel::Message* message) { reply(text_of_reply(message)); });
+}
+
+void History::ask_cursor(Owner owner, const Json& request, Reply reply) {
+  const Line& line = line_of(request);
+  const std::string what = request.at("ask");
+  const CursorKey key(owner, static_cast<int>(&line - lines_.data()));
+  const auto present = cursors_.find(key);
+  const bool is_seek = what == "seek";
+  const Time time = is_seek                     ? std::max(time_of(request, "time"), Time())
+                    : present != cursors_.end() ? present->second->time
+                                                : line.reached;
+  Cursor& cursor = cursor_at(key, line, time);
+  cursor.time = std::max(cursor.time, time);
+  if (!is_seek && present == cursors_.end()) ask(cursor, text_of(Json{{"do", "to"}, {"time", time.ns()}}), [](auto) {});
+  // Where steps lead is known from their reply.
+  const auto moved = [this, key, reply](const std::string& text) {
+    const auto now = cursors_.find(key);
+    if (const auto at = text.find("\"time\":"); now != cursors_.end() && at != std::string::npos)
+      now->second->time = std::max(now->second->time, Time::from_ns(std::atoll(text.c_str() + at + 7)));
+    reply(text);
+  };
+  if (what == "step") return ask(cursor, without_view_members(request, "step"), moved);
+  ask(cursor, without_view_members(request, is_seek ? "to" : what.c_str()), std::move(reply));
+}
+
+void History::ask_once(const Json& request, Reply reply) {
+  const std::string what = request.at("ask");
+  const Line& line = line_of(request);
+  // A call stack is asked for with the time before its event.
+  const Time from = request.contains("from") ? time_of(request, "from") : line.reached;
+  const Snapshot& snapshot = what == "counts" ? line.snapshots.back() : snapshot_before(line, from);
+  const std::string text = without_view_members(request, what.c_str());
+  copy(snapshot, [this, text, reply](const std::shared_ptr<Peer>& peer) {
+    if (!peer) return reply(error_text("a copy of the run cannot be made"));
+    peer->ask(text, [this, peer, reply](Channel::Message* message) {
+      reply(text_of_reply(message));
+      leave(peer);
+    });
+  });
+}
+
+void History::branch(const Json& request, Reply reply) {
+  if (lines_.size() >= lines_max) throw BadInput("the view", "there are too many lines of time");
+  const Line& parent = line_of(request);
+  const Time time = std::max(time_of(request, "time"), Time());
+  Line line{.name = "branch " + std::to_string(lines_.size()),
+            .parent = static_cast<int>(&parent - lines_.data()),
+            .from = time,
+            .reached = time};
+  auto texts = request.at("interventions").get<std::vector<std::string>>();
+  copy(snapshot_before(parent, time), [this, line, time, texts, reply](const std::shared_ptr<Peer>& peer) {
+    if (!peer) return reply(error_text("a copy of the run cannot be made"));
+    peer->ask(text_of(Json{{"do", "to"}, {"time", time.ns()}}), [=, this](Channel::Message* message) {
+      if (message == nullptr) return reply(text_of_reply(message));
+      intervene(peer, texts, line, reply);
+    });
+  });
+}
+
+// One after the other; the first that is refused ends the attempt.
+void History::intervene(std::shared_ptr<Peer> peer, std::vector<std::string> texts, Line line, Reply reply) {
+  if (texts.empty()) {
+    line.snapshots.push_back({line.from, peer});
+    lines_.push_back(std::move(line));
+    return reply(text_of(Json{{"line", lines_.size() - 1}}));
+  }
+  const std::string next = texts.front();
+  texts.erase(texts.begin());
+  peer->ask(text_of(Json{{"do", "intervene"}, {"text", next}}), [=, this](Channel::Message* message) {
+    if (message != nullptr && !Json::parse(message->text).contains("error")) return intervene(peer, texts, line, reply);
+    reply(text_of_reply(message));
+    leave(peer);
+  });
+}
+
+void History::forget(Owner owner) {
+  for (auto cursor = cursors_.begin(); cursor != cursors_.end();) {
+    if (cursor->first.first != owner) {
+      ++cursor;
+      continue;
+    }
+    if (cursor->second->peer) leave(cursor->second->peer);
+    cursor = cursors_.erase(cursor);
+  }
+}
+
+Json History::lines() const {
+  Json list = Json::array();
+  for (std::size_t i = 0; i < lines_.size(); ++i) {
+    const Line& line = lines_[i];
+    list.push_back({{"line", i},
+                    {"from", line.from.ns()},
+                    {"to", line.reached.ns()},
+                    {"parent", line.parent >= 0 ? Json(line.parent) : Json(nullptr)},
+                    {"name", line.name}});
+  }
+  return list;
+}
+
+}  // namespace waitpoint::tools::view

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/view/history/live_run.hpp"
+
+#include <algorithm>
+#include <ctime>
+
+#include "core/error.hpp"
+#include "tools/output/summary.hpp"
+#include "tools/view/history/run_copy.hpp"
+#include "tools/view/module_lines.hpp"
+#include "tools/view/view_json.hpp"
+
+namespace waitpoint::tools::view {
+namespace {
+
+// Processor time between snapshots at first, which bounds the time that a look at the past takes. A fork costs the run
+// about a millisecond, and a copy of each page that it then writes.
+constexpr double snapshot_period_s = 0.1;
+constexpr double status_period_s = 0.1;
+constexpr int pause_ms = 50;
+
+double clock_s(clockid_t clock) {
+  timespec now{};
+  clock_gettime(clock, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+}  // namespace
+
+LiveRun::LiveRun(Channel& viewer, const scenario::Scenario& scenario, run::Experiment& experiment,
+                 const SceneOptions& options, std::string journal)
+    : viewer_(viewer),
+      scenario_(scenario),
+      experiment_(experiment),
+      journal_(std::move(journal)),
+      frames_(scenario, experiment),
+      counts_(experiment),
+      snapshot_period_s_(snapshot_period_s) {
+  for (const auto& robot : experiment.robots()) robot->set_watch(&logs_.emplace_back(robot->watch()));
+  viewer_.send(text_of(scene(scenario, experiment, options)));
+  make_snapshot();
+}
+
+void LiveRun::make_snapshot() {
+  const RunCopy here(scenario_, experiment_, journal_, reached_, counts_);
+  const Channel copy = here.fork();
+  viewer_.send(text_of(Json{{"kind", "snapshot"}, {"time", reached_.ns()}}), copy.number());
+  next_snapshot_s_ = clock_s(CLOCK_PROCESS_CPUTIME_ID) + snapshot_period_s_;
+}
+
+void LiveRun::after_window(Time reached, const std::function<bool()>& is_over) {
+  reached_ = reached;
+  counts_.take(reached);
+  if (!viewer_.is_open()) return;
+  take_requests();
+  if (clock_s(CLOCK_PROCESS_CPUTIME_ID) >= next_snapshot_s_) make_snapshot();
+  if (wanted_) {
+    viewer_.send(frames_.read(reached, *wanted_) + "}");
+    wanted_.reset();
+  }
+  if (clock_s(CLOCK_MONOTONIC) >= next_status_s_) {
+    send_status();
+    send_log();
+  }
+  while (is_paused_ && viewer_.is_open() && !is_over()) {
+    viewer_.has_news(pause_ms);
+    take_requests();
+    if (!wanted_) continue;
+    viewer_.send(frames_.read(reached, *wanted_) + "}");
+    wanted_.reset();
+  }
+}
+
+void LiveRun::take_requests() {
+  while (const auto message = viewer_.poll()) heed(message->text);
+}
+
+void LiveRun::heed(const std::string& text) {
+  const Json request = Json::parse(text);
+  const std::string what = request.at("do");
+  if (what == "frame") {
+    FrameOptions& options = wanted_.emplace();
+    options.scans = request.value("scans", true);
+    if (request.contains("view") && request["view"].is_array()) {
+      const auto view = request["view"].get<std::vector<double>>();
+      if (view.size() == 4) options.section = Section{{view[0], view[1]}, {view[2], view[3]}};
+    }
+  }
+  if (what == "pause") {
+    is_paused_ = request.at("on");
+    send_status();
+  }
+  if (what == "speed") speed_ = request.at("value").get<double>();
+  if (what == "thin") snapshot_period_s_ *= 2;
+}
+
+void LiveRun::send_status() {
+  next_status_s_ = clock_s(CLOCK_MONOTONIC) + status_period_s;
+  viewer_.send(text_of(Json{{"kind", "status"},
+                            {"time", reached_.ns()},
+                            {"events", experiment_.events()},
+                            {"over", false},
+                            {"outcome", ""},
+                            {"paused", is_paused_}}));
+}
+
+void LiveRun::send_log() {
+  const Json lines = take_lines(logs_);
+  if (!lines.empty()) viewer_.send(text_of(Json{{"kind", "log"}, {"lines", lines}}));
+}
+
+void LiveRun::finish(const bridge::RunResult& result) {
+  if (!viewer_.is_open()) return;
+  send_log();
+  make_snapshot();
+  viewer_.send(text_of(Json{{"kind", "status"},
+                            {"time", result.simulated.ns()},
+                            {"events", result.events},
+                            {"over", true},
+                            {"outcome", std::string(bridge::to_string(result.outcome))},
+                            {"paused", false},
+                            {"digest", to_string(result.digest)},
+                            {"summary", summary_text(result)}}));
+}
+
+}  // namespace waitpoint::tools::view

@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/view/history/run_copy.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <csignal>
+#include <system_error>
+
+#include "fibers/kernel/call_stack.hpp"
+#include "fibers/kernel/fault_reports.hpp"
+#include "fibers/sync/source_lines.hpp"
+#include "modules/run/journal.hpp"
+#include "tools/output/recorders.hpp"
+#include "tools/view/event_trace.hpp"
+#include "tools/view/frame_reader.hpp"
+#include "tools/view/poster_plots.hpp"
+#include "tools/view/run_states.hpp"
+
+namespace waitpoint::tools::view {
+namespace {
+
+// A copy goes on in windows, between which it looks if it is still wanted.
+constexpr Duration window = std::chrono::seconds(1);
+constexpr std::size_t frames_of_stack = 64, points_max = 100'000, events_max = 1'000'000;
+
+Time time_of(const Json& request, const char* key) { return Time::from_ns(request.at(key).get<std::int64_t>()); }
+
+// Standard output and error belong to the run.
+void leave_terminal() {
+  const Descriptor nothing(open("/dev/null", O_WRONLY | O_CLOEXEC));
+  if (nothing.number() < 0) return;
+  dup2(nothing.number(), STDOUT_FILENO);
+  dup2(nothing.number(), STDERR_FILENO);
+}
+
+}  // namespace
+
+Channel RunCopy::fork() const {
+  auto [here, there] = Channel::make();
+  const pid_t child = ::fork();
+  if (child < 0) throw std::system_error(errno, std::generic_category(), "a copy of the run");
+  if (child > 0) return std::move(here);
+  here = Channel(Descriptor());
+  RunCopy copy(scenario_, experiment_, journal_, reached_, counts_);
+  copy.serve(std::move(there));
+}
+
+// The outputs are the run's, and so is the interruption by the terminal; the copy ends with its channel.
+void RunCopy::serve(Channel channel) {
+  kernel::set_post_mortem(nullptr);
+  std::signal(SIGINT, SIG_IGN);
+  std::signal(SIGCHLD, SIG_IGN);
+  leave_terminal();
+  experiment_.set_observer([this](Time time) { counts_.take(time); });
+  experiment_.simulation().scheduler().set_watch(nullptr);
+  for (const auto& robot : experiment_.robots()) robot->set_watch(nullptr);
+  channel_ = &channel;
+  answer_requests();
+  _exit(0);
+}
+
+void RunCopy::answer_requests() {
+  while (const auto message = channel_->receive()) {
+    std::string reply;
+    try {
+      const Json request = Json::parse(message->text);
+      if (request.at("do") == "fork") {
+        const Channel copy = fork();
+        channel_->send(fmt::format("{{\"time\":{},\"events\":{}}}", now().ns(), experiment_.events()), copy.number());
+        continue;
+      }
+      reply = answer(request);
+    } catch (const std::exception& failure) {
+      reply = text_of(Json{{"error", failure.what()}, {"time", now().ns()}});
+    }
+    channel_->send(reply);
+  }
+}
+
+std::string RunCopy::answer(const Json& request) {
+  const std::string what = request.at("do");
+  if (what == "to") {
+    go_to(time_of(request, "time") + Duration::from_ns(1));
+    return floor();
+  }
+  if (what == "look") return floor();
+  if (what == "step") return step(request);
+  if (what == "tasks") return text_of(task_states(experiment_));
+  if (what == "modules") {
+    const std::size_t robot = request.at("robot");
+    if (robot >= experiment_.robots().size()) throw BadInput("the view", "expected the number of a robot");
+    return text_of(module_states(experiment_, robot));
+  }
+  if (what == "events") return events(request);
+  if (what == "plot") return plot(request);
+  if (what == "stack") return stack(request);
+  if (what == "digests") return digests(request);
+  if (what == "intervene") return intervene(request);
+  if (what == "counts") return counts_.text();
+  if (what == "journal") return journal();
+  throw BadInput("the view", "there is no request '" + what + "'");
+}
+
+std::string RunCopy::floor(const Json& more) {
+  FrameReader reader(scenario_, experiment_);  // a new one: the whole floor
+  std::string text = reader.read(now(), {});
+  return text + (more.empty() ? "}" : "," + text_of(more).substr(1));
+}
+
+// The instant that the copy stands at: between two events of it, or at the end of what it was asked for.
+Time RunCopy::now() const {
+  if (is_over_ || experiment_.paused()) return experiment_.simulation().global_time();
+  return std::max(reached_ - Duration::from_ns(1), Time());
+}
+
+// All events before `time`.
+void RunCopy::go_to(Time time) {
+  while (!is_over_ && reached_ < time) {
+    go_on(std::min(time, reached_ + window));
+    if (!channel_->is_wanted()) _exit(0);
+  }
+}
+
+RunEnd RunCopy::go_on(Time time, const std::function<bool(const kernel::EventRecord&)>& enough) {
+  const RunEnd end = enough ? experiment_.run_before(time, enough) : experiment_.run_before(time);
+  is_over_ = end != RunEnd::time_reached;
+  if (!experiment_.paused()) reached_ = std::max(reached_, time);
+  return end;
+}
+
+std::string RunCopy::step(const Json& request) {
+  const std::uint64_t count = request.value("count", std::uint64_t{1});
+  const Json& of = request.contains("task") ? request.at("task") : Json();
+  const std::optional<std::uint32_t> task = of.is_number() ? std::optional(of.get<std::uint32_t>()) : std::nullopt;
+  std::uint64_t seen = 0, all = experiment_.events();
+  Json event = nullptr;
+  const auto enough = [&](const kernel::EventRecord& record) {
+    ++all;
+    if (task && record.task->number != *task) return false;
+    if (++seen < count) return false;
+    event = {{"number", all}, {"time", record.time.ns()}, {"task", record.task->number}, {"text", event_text(record)}};
+    return true;
+  };
+  while (event.is_null() && !is_over_ && channel_->is_wanted()) go_on(reached_ + window, enough);
+  return floor({{"event", event}});
+}
+
+std::string RunCopy::events(const Json& request) {
+  const Time from = time_of(request, "from"), to = time_of(request, "to");
+  const std::size_t most = std::min(request.value("most", events_max), events_max);
+  go_to(from);
+  const EventTrace trace(experiment_.simulation().scheduler(), most);
+  constexpr std::int64_t parts = 256;
+  const Duration part = std::max(Duration::from_ns(1), (to - from) / parts);
+  for (Time at = from; at < to && trace.is_complete(); at = std::min(to, at + part)) {
+    if (go_on(std::min(to, at + part)) != RunEnd::time_reached) break;
+    if (!channel_->is_wanted()) _exit(0);
+  }
+  return trace.text(from, to);
+}
+
+std::string RunCopy::plot(const Json& request) {
+  const std::size_t robot = request.at("robot");
+  if (robot >= experiment_.robots().size()) throw BadInput("the view", "expected the number of a robot");
+  const std::string name = request.at("poster"), field = request.at("field");
+  const genom::PosterBase* const poster = experiment_.robots()[robot]->names().find_poster(name);
+  if (poster == nullptr || !poster->has_number(field))
+    throw BadInput("the view", "there is no number '" + field + "' of a poster '" + name + "'");
+  const Time from = time_of(request, "from"), to = time_of(request, "to");
+  const auto points = static_cast<std::int64_t>(std::clamp<std::size_t>(request.value("points", 1000), 1, points_max));
+  const Duration step = std::max(Duration::from_ns(1), (to - from) / points);
+  std::string times, values;
+  for (Time at = from; at <= to; at = at + step) {
+    go_to(at);
+    if (is_over_) break;
+    FieldReading reading{field};
+    Time date;
+    const bool is_number =
+        poster->look_numbers({&reading, 1}, date) == genom::PosterStatus::ok && reading.outcome == FieldOutcome::number;
+    times += fmt::format("{}{}", times.empty() ? "" : ",", at.ns());
+    if (!values.empty()) values += ',';
+    values += is_number && std::isfinite(reading.number) ? fmt::format("{:.9g}", reading.number) : "null";
+  }
+  return "{\"t\":[" + times + "],\"v\":[" + values + "]}";
+}
+
+std::string RunCopy::stack(const Json& request) {
+  const std::uint64_t last = request.at("event");
+  std::uint64_t seen = experiment_.events();
+  if (last <= seen) throw BadInput("the view", "expected an event after this instant");
+  sync::ReturnAddresses addresses(frames_of_stack);
+  std::string task;
+  const auto enough = [&](const kernel::EventRecord& record) {
+    if (++seen < last) return false;
+    task = std::string(record.task->name) + " of " + record.task->robot->name;
+    addresses.resize(kernel::capture_call_stack(addresses.data(), addresses.size()));
+    return true;
+  };
+  while (task.empty() && !is_over_ && channel_->is_wanted()) go_on(reached_ + window, enough);
+  if (task.empty()) throw BadInput("the view", "the run ends before this event");
+  const sync::ReturnAddresses stacks[] = {addresses};
+  Json frames = Json::array();
+  for (const std::string& line : sync::user_source_lines(stacks, frames_of_stack).front()) frames.push_back(line);
+  return text_of({{"task", task}, {"event", last}, {"frames", frames}});
+}
+
+std::string RunCopy::digests(const Json& request) {
+  Json list = Json::array();
+  for (const Json& time : request.at("times")) {
+    go_to(Time::from_ns(time.get<std::int64_t>()));
+    list.push_back(to_string(experiment_.simulation().digest()));
+  }
+  return text_of({{"digests", list}});
+}
+
+std::string RunCopy::intervene(const Json& request) {
+  const run::Intervention intervention =
+      run::parse_intervention(request.at("text").get<std::string>(), {"the view", 0});
+  const Time date = experiment_.intervene(intervention);
+  journal_ += run::to_text(date, intervention);
+  return text_of({{"date", date.ns()}});
+}
+
+std::string RunCopy::journal() const {
+  const run::JournalEnd here{now(), experiment_.events(), to_string(experiment_.simulation().digest())};
+  return text_of({{"text", journal_ + run::to_text(here)}});
+}
+
+}  // namespace waitpoint::tools::view

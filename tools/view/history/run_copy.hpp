@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A copy of a run: a forked process that stands at an instant of it, and does what its channel asks, until the channel
+// is closed. Threads of the run are fibers, so that a fork copies all of them: what the copy does from here on is what
+// the run does, or would do after an intervention, and the run itself is not touched.
+//
+// Requests are JSON: {"do": ..., ...}; each has one reply, with "error" if it is refused:
+//
+//   fork                       a copy of the copy: its channel comes as the reply's descriptor
+//   to {time}                  goes on to that time, everything at it included, and shows the floor
+//   step {count, task}         goes on by so many events, of one task if its number is given
+//   look                       the floor
+//   tasks; modules {robot}     run_states.hpp
+//   events {from, to, most}    goes on to `from`, then shows the events up to `to`
+//   plot {robot, poster, field, from, to, points}     samples of a poster's number
+//   stack {event}              goes on to the event of this number, and shows the call stack of its task there
+//   digests {times}            goes on to each of the times, and shows the digest there
+//   intervene {text}           modules/run/intervention.hpp, at the next step of the world
+//   counts                     event_counts.hpp, from the start of the run to here
+//   journal                    what was intervened so far, and where this is
+#pragma once
+
+#include <string>
+
+#include "modules/run/experiment.hpp"
+#include "tools/view/event_counts.hpp"
+#include "tools/view/history/channel.hpp"
+#include "tools/view/view_json.hpp"
+
+namespace waitpoint::tools::view {
+
+class RunCopy {
+ public:
+  /// The run as it is now, everything before `reached` done and counted; `journal` has its head and the interventions
+  /// so far.
+  RunCopy(const scenario::Scenario& scenario, run::Experiment& experiment, std::string journal, Time reached,
+          EventCounts& counts)
+      : scenario_(scenario),
+        experiment_(experiment),
+        counts_(counts),
+        journal_(std::move(journal)),
+        reached_(reached) {}
+
+  /// Forks: returns the channel of the new copy. Between windows of the run. Throws std::system_error.
+  Channel fork() const;
+
+ private:
+  [[noreturn]] void serve(Channel channel);
+  void answer_requests();
+  std::string answer(const Json& request);
+  std::string floor(const Json& more = Json::object());
+  void go_to(Time time);
+  RunEnd go_on(Time time, const std::function<bool(const kernel::EventRecord&)>& enough = nullptr);
+  std::string step(const Json& request);
+  std::string events(const Json& request);
+  std::string plot(const Json& request);
+  std::string stack(const Json& request);
+  std::string digests(const Json& request);
+  std::string intervene(const Json& request);
+  std::string journal() const;
+  Time now() const;
+
+  const scenario::Scenario& scenario_;
+  run::Experiment& experiment_;
+  EventCounts& counts_;
+  std::string journal_;
+  Channel* channel_ = nullptr;  // in the copy
+  Time reached_;                // everything before it is done
+  bool is_over_ = false;
+};
+
+}  // namespace waitpoint::tools::view
