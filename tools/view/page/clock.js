@@ -103,12 +103,11 @@ class Clock {
     this.changed();
   }
 
+  /** While the cursor follows the run, the first pause leaves it where it is. */
   toggle() {
     if (this.playing) this.pause();
-    else {
-      this.setLive(false);
-      this.play();
-    }
+    else if (this.live) this.setLive(false);
+    else this.play();
   }
 
   tick(now) {
@@ -137,9 +136,8 @@ class Clock {
     this.live = live;
     if (live) {
       this.pause();
-      if (this.session.line !== 0) this.session.source.chooseLine?.(0);
       this.session.line = 0;
-      this.session.changed("run");
+      this.session.changed("line");
     }
     this.changed();
   }

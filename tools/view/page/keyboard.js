@@ -21,6 +21,7 @@ const KEYS = [
     ["m", "measure: drag from a place to another"],
     ["v", "oblique view; Shift or right button and drag turn it"],
     ["+  −  0", "zoom, show all"],
+    ["Shift click", "a place for a branch's intervention"],
     ["drag, wheel", "pan, zoom; double click on a robot follows it"],
   ]],
   ["Timeline", [

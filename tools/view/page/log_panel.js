@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Requests and their outcomes, and what else the run has told, about the cursor; and the summary of the run.
+// Requests and their outcomes, and what else the run has told, about the cursor.
 
 class LogPanel {
   constructor(panel, session, clock) {
@@ -26,18 +26,5 @@ class LogPanel {
       element("button", {class: "link", onclick: () => this.clock.seek(time)}, shortInstantText(time)), ` ${bad ? "⚠ " : ""}${many && index >= 0 ? `${robot(index)} ` : ""}${module ? `${module}: ` : ""}${text}`)));
     if (lines.length === 0) this.list.append(element("li", {class: "note"}, "Nothing."));
     this.list.children[Math.max(0, now - first - 1)]?.scrollIntoView({block: "nearest"});
-  }
-}
-
-class SummaryPanel {
-  constructor(panel, session) {
-    this.session = session;
-    this.text = element("pre");
-    panel.append(element("h3", {}, "Summary"), this.text);
-  }
-
-  update() {
-    const {status} = this.session.source;
-    setText(this.text, status.summary || (status.over ? "This run has no summary." : `The run is at ${shortInstantText(status.time)}, after ${countText(status.events)} events.`));
   }
 }

@@ -4,7 +4,10 @@
 function buildParts(session, clock) {
   const axis = new TimeAxis(session), camera = new Camera(), parts = {axis, camera};
   parts.plan = new PlanView(byId("plan-canvas"), session, camera, () => session.frame, () => session.line);
-  parts.repaintPlans = () => parts.plan.surface.invalidate();
+  parts.repaintPlans = () => {
+    parts.plan.surface.invalidate();
+    parts.beside?.plan?.surface.invalidate();
+  };
   parts.planTools = new PlanTools(session, parts.plan, parts.repaintPlans);
   parts.planGestures = new PlanGestures(parts.plan, session, {repaint: parts.repaintPlans, measuring: () => parts.planTools.measuring, status: (text) => setText(byId("pointer"), text)});
   const host = element("div", {class: "lanes-of"});
@@ -21,7 +24,9 @@ function buildParts(session, clock) {
   panel("modules", "Modules", (at) => new ModulesPanel(at, session, (wanted) => parts.plots.add(wanted)));
   panel("event", "Event", (at) => new EventPanel(at, session, clock, () => parts.timelineGestures));
   panel("log", "Log", (at) => new LogPanel(at, session, clock));
-  panel("summary", "Summary", (at) => new SummaryPanel(at, session));
+  panel("lines", "Lines", (at) => new LinesPanel(at, session, clock));
+  panel("run", "Run", (at) => new RunPanel(at, session, report));
+  parts.beside = new Beside(session, clock, parts);
   parts.plots = new PlotsView(session, axis, clock);
   makeSplitter(byId("split-side"), byId("side"), 160);
   makeSplitter(byId("split-lower"), byId("timeline"), 70);
@@ -39,7 +44,7 @@ function connectParts(session, clock, parts) {
     updatePanel();
     describe();
   });
-  session.on("layers robot", () => plan.surface.invalidate());
+  session.on("layers robot", parts.repaintPlans);
   session.on("robot event line run log source", updatePanel);
   session.on("event", () => {
     timeline.scrolled();
@@ -65,6 +70,7 @@ function connectParts(session, clock, parts) {
   byId("theme").addEventListener("click", () => toggleTheme(session));
   theme.system.addEventListener("change", () => chooseTheme(session, theme.chosen));
   parts.keyboard = new Keyboard(session, clock, pageActions(session, parts));
+  connectSource(session, clock, parts);
   showFacts(session);
 }
 
@@ -93,6 +99,10 @@ function pageActions(session, parts) {
     measure: () => planTools.toggleMeasure(),
     oblique: () => planTools.toggleOblique(),
     theme: () => toggleTheme(session),
+    branch: () => {
+      parts.tabs.choose("lines");
+      parts.panels.get("lines").form.lines.focus();
+    },
     cursor: () => showCursor(session, axis),
     fit: () => plan.fit(),
     zoomIn: () => zoom(1.25),

@@ -73,7 +73,11 @@ class PlanGestures {
     const at = this.view.surface.place(event), pressed = this.pointers.delete(event.pointerId);
     if (!pressed || this.moved || event.type === "pointercancel" || event.button !== 0 || this.measuring()) return;
     const robot = this.view.robotAt(at.x, at.y);
-    if (robot >= 0) this.session.selectRobot(robot);
+    if (event.shiftKey) {
+      // A place for an intervention.
+      this.session.place = this.camera.place(at.x, at.y);
+      this.session.changed("place");
+    } else if (robot >= 0) this.session.selectRobot(robot);
   }
 
   wheel(event) {

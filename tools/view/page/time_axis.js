@@ -96,7 +96,7 @@ class TimeAxis {
     pen.font = "11px system-ui, sans-serif";
     pen.textBaseline = "middle";
     pen.textAlign = "left";
-    for (const time of times) pen.fillText(this.tickText(time, step), Math.round(this.x(time)) + 3, 10);
+    for (const time of times) if (this.x(time) < this.left + this.width - 24) pen.fillText(this.tickText(time, step), Math.round(this.x(time)) + 3, 10);
   }
 }
 

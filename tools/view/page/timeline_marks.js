@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What is drawn in the timeline's lanes: states and events if they are few, their density if they are many.
 
+const MOST_APART = 400;  // events in view, up to which those of an instant are set apart
+
 /**
  * Places of events on the axis. Events of one instant have one time; where there is room before the next instant, they are set
  * apart in the order of their execution.
@@ -10,11 +12,13 @@ class EventPlaces {
     Object.assign(this, {store, axis, begin, end});
     this.x = new Float64Array(Math.max(0, end - begin));
     this.instants = [];  // those set apart: {x, end}
+    // In a wider view the places would look like times.
+    const close = end - begin <= MOST_APART;
     for (let i = begin; i < end;) {
       let next = i + 1;
       while (next < end && store.time[next] === store.time[i]) ++next;
       const x = axis.x(store.time[i]), room = (next < store.count ? axis.x(store.time[next]) : axis.left + axis.width) - x;
-      const apart = Math.min(8, 0.8 * Math.min(room, axis.width) / (next - i));
+      const apart = close ? Math.min(8, 0.8 * Math.min(room, axis.width) / (next - i)) : 0;
       if (apart >= 1.5 && next - i > 1) this.instants.push({x, end: x + apart * (next - i)});
       for (let k = i; k < next; ++k) this.x[k - begin] = apart >= 1.5 ? x + apart * (k - i) : x;
       i = next;
@@ -35,13 +39,14 @@ function stateFill(pen, state) {
 function drawLane(pen, store, places, axis, task, period, top, height, thin) {
   const lane = store.lanes[task], begin = Math.max(0, store.atInLane(task, axis.from) - 1), left = axis.left, right = axis.left + axis.width;
   const middle = top + height / 2, body = thin ? height * 0.4 : height * 0.62;
-  let activation = period > 0 ? activationAt(store, lane, begin) : null, drawnTo = -Infinity;
+  let activation = period > 0 ? activationAt(store, lane, begin) : null, workedTo = -Infinity;
   const draw = (before, after, from, to) => {
-    const x0 = Math.max(left, from), x1 = Math.min(right, to);
-    if (x1 <= x0 || (x1 - drawnTo < 0.5 && x1 - x0 < 0.5)) return;
-    drawnTo = x1;
-    const {state, object} = stateBetween(store, before, after);
-    if (!state) return;
+    const x0 = Math.max(left, from), x1 = Math.min(right, to), small = x1 - x0 < 0.5;
+    if (x1 < left || x0 > right || x1 < x0) return;
+    const {state, object} = stateBetween(store, before, after), waits = state === "idle" || state === "blocked";
+    // Waits shorter than a pixel are left out. Work is not, however short: a pixel has some or none.
+    if (!state || (small && (waits || before < 0 || store.time[after] === store.time[before] || x0 < workedTo))) return;
+    if (!waits) workedTo = Math.max(x1, x0 + 1.5);
     if (state === "idle") {
       pen.fillStyle = theme.colours.idle;
       pen.fillRect(x0, middle - 0.75, x1 - x0, 1.5);
@@ -49,7 +54,7 @@ function drawLane(pen, store, places, axis, task, period, top, height, thin) {
     }
     pen.fillStyle = stateFill(pen, state);
     const size = state === "blocked" ? body * 0.5 : body;
-    pen.fillRect(x0, middle - size / 2, Math.max(1, x1 - x0), size);
+    pen.fillRect(x0, middle - size / 2, Math.max(1.5, x1 - x0), size);
     if (state === "blocked" && x1 - x0 > 80 && !thin) laneText(pen, object >= 0 ? store.objectText(object) : "waits", x0 + 6, middle, x1 - x0 - 12);
     const end = after >= 0 ? store.time[after] : axis.to;
     if (period > 0 && activation !== null && state !== "blocked" && end > activation + period) {
@@ -82,10 +87,16 @@ function laneText(pen, text, x, y, room) {
   pen.fillText(text, x + 4, y + 0.5);
 }
 
+/** A line for each event; of those closer than three pixels the first. */
 function drawTicks(pen, store, places, axis, task, top, height) {
-  const lane = store.lanes[task], begin = store.atInLane(task, axis.from), middle = top + height / 2;
+  const lane = store.lanes[task], middle = top + height / 2;
   pen.fillStyle = theme.colours.text;
-  for (let i = begin; i < lane.length && store.time[lane[i]] <= axis.to; ++i) pen.fillRect(places.of(lane[i]) - 0.5, middle - height * 0.38, 1.25, height * 0.76);
+  for (let i = store.atInLane(task, axis.from), last = -9; i < lane.length && store.time[lane[i]] <= axis.to; ++i) {
+    const x = places.of(lane[i]);
+    if (x - last < 3) continue;
+    pen.fillRect(x - 0.5, middle - height * 0.34, 1, height * 0.68);
+    last = x;
+  }
 }
 
 /** Events a pixel, as the height of a bar. at(x): the number of events before that pixel. */

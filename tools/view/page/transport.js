@@ -50,9 +50,10 @@ class Transport {
     this.slider.setAttribute("aria-valuetext", shortInstantText(time));
     setText(byId("of"), `of ${shortInstantText(clock.end)} · event ${countText(session.frame?.events ?? 0)}`);
     const play = byId("play");
-    play.classList.toggle("playing", clock.playing);
-    play.setAttribute("aria-label", clock.playing ? "Pause" : "Play");
-    play.title = `${clock.playing ? "Pause" : "Play"} (space)`;
+    const moves = clock.playing || clock.live;
+    play.classList.toggle("playing", moves);
+    play.setAttribute("aria-label", moves ? "Pause" : "Play");
+    play.title = `${moves ? "Pause" : "Play"} (space)`;
     byId("live").hidden = session.source.kind !== "live";
     byId("live").setAttribute("aria-pressed", String(clock.live));
     const speed = byId("speed");

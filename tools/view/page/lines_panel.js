@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Lines of time: the run and its branches, which of them is shown, which one beside it, and where the two begin to differ.
+
+class LinesPanel {
+  constructor(panel, session, clock) {
+    Object.assign(this, {session, clock});
+    this.list = element("ul", {class: "lines"});
+    this.difference = element("div", {class: "difference"});
+    this.journal = element("div");
+    panel.append(element("h3", {}, "Lines of time"), this.list, this.difference, this.journal);
+    this.form = new BranchForm(panel, session, (line) => clock.setLine(line));
+    session.on("run line compare", () => this.update());
+  }
+
+  update() {
+    const {session} = this, {lines} = session.source.status, key = JSON.stringify([lines.map(({to, ...line}) => line), session.line, session.compared?.line, session.compared?.difference]);
+    this.form.update();
+    lines.forEach((line, i) => this.list.children[i]?.lastChild && setText(this.list.children[i].lastChild, this.rangeText(line)));
+    if (key === this.shown) return;
+    this.shown = key;
+    this.list.replaceChildren(...lines.map((line) => this.row(line)));
+    this.showDifference();
+  }
+
+  rangeText(line) {
+    return `${line.parent === null ? "from the begin" : `from line ${line.parent} at ${shortInstantText(line.from)}`}, to ${shortInstantText(line.to)}`;
+  }
+
+  row(line) {
+    const {session} = this, shown = line.line === session.line, beside = line.line === session.compared?.line;
+    const button = (text, pressed, action, more = {}) => element("button", {"aria-pressed": String(pressed), onclick: action, ...more}, text);
+    return element("li", {class: shown ? "marked" : ""}, element("strong", {}, `${line.line}: ${line.name}`),
+      element("span", {class: "row"}, button("Show", shown, () => this.clock.setLine(line.line), {"aria-label": `Show line ${line.line}`}),
+        shown ? null : button("Beside", beside, () => this.compare(beside ? null : line.line), {"aria-label": `Line ${line.line} beside`}),
+        session.source.journal ? element("button", {"aria-label": `Journal of line ${line.line}`, onclick: () => this.showJournal(line.line)}, "Journal") : null),
+      element("span", {class: "age"}, this.rangeText(line)));
+  }
+
+  /** Shows a line beside this one, or none. */
+  async compare(line) {
+    const {session} = this;
+    session.compared = line === null ? null : {line, frame: null, difference: null};
+    session.changed("beside");
+    session.changed("compare");
+    if (line === null) return;
+    await this.clock.seek(session.time);
+    const difference = await session.source.compare(session.line, line).catch((error) => ({error: error.message}));
+    if (session.compared?.line !== line) return;
+    session.compared.difference = difference;
+    session.changed("beside");
+    session.changed("compare");
+  }
+
+  showDifference() {
+    const {compared, line} = this.session, found = compared?.difference;
+    const event = (name, text) => [element("dt", {}, `line ${name}`), element("dd", {}, text || "no event")];
+    this.difference.replaceChildren(...(!compared ? [] : [element("h3", {}, "First event that differs"),
+      !found ? element("p", {class: "note"}, "…") : found.error ? element("p", {class: "note"}, found.error) : found.event === null ? element("p", {class: "note"}, "None so far.")
+        : element("div", {}, element("p", {}, `Event ${countText(found.event)} at ${instantText(found.time)} `, element("button", {onclick: () => this.clock.goTo({time: found.time, number: found.event})}, "Go there")),
+          element("dl", {class: "facts"}, event(line, found.a), event(compared.line, found.b)))]));
+  }
+
+  async showJournal(line) {
+    const answer = await this.session.source.journal(line).catch((error) => ({text: error.message, command: ""}));
+    this.journal.replaceChildren(element("h3", {}, `Journal of line ${line}`), element("pre", {}, answer.text),
+      element("p", {class: "note"}, answer.command ? "Repeated by:" : ""), element("pre", {}, answer.command ?? ""));
+  }
+}
