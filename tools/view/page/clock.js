@@ -112,6 +112,8 @@ class Clock {
 
   tick(now) {
     if (!this.playing) return;
+    // Before the next tick is asked for, so that each picture shows what came of the tick before it: else every other one would.
+    askPicture();
     const passed = Math.min(now - this.last, 250) * MILLISECOND;
     this.last = now;
     // A seek by hand, or a slow source, moves the position from which playing goes on.

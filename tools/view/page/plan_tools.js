@@ -62,7 +62,7 @@ class PlanTools {
     this.boxes = LAYERS.map((layer) => {
       const box = element("input", {type: "checkbox", checked: layer.on, onchange: () => this.session.toggleLayer(layer.key)});
       const swatch = element("span", {class: "swatch", "aria-hidden": "true"});
-      byId("layer-menu").append(element("label", {}, box, swatch, layer.name), ...(layer.key === "trail" ? [trail] : []));
+      byId("layer-menu").append(element("div", {class: "layer"}, element("label", {}, box, swatch, layer.name), layer.key === "trail" ? trail : null));
       return {layer, box, swatch};
     });
     this.updateMenu();

@@ -7,6 +7,12 @@ let pictureAsked = false;
 /** For tests and the figure in the corner of the plan: pictures painted, and the time that the last ones took. */
 const pictures = {count: 0, cost: 0};
 
+function askPicture() {
+  if (pictureAsked) return;
+  pictureAsked = true;
+  requestAnimationFrame(paintSurfaces);
+}
+
 function paintSurfaces() {
   pictureAsked = false;
   const begin = performance.now();
@@ -52,9 +58,7 @@ class Surface {
 
   invalidate() {
     this.stale = true;
-    if (pictureAsked) return;
-    pictureAsked = true;
-    requestAnimationFrame(paintSurfaces);
+    askPicture();
   }
 
   /** A pointer's place on the canvas. */
