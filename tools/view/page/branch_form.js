@@ -12,7 +12,7 @@ class BranchForm {
     this.seed = element("input", {type: "text", inputmode: "numeric", size: 8, "aria-label": "Seed from here on", placeholder: "as before"});
     this.go = element("button", {class: "primary", onclick: () => this.branch()}, "Branch here");
     this.note = element("p", {class: "note", role: "status"});
-    this.root = element("div", {}, element("h3", {}, "Branch"), element("div", {class: "row"}, this.kind, this.fields, element("button", {onclick: () => this.add()}, "Add")),
+    this.root = element("div", {}, element("h2", {}, "Branch"), element("div", {class: "row"}, this.kind, this.fields, element("button", {onclick: () => this.add()}, "Add")),
       this.lines, element("div", {class: "row"}, element("label", {}, "Seed ", this.seed), this.go), this.note);
     panel.append(this.root);
     session.on("robot", () => this.showFields());

@@ -11,7 +11,7 @@ class EventPanel {
     const button = (text, action, title) => element("button", {onclick: action, title}, text);
     this.buttons = element("div", {class: "row"}, button("Go there", () => clock.goTo(session.event), "Enter, or a double click in the timeline"),
       button("◂ of this task", () => gestures().selectBeside(-1)), button("of this task ▸", () => gestures().selectBeside(1)));
-    panel.append(element("h3", {}, "Event"), this.note, this.facts, this.buttons, element("h3", {}, "Source"), this.stack);
+    panel.append(element("h2", {}, "Event"), this.note, this.facts, this.buttons, element("h2", {}, "Source"), this.stack);
     session.on("event", () => this.load());
   }
 

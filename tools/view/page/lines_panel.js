@@ -7,7 +7,7 @@ class LinesPanel {
     this.list = element("ul", {class: "lines"});
     this.difference = element("div", {class: "difference"});
     this.journal = element("div");
-    panel.append(element("h3", {}, "Lines of time"), this.list, this.difference, this.journal);
+    panel.append(element("h2", {}, "Lines of time"), this.list, this.difference, this.journal);
     this.form = new BranchForm(panel, session, (line) => clock.setLine(line));
     session.on("run line compare", () => this.update());
   }
@@ -54,7 +54,7 @@ class LinesPanel {
   showDifference() {
     const {compared, line} = this.session, found = compared?.difference;
     const event = (name, text) => [element("dt", {}, `line ${name}`), element("dd", {}, text || "no event")];
-    this.difference.replaceChildren(...(!compared ? [] : [element("h3", {}, "First event that differs"),
+    this.difference.replaceChildren(...(!compared ? [] : [element("h2", {}, "First event that differs"),
       !found ? element("p", {class: "note"}, "…") : found.error ? element("p", {class: "note"}, found.error) : found.event === null ? element("p", {class: "note"}, "None so far.")
         : element("div", {}, element("p", {}, `Event ${countText(found.event)} at ${instantText(found.time)} `, element("button", {onclick: () => this.clock.goTo({time: found.time, number: found.event})}, "Go there")),
           element("dl", {class: "facts"}, event(line, found.a), event(compared.line, found.b)))]));
@@ -62,7 +62,7 @@ class LinesPanel {
 
   async showJournal(line) {
     const answer = await this.session.source.journal(line).catch((error) => ({text: error.message, command: ""}));
-    this.journal.replaceChildren(element("h3", {}, `Journal of line ${line}`), element("pre", {}, answer.text),
+    this.journal.replaceChildren(element("h2", {}, `Journal of line ${line}`), element("pre", {}, answer.text),
       element("p", {class: "note"}, answer.command ? "Repeated by:" : ""), element("pre", {}, answer.command ?? ""));
   }
 }

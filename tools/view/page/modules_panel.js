@@ -10,7 +10,7 @@ class ModulesPanel {
     this.activities = new TextTable("Activities", ["Activity", "Number", "State"]);
     this.posters = element("div");
     this.requests = element("div");
-    panel.append(this.note, this.activities.table, this.tasks.table, element("h3", {}, "Posters"), this.posters, element("h3", {}, "Requests"), this.requests);
+    panel.append(this.note, this.activities.table, this.tasks.table, element("h2", {}, "Posters"), this.posters, element("h2", {}, "Requests"), this.requests);
     this.opened = new Map();  // posters' elements by name
     this.asked = 0;
     session.on("robot", () => this.showRequests());

@@ -20,10 +20,9 @@ class PlanTools {
 
   toggleFollow() {
     this.session.follow(!this.session.following);
-    const {camera} = this.view;
+    const {camera} = this.view, {following, header, robot} = this.session;
     // From afar a robot is hard to see; it is followed close by.
-    if (this.session.following && camera.scale < 25) camera.scale = 60;
-    if (!this.session.following) this.repaint();
+    if (following && camera.scale * reachOf(header.robots[robot]) < 8) camera.scale = 16 / reachOf(header.robots[robot]);
     camera.fitted = false;
     this.repaint();
   }

@@ -7,8 +7,8 @@ class RobotsPanel {
   constructor(panel, session) {
     this.session = session;
     this.table = new TextTable("Robots", ["Robot", "x m", "y m", "Heading", "Goals", "Collisions"]);
-    this.detail = new TextTable("", ["", "x m", "y m", "Heading"]);
-    this.goals = new TextTable("Goals", ["Goal", "x m", "y m", ""]);
+    this.detail = new TextTable("", ["Pose", "x m", "y m", "Heading"]);
+    this.goals = new TextTable("Goals", ["Goal", "x m", "y m", "State"]);
     this.note = element("p", {class: "note"});
     this.panel = panel;
     this.first = 0;

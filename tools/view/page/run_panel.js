@@ -10,9 +10,9 @@ class RunPanel {
     this.hold = element("button", {"aria-pressed": "false", onclick: () => told(source.pause(!source.status.paused))}, "Hold the run");
     this.pace = element("select", {onchange: (event) => told(source.pace(Number(event.target.value)))}, PACES.map(([value, name]) => element("option", {value}, name)));
     this.controls = element("div", {class: "row"}, this.hold, element("label", {}, "Pace ", this.pace));
-    this.facts = new TextTable("Run", ["", ""]);
+    this.facts = new TextTable("Run", ["Fact", "Value"]);
     this.text = element("pre");
-    panel.append(this.facts.table, this.controls, element("h3", {}, "Summary"), this.text);
+    panel.append(this.facts.table, this.controls, element("h2", {}, "Summary"), this.text);
   }
 
   update() {
@@ -21,7 +21,7 @@ class RunPanel {
     this.hold.setAttribute("aria-pressed", String(status.paused === true));
     const rows = [["Scenario", header.scenario], ["Seed, order", `${header.seed}, ${header.order}`], ["State", status.over ? status.outcome || "over" : status.paused ? "held" : "running"],
       ["Time", `${shortInstantText(status.time)} of at most ${shortInstantText(header.until)}`], ["Events", countText(status.events)], ["Robots", String(header.robots.length)]];
-    if (header.description) rows.splice(1, 0, ["", header.description]);
+    if (header.description) rows.splice(1, 0, ["Description", header.description]);
     if (status.digest) rows.push(["Digest", status.digest]);
     this.facts.set(rows);
     setText(this.text, status.summary || (status.over ? "No summary." : "When the run is over."));
