@@ -71,7 +71,7 @@ export async function shareOf(page, selector, colour, x, y, width, height) {
     const canvas = document.querySelector(found), ratio = canvas.width / canvas.clientWidth, [u, v, w, h] = box.map((length) => Math.round(length * ratio));
     const pixels = canvas.getContext('2d').getImageData(u, v, w, h).data, parts = [1, 3, 5].map((at) => parseInt(wanted.slice(at, at + 2), 16));
     let count = 0;
-    for (let i = 0; i < pixels.length; i += 4) if (parts.every((part, k) => Math.abs(pixels[i + k] - part) < 60)) ++count;
+    for (let i = 0; i < pixels.length; i += 4) if (parts.every((part, k) => Math.abs(pixels[i + k] - part) < 70)) ++count;
     return count / (w * h);
   }, selector, colour, x, y, width, height);
 }

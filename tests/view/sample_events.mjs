@@ -8,8 +8,9 @@ export function sampleEvents(robot, seconds, operations) {
   const tasks = [], objects = [], events = [];
   const task = (name, owner = robot) => tasks.push([tasks.length + 1, name, owner]) - 1;
   const object = (kind, label, owner = robot) => objects.push([kind, objects.length + 1, label, owner]) - 1;
-  const at = (time, of, operation, on = -1) => {
-    if (time <= seconds * 1000 * MS) events.push({time: Math.round(time), of, operation: operations.indexOf(operation), on, order: events.length});
+  // Events of one instant are in the order of their ranks, then of their making: who wakes comes before who resumes.
+  const at = (time, of, operation, on = -1, rank = 0) => {
+    if (time <= seconds * 1000 * MS) events.push({time: Math.round(time), of, operation: operations.indexOf(operation), on, rank, order: events.length});
   };
 
   const world = task('world', 'environment'), bridge = task('bridge'), executive = task('executive');
@@ -46,14 +47,12 @@ export function sampleEvents(robot, seconds, operations) {
         at(time + 2.2 * MS, execution, 'resume', shared);
         at(time + 2.2 * MS, execution, 'unlock', shared);
       }
-      if (holds) at(time + 2.2 * MS, execution, 'unlock', shared);
+      if (holds) at(time + 2.2 * MS, execution, 'unlock', shared, -1);
       at(end, execution, 'unlock', data);
       at(end, execution, 'timer_wait', timer);
     }
   }
-  // Who wakes comes before who resumes.
-  const rank = (event) => event.operation === operations.indexOf('unlock') && event.on === shared ? 0 : event.of === world ? -1 : 1;
-  events.sort((one, other) => one.time - other.time || rank(one) - rank(other) || one.order - other.order);
+  events.sort((one, other) => one.time - other.time || one.rank - other.rank || one.order - other.order);
   const columns = {kind: 'events', from: 0, to: seconds * 1000 * MS, complete: true, tasks, objects, first: 1,
     t: events.map((event, i) => event.time - (i ? events[i - 1].time : 0)), k: events.map((event) => event.of), o: events.map((event) => event.operation), x: events.map((event) => event.on)};
   return {columns, times: events.map((event) => event.time)};
