@@ -8,12 +8,14 @@ import {SECOND, sampleRun} from './sample_run.mjs';
 
 const axe = fs.readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
 let browser;
-before(async () => browser = await launch());
+before(async () => (browser = await launch()));
 after(() => browser.close());
 
 async function violations(page) {
   const found = await page.evaluate(() => window.axe.run(document, {resultTypes: ['violations']}));
-  return found.violations.flatMap(({id, nodes}) => nodes.map((node) => `${id}: ${node.html.slice(0, 120)} ${node.failureSummary}`));
+  return found.violations.flatMap(({id, nodes}) =>
+    nodes.map((node) => `${id}: ${node.html.slice(0, 120)} ${node.failureSummary}`)
+  );
 }
 
 for (const dark of [false, true]) {
@@ -23,7 +25,7 @@ for (const dark of [false, true]) {
     await page.evaluate((time) => window.waitpoint.clock.seek(time), 4 * SECOND);
     for (const tab of await page.$$eval('[role=tab]', (tabs) => tabs.map((one) => one.id))) {
       await page.click(`#${tab}`);
-      await page.evaluate(() => document.querySelectorAll('details').forEach((box) => box.open = true));
+      await page.evaluate(() => document.querySelectorAll('details').forEach((box) => (box.open = true)));
       await settle(page);
       assert.deepEqual(await violations(page), [], tab);
     }
@@ -45,12 +47,34 @@ test('all controls are reached with the Tab key, in the order in which they are 
   const reached = [];
   for (let i = 0; i < 80; ++i) {
     await page.keyboard.press('Tab');
-    const id = await page.evaluate(() => document.activeElement.id || document.activeElement.getAttribute('aria-label') || document.activeElement.tagName);
+    const id = await page.evaluate(
+      () =>
+        document.activeElement.id || document.activeElement.getAttribute('aria-label') || document.activeElement.tagName
+    );
     if (id === 'BODY' || (reached.length && id === reached[0])) break;
     reached.push(id);
   }
-  const order = ['theme', 'help', 'plan-canvas', 'fit', 'layers', 'split-side', 'tab-robots', 'to-begin', 'play', 'time', 'speed', 'slider', 'split-lower', 'lane-filter', 'show-all'];
-  assert.deepEqual(reached.filter((id) => order.includes(id)), order);
+  const order = [
+    'theme',
+    'help',
+    'plan-canvas',
+    'fit',
+    'layers',
+    'split-side',
+    'tab-robots',
+    'to-begin',
+    'play',
+    'time',
+    'speed',
+    'slider',
+    'split-lower',
+    'lane-filter',
+    'show-all'
+  ];
+  assert.deepEqual(
+    reached.filter((id) => order.includes(id)),
+    order
+  );
   await page.close();
 });
 
@@ -58,6 +82,9 @@ test('the plan is told in words', async () => {
   const page = await openPage(browser, recordedPage(sampleRun()));
   await page.evaluate((time) => window.waitpoint.clock.seek(time), 6 * SECOND);
   await new Promise((resolve) => setTimeout(resolve, 1500));
-  assert.match(await page.$eval('#plan-text', (text) => text.textContent), /^At 6 s ada is at \(8\.00, 2\.80\) m, heading 90\.0°, with 1 of 3 goals reached/);
+  assert.match(
+    await page.$eval('#plan-text', (text) => text.textContent),
+    /^At 6 s ada is at \(8\.00, 2\.80\) m, heading 90\.0°, with 1 of 3 goals reached/
+  );
   await page.close();
 });

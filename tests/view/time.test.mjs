@@ -30,7 +30,7 @@ test('the slider moves over the whole run', async () => {
     const box = await page.$eval('#slider', (slider) => ({...slider.getBoundingClientRect().toJSON()}));
     await page.mouse.click(box.x + 8 + (box.width - 16) * part, box.y + box.height / 2);
     await settle(page);
-    assert.ok(Math.abs(await now() - part * 20 * SECOND) < 0.05 * SECOND);
+    assert.ok(Math.abs((await now()) - part * 20 * SECOND) < 0.05 * SECOND);
   }
   assert.match(await page.$eval('#slider', (slider) => slider.getAttribute('aria-valuetext')), / s$/);
 });
@@ -85,19 +85,21 @@ test('steps that come faster than they are made add up', async () => {
 test('a period and a comma step by events of the selected task', async () => {
   await seek(page, 6 * SECOND);
   await page.evaluate(() => {
-    const {store} = window.waitpoint.parts.timeline.data, task = store.tasks.findIndex((one) => one.name === 'ndd.motion');
+    const {store} = window.waitpoint.parts.timeline.data,
+      task = store.tasks.findIndex((one) => one.name === 'ndd.motion');
     window.waitpoint.parts.timelineGestures.select(store.lanes[task][store.atInLane(task, 6e9)]);
   });
-  const last = () => page.evaluate(() => {
-    const {store} = window.waitpoint.parts.timeline.data;
-    return store.describe(window.waitpoint.session.frame.events - store.first).task;
-  });
+  const last = () =>
+    page.evaluate(() => {
+      const {store} = window.waitpoint.parts.timeline.data;
+      return store.describe(window.waitpoint.session.frame.events - store.first).task;
+    });
   await press('.');
   assert.equal(await last(), 'ndd.motion');
-  assert.ok(await now() > 6 * SECOND);
+  assert.ok((await now()) > 6 * SECOND);
   await press(',');
   assert.equal(await last(), 'ndd.motion');
-  assert.ok(await now() <= 6.01 * SECOND);
+  assert.ok((await now()) <= 6.01 * SECOND);
 });
 
 test('an instant can be typed', async () => {
@@ -148,7 +150,7 @@ test('a question mark lists the keys', async () => {
   await press('?', true);
   assert.ok(await page.$eval('#help-dialog', (dialog) => dialog.open && dialog.textContent.includes('play, pause')));
   await press('Escape');
-  assert.ok(!await page.$eval('#help-dialog', (dialog) => dialog.open));
+  assert.ok(!(await page.$eval('#help-dialog', (dialog) => dialog.open)));
 });
 
 test('dark and light', async () => {

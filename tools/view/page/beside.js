@@ -13,14 +13,17 @@ class Beside {
   }
 
   update() {
-    const {session, parts} = this, on = session.compared !== null;
+    const {session, parts} = this,
+      on = session.compared !== null;
     byId("plan-beside").hidden = !on;
     if (on && !this.plan) this.make();
-    const name = (number) => `line ${number}: ${session.source.status.lines.find((line) => line.line === number)?.name ?? ""}`;
+    const name = (number) =>
+      `line ${number}: ${session.source.status.lines.find((line) => line.line === number)?.name ?? ""}`;
     parts.plan.title = on ? name(session.line) : "";
     if (on) this.plan.title = name(session.compared.line);
     if (this.host) this.host.hidden = !on;
-    const difference = session.compared?.difference, mark = difference && difference.event ? difference.time : null;
+    const difference = session.compared?.difference,
+      mark = difference && difference.event ? difference.time : null;
     for (const timeline of [parts.timeline, this.timeline]) if (timeline) timeline.mark = mark;
     if (on && this.shown !== session.compared.line) this.timeline.data.forget();
     this.shown = session.compared?.line;
@@ -28,9 +31,15 @@ class Beside {
   }
 
   make() {
-    const {session, parts, clock} = this, frame = () => session.compared?.frame, line = () => session.compared?.line;
+    const {session, parts, clock} = this,
+      frame = () => session.compared?.frame,
+      line = () => session.compared?.line;
     this.plan = new PlanView(byId("plan-canvas-beside"), session, parts.camera, frame, line);
-    new PlanGestures(this.plan, session, {repaint: parts.repaintPlans, measuring: () => false, status: (text) => setText(byId("pointer"), text)});
+    new PlanGestures(this.plan, session, {
+      repaint: parts.repaintPlans,
+      measuring: () => false,
+      status: (text) => setText(byId("pointer"), text)
+    });
     this.host = element("div", {class: "lanes-of"});
     byId("lanes").append(this.host);
     // Below each other, since the axis is the same.

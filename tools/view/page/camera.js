@@ -3,9 +3,9 @@
 
 class Camera {
   constructor() {
-    this.x = this.y = 0;     // the place on the floor that is in the middle
-    this.scale = 20;         // pixels a metre
-    this.turn = 0;           // of the view about the vertical
+    this.x = this.y = 0; // the place on the floor that is in the middle
+    this.scale = 20; // pixels a metre
+    this.turn = 0; // of the view about the vertical
     this.tilt = Math.PI / 2; // of the line of sight above the floor: a right angle is the view from above
     this.width = this.height = 0;
     this.update();
@@ -17,8 +17,17 @@ class Camera {
 
   /** The matrix of places on the floor, and the pixels that a metre of height takes. To be called after each change. */
   update() {
-    const cos = Math.cos(this.turn), sin = Math.sin(this.turn), squeeze = Math.sin(this.tilt), s = this.scale;
-    Object.assign(this, {a: s * cos, b: -s * squeeze * sin, c: -s * sin, d: -s * squeeze * cos, up: s * Math.cos(this.tilt)});
+    const cos = Math.cos(this.turn),
+      sin = Math.sin(this.turn),
+      squeeze = Math.sin(this.tilt),
+      s = this.scale;
+    Object.assign(this, {
+      a: s * cos,
+      b: -s * squeeze * sin,
+      c: -s * sin,
+      d: -s * squeeze * cos,
+      up: s * Math.cos(this.tilt)
+    });
     this.e = this.width / 2 - this.a * this.x - this.c * this.y;
     this.f = this.height / 2 - this.b * this.x - this.d * this.y;
     return this;
@@ -38,17 +47,27 @@ class Camera {
   }
 
   place(across, down) {
-    const determinant = this.a * this.d - this.b * this.c, u = across - this.e, v = down - this.f;
+    const determinant = this.a * this.d - this.b * this.c,
+      u = across - this.e,
+      v = down - this.f;
     return {x: (this.d * u - this.c * v) / determinant, y: (this.a * v - this.b * u) / determinant};
   }
 
   /** Lets the pen draw in metres, `height` above the floor. Lines are drawn with a width of 1 / scale. */
   apply(pen, ratio, height = 0) {
-    pen.setTransform(ratio * this.a, ratio * this.b, ratio * this.c, ratio * this.d, ratio * this.e, ratio * (this.f - this.up * height));
+    pen.setTransform(
+      ratio * this.a,
+      ratio * this.b,
+      ratio * this.c,
+      ratio * this.d,
+      ratio * this.e,
+      ratio * (this.f - this.up * height)
+    );
   }
 
   pan(across, down) {
-    const before = this.place(0, 0), after = this.place(across, down);
+    const before = this.place(0, 0),
+      after = this.place(across, down);
     this.x -= after.x - before.x;
     this.y -= after.y - before.y;
     this.update();
@@ -71,16 +90,31 @@ class Camera {
     this.y = (bottom + top) / 2;
     this.scale = 1;
     this.update();
-    const corners = [[left, bottom], [right, bottom], [left, top], [right, top]];
-    const wide = extent(corners.map(([x, y]) => this.across(x, y))), high = extent(corners.map(([x, y]) => this.down(x, y)));
-    this.scale = Math.max(0.05, Math.min((this.width - 2 * margin) / Math.max(wide, 1e-3), (this.height - 2 * margin) / Math.max(high, 1e-3)));
+    const corners = [
+      [left, bottom],
+      [right, bottom],
+      [left, top],
+      [right, top]
+    ];
+    const wide = extent(corners.map(([x, y]) => this.across(x, y))),
+      high = extent(corners.map(([x, y]) => this.down(x, y)));
+    this.scale = Math.max(
+      0.05,
+      Math.min((this.width - 2 * margin) / Math.max(wide, 1e-3), (this.height - 2 * margin) / Math.max(high, 1e-3))
+    );
     this.update();
   }
 
   /** The part of the floor in view, as bounds. */
   bounds() {
-    const corners = [[0, 0], [this.width, 0], [0, this.height], [this.width, this.height]].map(([u, v]) => this.place(u, v));
-    const xs = corners.map((corner) => corner.x), ys = corners.map((corner) => corner.y);
+    const corners = [
+      [0, 0],
+      [this.width, 0],
+      [0, this.height],
+      [this.width, this.height]
+    ].map(([u, v]) => this.place(u, v));
+    const xs = corners.map((corner) => corner.x),
+      ys = corners.map((corner) => corner.y);
     return [Math.min(...xs), Math.min(...ys), Math.max(...xs), Math.max(...ys)];
   }
 }

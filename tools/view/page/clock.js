@@ -5,9 +5,9 @@
 class Clock {
   constructor(session, report) {
     this.session = session;
-    this.report = report;      // told errors, in a line
+    this.report = report; // told errors, in a line
     this.playing = false;
-    this.live = false;         // the cursor is where the run is
+    this.live = false; // the cursor is where the run is
     this.speed = 1;
     this.period = 10 * MILLISECOND;
     this.wish = null;
@@ -39,7 +39,9 @@ class Clock {
     this.pause();
     const now = this.wish?.time ?? this.session.time;
     // To the next multiple of the period, so that steps meet the same instants from wherever they begin.
-    return this.seek(count > 0 ? (Math.floor(now / period) + count) * period : (Math.ceil(now / period) + count) * period);
+    return this.seek(
+      count > 0 ? (Math.floor(now / period) + count) * period : (Math.ceil(now / period) + count) * period
+    );
   }
 
   /** To the instant just behind an event. */
@@ -47,7 +49,8 @@ class Clock {
     this.pause();
     await this.seek(event.time);
     const {frame} = this.session;
-    if (frame && frame.time === event.time && frame.events !== event.number) await this.step(event.number - frame.events);
+    if (frame && frame.time === event.time && frame.events !== event.number)
+      await this.step(event.number - frame.events);
   }
 
   want(wish) {
@@ -60,10 +63,14 @@ class Clock {
     this.busy = true;
     const {session} = this;
     while (this.wish) {
-      const wish = this.wish, line = session.line;
+      const wish = this.wish,
+        line = session.line;
       this.wish = null;
       try {
-        const frame = wish.time !== undefined ? await session.source.frame(line, wish.time) : await session.source.step(line, wish.count, wish.task, session.frame);
+        const frame =
+          wish.time !== undefined
+            ? await session.source.frame(line, wish.time)
+            : await session.source.step(line, wish.count, wish.task, session.frame);
         if (line === session.line) this.arrive(frame);
         if (session.compared) await this.followCompared(frame.time);
       } catch (error) {

@@ -5,8 +5,8 @@ class Connection {
   /** message(data): what comes unasked; changed(): state is "open", "lost" or "refused". */
   constructor(url, message, changed) {
     Object.assign(this, {url, message, changed, state: "lost", pause: 500, next: 1, attempts: 0});
-    this.pending = new Map();  // answers that are waited for, by number
-    this.waiting = [];         // called at the next opening
+    this.pending = new Map(); // answers that are waited for, by number
+    this.waiting = []; // called at the next opening
   }
 
   /** Resolved when the connection is open for the first time. */
@@ -19,7 +19,7 @@ class Connection {
 
   connect() {
     ++this.attempts;
-    const socket = this.socket = new WebSocket(this.url);
+    const socket = (this.socket = new WebSocket(this.url));
     socket.onopen = () => {
       this.pause = 500;
       this.attempts = 0;
@@ -35,7 +35,7 @@ class Connection {
     try {
       data = JSON.parse(text);
     } catch {
-      return;  // not of this protocol
+      return; // not of this protocol
     }
     if (data.id === undefined) return this.message(data);
     const answer = this.pending.get(data.id);

@@ -28,8 +28,21 @@ function setText(target, text) {
 class TextTable {
   constructor(caption, columns) {
     this.body = element("tbody");
-    this.table = element("table", {}, element("caption", {}, caption),
-      element("thead", {}, element("tr", {}, columns.map((name) => element("th", {scope: "col"}, name)))), this.body);
+    this.table = element(
+      "table",
+      {},
+      element("caption", {}, caption),
+      element(
+        "thead",
+        {},
+        element(
+          "tr",
+          {},
+          columns.map((name) => element("th", {scope: "col"}, name))
+        )
+      ),
+      this.body
+    );
     this.rows = [];
   }
 
@@ -40,7 +53,12 @@ class TextTable {
       let row = this.rows[index];
       if (!row) {
         const heading = choose ? element("button", {class: "link", onclick: () => choose(index)}) : element("span");
-        row = element("tr", {}, element("th", {scope: "row"}, heading), texts.slice(1).map(() => element("td")));
+        row = element(
+          "tr",
+          {},
+          element("th", {scope: "row"}, heading),
+          texts.slice(1).map(() => element("td"))
+        );
         this.rows.push(row);
         this.body.append(row);
       }

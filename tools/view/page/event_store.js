@@ -10,7 +10,12 @@ class EventStore {
     this.complete = columns.complete;
     this.first = columns.first;
     this.operations = operations;
-    this.tasks = columns.tasks.map(([number, name, robot]) => ({number, name, robot, key: `${robot}/${name}/${number}`}));
+    this.tasks = columns.tasks.map(([number, name, robot]) => ({
+      number,
+      name,
+      robot,
+      key: `${robot}/${name}/${number}`
+    }));
     this.objects = columns.objects.map(([kind, number, label, robot]) => ({kind, number, label, robot}));
     this.time = new Float64Array(count);
     this.task = Int32Array.from(columns.k);
@@ -59,28 +64,63 @@ class EventStore {
 
   describe(index) {
     const task = this.tasks[this.task[index]];
-    return {number: this.first + index, time: this.time[index], task: task.name, robot: task.robot, key: task.key,
-      taskNumber: task.number, operation: this.operationName(index), object: this.objectText(this.object[index])};
+    return {
+      number: this.first + index,
+      time: this.time[index],
+      task: task.name,
+      robot: task.robot,
+      key: task.key,
+      taskNumber: task.number,
+      operation: this.operationName(index),
+      object: this.objectText(this.object[index])
+    };
   }
 
   /** The event that woke the task of event `index`, if that is a resumption: at the same instant, on the same object; or -1. */
   waker(index) {
     if (this.operationName(index) !== "resume" || this.object[index] < 0) return -1;
     for (let i = index - 1; i >= 0 && this.time[i] === this.time[index]; --i) {
-      if (this.object[i] === this.object[index] && this.task[i] !== this.task[index] && WAKING.has(this.operationName(i))) return i;
+      if (
+        this.object[i] === this.object[index] &&
+        this.task[i] !== this.task[index] &&
+        WAKING.has(this.operationName(i))
+      )
+        return i;
     }
     return -1;
   }
 }
 
 /** Operations that can end another task's wait. */
-const WAKING = new Set(["release", "unlock", "unlock_shared", "notify_one", "notify_all", "send", "receive", "end", "timer_tick",
-  "arrive", "count_down", "make_ready", "request_stop", "signal", "connect", "accept", "close", "wait", "store", "exchange",
-  "compare_exchange", "modify"]);
+const WAKING = new Set([
+  "release",
+  "unlock",
+  "unlock_shared",
+  "notify_one",
+  "notify_all",
+  "send",
+  "receive",
+  "end",
+  "timer_tick",
+  "arrive",
+  "count_down",
+  "make_ready",
+  "request_stop",
+  "signal",
+  "connect",
+  "accept",
+  "close",
+  "wait",
+  "store",
+  "exchange",
+  "compare_exchange",
+  "modify"
+]);
 
 /** The least number below `count` for which the monotone `holds` is true, or count. */
 function firstWhere(count, holds) {
-  let low = 0, high = count;
+  let low = 0,
+    high = count;
   while (low < high) {
     const middle = (low + high) >>> 1;
     if (holds(middle)) high = middle;

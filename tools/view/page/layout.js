@@ -11,8 +11,26 @@ class Tabs {
   }
 
   add(key, name) {
-    const panel = element("div", {class: "panel", role: "tabpanel", id: `panel-${key}`, "aria-labelledby": `tab-${key}`, tabindex: 0, hidden: true});
-    const tab = element("button", {role: "tab", id: `tab-${key}`, "aria-controls": `panel-${key}`, "aria-selected": "false", tabindex: -1, onclick: () => this.choose(key)}, name);
+    const panel = element("div", {
+      class: "panel",
+      role: "tabpanel",
+      id: `panel-${key}`,
+      "aria-labelledby": `tab-${key}`,
+      tabindex: 0,
+      hidden: true
+    });
+    const tab = element(
+      "button",
+      {
+        role: "tab",
+        id: `tab-${key}`,
+        "aria-controls": `panel-${key}`,
+        "aria-selected": "false",
+        tabindex: -1,
+        onclick: () => this.choose(key)
+      },
+      name
+    );
     this.tabs.push({key, tab, panel});
     this.list.append(tab);
     this.panels.append(panel);
@@ -34,7 +52,8 @@ class Tabs {
   key(event) {
     const move = {ArrowLeft: -1, ArrowRight: 1}[event.key];
     if (!move) return;
-    const at = this.tabs.findIndex((one) => one.key === this.chosen), next = this.tabs[(at + move + this.tabs.length) % this.tabs.length];
+    const at = this.tabs.findIndex((one) => one.key === this.chosen),
+      next = this.tabs[(at + move + this.tabs.length) % this.tabs.length];
     this.choose(next.key);
     next.tab.focus();
     event.preventDefault();
@@ -44,10 +63,12 @@ class Tabs {
 
 /** A border that sets the size of the part behind it. */
 function makeSplitter(splitter, part, least = 60) {
-  const upright = splitter.getAttribute("aria-orientation") === "vertical", side = upright ? "width" : "height";
+  const upright = splitter.getAttribute("aria-orientation") === "vertical",
+    side = upright ? "width" : "height";
   const size = () => part.getBoundingClientRect()[side];
   const set = (wanted) => {
-    const most = splitter.parentElement.getBoundingClientRect()[side] * 0.85, value = Math.round(Math.max(least, Math.min(wanted, most)));
+    const most = splitter.parentElement.getBoundingClientRect()[side] * 0.85,
+      value = Math.round(Math.max(least, Math.min(wanted, most)));
     part.style[side] = `${value}px`;
     splitter.setAttribute("aria-valuemin", least);
     splitter.setAttribute("aria-valuemax", Math.round(most));
@@ -58,8 +79,11 @@ function makeSplitter(splitter, part, least = 60) {
     drag = {at: upright ? event.clientX : event.clientY, size: size()};
     splitter.setPointerCapture(event.pointerId);
   });
-  splitter.addEventListener("pointermove", (event) => drag && set(drag.size + drag.at - (upright ? event.clientX : event.clientY)));
-  for (const name of ["pointerup", "pointercancel"]) splitter.addEventListener(name, () => drag = null);
+  splitter.addEventListener(
+    "pointermove",
+    (event) => drag && set(drag.size + drag.at - (upright ? event.clientX : event.clientY))
+  );
+  for (const name of ["pointerup", "pointercancel"]) splitter.addEventListener(name, () => (drag = null));
   splitter.addEventListener("keydown", (event) => {
     const move = {[upright ? "ArrowLeft" : "ArrowUp"]: 24, [upright ? "ArrowRight" : "ArrowDown"]: -24}[event.key];
     if (!move) return;

@@ -13,9 +13,18 @@ class LinesPanel {
   }
 
   update() {
-    const {session} = this, {lines} = session.source.status, key = JSON.stringify([lines.map(({to, ...line}) => line), session.line, session.compared?.line, session.compared?.difference]);
+    const {session} = this,
+      {lines} = session.source.status,
+      key = JSON.stringify([
+        lines.map(({to, ...line}) => line),
+        session.line,
+        session.compared?.line,
+        session.compared?.difference
+      ]);
     this.form.update();
-    lines.forEach((line, i) => this.list.children[i]?.lastChild && setText(this.list.children[i].lastChild, this.rangeText(line)));
+    lines.forEach(
+      (line, i) => this.list.children[i]?.lastChild && setText(this.list.children[i].lastChild, this.rangeText(line))
+    );
     if (key === this.shown) return;
     this.shown = key;
     this.list.replaceChildren(...lines.map((line) => this.row(line)));
@@ -27,13 +36,34 @@ class LinesPanel {
   }
 
   row(line) {
-    const {session} = this, shown = line.line === session.line, beside = line.line === session.compared?.line;
-    const button = (text, pressed, action, more = {}) => element("button", {"aria-pressed": String(pressed), onclick: action, ...more}, text);
-    return element("li", {class: shown ? "marked" : ""}, element("strong", {}, `${line.line}: ${line.name}`),
-      element("span", {class: "row"}, button("Show", shown, () => this.clock.setLine(line.line), {"aria-label": `Show line ${line.line}`}),
-        shown ? null : button("Beside", beside, () => this.compare(beside ? null : line.line), {"aria-label": `Line ${line.line} beside`}),
-        session.source.journal ? element("button", {"aria-label": `Journal of line ${line.line}`, onclick: () => this.showJournal(line.line)}, "Journal") : null),
-      element("span", {class: "age"}, this.rangeText(line)));
+    const {session} = this,
+      shown = line.line === session.line,
+      beside = line.line === session.compared?.line;
+    const button = (text, pressed, action, more = {}) =>
+      element("button", {"aria-pressed": String(pressed), onclick: action, ...more}, text);
+    return element(
+      "li",
+      {class: shown ? "marked" : ""},
+      element("strong", {}, `${line.line}: ${line.name}`),
+      element(
+        "span",
+        {class: "row"},
+        button("Show", shown, () => this.clock.setLine(line.line), {"aria-label": `Show line ${line.line}`}),
+        shown
+          ? null
+          : button("Beside", beside, () => this.compare(beside ? null : line.line), {
+              "aria-label": `Line ${line.line} beside`
+            }),
+        session.source.journal
+          ? element(
+              "button",
+              {"aria-label": `Journal of line ${line.line}`, onclick: () => this.showJournal(line.line)},
+              "Journal"
+            )
+          : null
+      ),
+      element("span", {class: "age"}, this.rangeText(line))
+    );
   }
 
   /** Shows a line beside this one, or none. */
@@ -52,17 +82,46 @@ class LinesPanel {
   }
 
   showDifference() {
-    const {compared, line} = this.session, found = compared?.difference;
+    const {compared, line} = this.session,
+      found = compared?.difference;
     const event = (name, text) => [element("dt", {}, `line ${name}`), element("dd", {}, text || "no event")];
-    this.difference.replaceChildren(...(!compared ? [] : [element("h2", {}, "First event that differs"),
-      !found ? element("p", {class: "note"}, "…") : found.error ? element("p", {class: "note"}, found.error) : found.event === null ? element("p", {class: "note"}, "None so far.")
-        : element("div", {}, element("p", {}, `Event ${countText(found.event)} at ${instantText(found.time)} `, element("button", {onclick: () => this.clock.goTo({time: found.time, number: found.event})}, "Go there")),
-          element("dl", {class: "facts"}, event(line, found.a), event(compared.line, found.b)))]));
+    this.difference.replaceChildren(
+      ...(!compared
+        ? []
+        : [
+            element("h2", {}, "First event that differs"),
+            !found
+              ? element("p", {class: "note"}, "…")
+              : found.error
+                ? element("p", {class: "note"}, found.error)
+                : found.event === null
+                  ? element("p", {class: "note"}, "None so far.")
+                  : element(
+                      "div",
+                      {},
+                      element(
+                        "p",
+                        {},
+                        `Event ${countText(found.event)} at ${instantText(found.time)} `,
+                        element(
+                          "button",
+                          {onclick: () => this.clock.goTo({time: found.time, number: found.event})},
+                          "Go there"
+                        )
+                      ),
+                      element("dl", {class: "facts"}, event(line, found.a), event(compared.line, found.b))
+                    )
+          ])
+    );
   }
 
   async showJournal(line) {
     const answer = await this.session.source.journal(line).catch((error) => ({text: error.message, command: ""}));
-    this.journal.replaceChildren(element("h2", {}, `Journal of line ${line}`), element("pre", {}, answer.text),
-      element("p", {class: "note"}, answer.command ? "Repeated by:" : ""), element("pre", {}, answer.command ?? ""));
+    this.journal.replaceChildren(
+      element("h2", {}, `Journal of line ${line}`),
+      element("pre", {}, answer.text),
+      element("p", {class: "note"}, answer.command ? "Repeated by:" : ""),
+      element("pre", {}, answer.command ?? "")
+    );
   }
 }

@@ -4,7 +4,11 @@
 class LiveSource {
   static async open(url) {
     const source = new LiveSource();
-    source.connection = new Connection(url, (data) => source.message(data), () => source.connectionChanged());
+    source.connection = new Connection(
+      url,
+      (data) => source.message(data),
+      () => source.connectionChanged()
+    );
     await source.connection.open();
     source.header = await source.connection.ask("header");
     source.control = source.header.control === true;
@@ -17,11 +21,20 @@ class LiveSource {
     this.header = null;
     this.control = false;
     this.log = [];
-    this.status = {time: 0, events: 0, over: false, outcome: "", summary: "", digest: "", speed: 0, paused: false,
-      lines: [{line: 0, from: 0, parent: null, name: "run", to: 0}]};
+    this.status = {
+      time: 0,
+      events: 0,
+      over: false,
+      outcome: "",
+      summary: "",
+      digest: "",
+      speed: 0,
+      paused: false,
+      lines: [{line: 0, from: 0, parent: null, name: "run", to: 0}]
+    };
     this.listeners = new Map();
-    this.kept = new Map();    // by line and robot: what frames leave out as unchanged
-    this.places = new Map();  // by line: places that frames had, for trails
+    this.kept = new Map(); // by line and robot: what frames leave out as unchanged
+    this.places = new Map(); // by line: places that frames had, for trails
     this.obstacles = new Map();
     this.following = null;
   }
@@ -50,7 +63,8 @@ class LiveSource {
     if (this.connection.state === "open" && this.known) {
       // The program may be another one by now: what is on the page would be wrong.
       const header = await this.connection.ask("header").catch(() => null);
-      if (header && (header.scenario !== this.header.scenario || header.seed !== this.header.seed)) return location.reload();
+      if (header && (header.scenario !== this.header.scenario || header.seed !== this.header.seed))
+        return location.reload();
       if (this.following) this.connection.ask("follow", this.following).catch(() => {});
     }
     this.tell("connection");
@@ -66,7 +80,15 @@ class LiveSource {
 
   completed(frame) {
     const {line} = frame;
-    if (!this.kept.has(line)) this.kept.set(line, this.header.robots.map(() => ({}))), this.places.set(line, this.header.robots.map(() => []));
+    if (!this.kept.has(line))
+      (this.kept.set(
+        line,
+        this.header.robots.map(() => ({}))
+      ),
+        this.places.set(
+          line,
+          this.header.robots.map(() => [])
+        ));
     if (frame.obstacles) this.obstacles.set(line, frame.obstacles);
     else frame.obstacles = this.obstacles.get(line) ?? this.header.obstacles;
     frame.robots.forEach((robot, index) => {
@@ -79,8 +101,10 @@ class LiveSource {
 
   /** Keeps places in the order of time, at most one in 50 ms. */
   remember(places, time, truth) {
-    const after = firstWhere(places.length, (i) => places[i].time >= time), close = 50 * MILLISECOND;
-    if ((places[after] && places[after].time - time < close) || (after > 0 && time - places[after - 1].time < close)) return;
+    const after = firstWhere(places.length, (i) => places[i].time >= time),
+      close = 50 * MILLISECOND;
+    if ((places[after] && places[after].time - time < close) || (after > 0 && time - places[after - 1].time < close))
+      return;
     places.splice(after, 0, {time, truth});
     if (places.length > 20000) places.splice(0, 2000);
   }
@@ -129,7 +153,8 @@ class LiveSource {
 
   trail(line, robot, time, span) {
     const places = this.places.get(line)?.[robot] ?? [];
-    const end = firstWhere(places.length, (i) => places[i].time > time), begin = firstWhere(end, (i) => places[i].time >= time - span);
+    const end = firstWhere(places.length, (i) => places[i].time > time),
+      begin = firstWhere(end, (i) => places[i].time >= time - span);
     return places.slice(begin, end).map((place) => place.truth);
   }
 

@@ -2,7 +2,8 @@
 // What the page does with what a live source tells unasked, and what it has pushed: only what is in view.
 
 function connectSource(session, clock, parts) {
-  const {source} = session, {axis, timeline, camera} = parts;
+  const {source} = session,
+    {axis, timeline, camera} = parts;
   if (source.kind !== "live") return;
   const growing = seldom(700, () => {
     if (axis.whole) axis.showAll();
@@ -31,7 +32,11 @@ function connectSource(session, clock, parts) {
     timeline.data.need();
     if (!clock.live) clock.seek(session.time);
   });
-  const follow = () => source.follow(clock.live, {view: session.header.robots.length > 50 && !session.following ? widened(camera.bounds()) : null, scans: session.header.robots.length <= 12});
+  const follow = () =>
+    source.follow(clock.live, {
+      view: session.header.robots.length > 50 && !session.following ? widened(camera.bounds()) : null,
+      scans: session.header.robots.length <= 12
+    });
   const followSoon = seldom(250, follow);
   clock.listeners.push(follow);
   session.on("time follow layers", followSoon);
@@ -41,6 +46,9 @@ function connectSource(session, clock, parts) {
 
 /** Bounds with a margin, to whole metres: so small movements of the camera ask for nothing new. */
 function widened([left, bottom, right, top]) {
-  const margin = 0.15 * Math.max(right - left, top - bottom), unit = Math.max(1, Math.round(margin / 2));
-  return [left - margin, bottom - margin, right + margin, top + margin].map((value, i) => (i < 2 ? Math.floor(value / unit) : Math.ceil(value / unit)) * unit);
+  const margin = 0.15 * Math.max(right - left, top - bottom),
+    unit = Math.max(1, Math.round(margin / 2));
+  return [left - margin, bottom - margin, right + margin, top + margin].map(
+    (value, i) => (i < 2 ? Math.floor(value / unit) : Math.ceil(value / unit)) * unit
+  );
 }

@@ -20,21 +20,27 @@ function report(text) {
 
 /** Calls a function at most once in a while, and once after the last wish. */
 function seldom(milliseconds, action) {
-  let waiting = false, last = -Infinity;
+  let waiting = false,
+    last = -Infinity;
   return () => {
     if (waiting) return;
     waiting = true;
-    setTimeout(() => {
-      waiting = false;
-      last = performance.now();
-      action();
-    }, Math.max(0, last + milliseconds - performance.now()));
+    setTimeout(
+      () => {
+        waiting = false;
+        last = performance.now();
+        action();
+      },
+      Math.max(0, last + milliseconds - performance.now())
+    );
   };
 }
 
 async function start() {
   theme.choose("auto");
-  const source = await openSource(), session = new Session(source), clock = new Clock(session, report);
+  const source = await openSource(),
+    session = new Session(source),
+    clock = new Clock(session, report);
   document.title = `${source.header.scenario} – waitpoint`;
   setText(byId("scenario"), source.header.scenario);
   const parts = buildParts(session, clock);
@@ -47,9 +53,28 @@ async function start() {
 }
 
 function showFacts(session) {
-  const {header, source} = session, {status} = source;
-  setText(byId("facts"), [`seed ${header.seed}`, `order ${header.order}`, status.over ? status.outcome || "finished" : "running", status.over ? status.digest : "", header.program].filter(Boolean).join(" · "));
-  const state = source.kind === "recorded" ? "recorded run" : source.connection.state === "open" ? (status.over ? "connected, run over" : "connected") : "connection lost, trying again …";
+  const {header, source} = session,
+    {status} = source;
+  setText(
+    byId("facts"),
+    [
+      `seed ${header.seed}`,
+      `order ${header.order}`,
+      status.over ? status.outcome || "finished" : "running",
+      status.over ? status.digest : "",
+      header.program
+    ]
+      .filter(Boolean)
+      .join(" · ")
+  );
+  const state =
+    source.kind === "recorded"
+      ? "recorded run"
+      : source.connection.state === "open"
+        ? status.over
+          ? "connected, run over"
+          : "connected"
+        : "connection lost, trying again …";
   setText(byId("connection"), state);
   byId("connection").className = source.kind === "recorded" ? "" : source.connection.state === "open" ? "good" : "bad";
 }

@@ -2,17 +2,35 @@
 // The parts of the page, and what each is told of changes.
 
 function buildParts(session, clock) {
-  const axis = new TimeAxis(session), camera = new Camera(), parts = {axis, camera};
-  parts.plan = new PlanView(byId("plan-canvas"), session, camera, () => session.frame, () => session.line);
+  const axis = new TimeAxis(session),
+    camera = new Camera(),
+    parts = {axis, camera};
+  parts.plan = new PlanView(
+    byId("plan-canvas"),
+    session,
+    camera,
+    () => session.frame,
+    () => session.line
+  );
   parts.repaintPlans = () => {
     parts.plan.surface.invalidate();
     parts.beside?.plan?.surface.invalidate();
   };
   parts.planTools = new PlanTools(session, parts.plan, parts.repaintPlans);
-  parts.planGestures = new PlanGestures(parts.plan, session, {repaint: parts.repaintPlans, measuring: () => parts.planTools.measuring, status: (text) => setText(byId("pointer"), text)});
+  parts.planGestures = new PlanGestures(parts.plan, session, {
+    repaint: parts.repaintPlans,
+    measuring: () => parts.planTools.measuring,
+    status: (text) => setText(byId("pointer"), text)
+  });
   const host = element("div", {class: "lanes-of"});
   byId("lanes").append(host);
-  parts.timeline = new TimelineView(host, session, axis, () => session.line, () => session.frame);
+  parts.timeline = new TimelineView(
+    host,
+    session,
+    axis,
+    () => session.line,
+    () => session.frame
+  );
   parts.timelineGestures = new TimelineGestures(parts.timeline, session, axis, clock, byId("tip"));
   parts.transport = new Transport(session, clock, axis);
   parts.transport.counts = () => parts.timeline.data.counts;
@@ -36,7 +54,8 @@ function buildParts(session, clock) {
 
 function connectParts(session, clock, parts) {
   const {axis, timeline, plan} = parts;
-  const updatePanel = seldom(150, () => parts.panels.get(parts.tabs.chosen)?.update()), describe = seldom(1000, () => parts.planTools.describe());
+  const updatePanel = seldom(150, () => parts.panels.get(parts.tabs.chosen)?.update()),
+    describe = seldom(1000, () => parts.planTools.describe());
   session.on("time", () => {
     plan.surface.invalidate();
     timeline.moveCursor();
@@ -55,7 +74,7 @@ function connectParts(session, clock, parts) {
     drawLegend();
   });
   session.on("run source", () => showFacts(session));
-  parts.tabs.listeners.push(updatePanel);
+  parts.tabs.listeners.push(updatePanel, (key) => key === "lines" && parts.panels.get("lines").form.showFields());
   axis.listeners.push(() => {
     timeline.viewChanged();
     setText(byId("view-text"), `${spanText(axis.span)} in view`);
@@ -76,9 +95,11 @@ function connectParts(session, clock, parts) {
 
 /** The task's event at the cursor, or its last before it. */
 function selectTask(session, parts, {name, robot, number}) {
-  const {store} = parts.timeline.data, task = store?.byKey.get(`${robot}/${name}/${number}`);
+  const {store} = parts.timeline.data,
+    task = store?.byKey.get(`${robot}/${name}/${number}`);
   if (task === undefined || store.lanes[task].length === 0) return;
-  const lane = store.lanes[task], next = firstWhere(lane.length, (i) => lane[i] > session.frame.events - store.first);
+  const lane = store.lanes[task],
+    next = firstWhere(lane.length, (i) => lane[i] > session.frame.events - store.first);
   parts.timelineGestures.select(lane[Math.max(0, next - 1)]);
   parts.timeline.reveal(session.event.key);
   parts.axis.reveal(session.event.time);
@@ -107,7 +128,7 @@ function pageActions(session, parts) {
     fit: () => plan.fit(),
     zoomIn: () => zoom(1.25),
     zoomOut: () => zoom(0.8),
-    escape: () => planTools.measuring ? planTools.toggleMeasure(false) : planTools.toggleMenu(false),
+    escape: () => (planTools.measuring ? planTools.toggleMeasure(false) : planTools.toggleMenu(false))
   };
 }
 
@@ -126,19 +147,28 @@ function chooseTheme(session, chosen) {
 const toggleTheme = (session) => chooseTheme(session, theme.dark ? "light" : "dark");
 
 function drawLegend() {
-  byId("legend").replaceChildren(...Object.entries(STATES).map(([key, state]) => {
-    const canvas = element("canvas", {width: 22, height: 11, "aria-hidden": "true"}), pen = canvas.getContext("2d");
-    pen.fillStyle = key === "idle" ? theme.colours.idle : stateFill(pen, key);
-    pen.fillRect(0, key === "idle" ? 5 : 0, 22, key === "idle" ? 2 : 11);
-    return element("li", {}, canvas, state.name);
-  }));
+  byId("legend").replaceChildren(
+    ...Object.entries(STATES).map(([key, state]) => {
+      const canvas = element("canvas", {width: 22, height: 11, "aria-hidden": "true"}),
+        pen = canvas.getContext("2d");
+      pen.fillStyle = key === "idle" ? theme.colours.idle : stateFill(pen, key);
+      pen.fillRect(0, key === "idle" ? 5 : 0, 22, key === "idle" ? 2 : 11);
+      return element("li", {}, canvas, state.name);
+    })
+  );
 }
 
 /** For tests: the page's state, and where things are on the canvases. */
 function testHook(session, clock, parts) {
   const {camera, axis} = parts;
-  return {session, clock, parts, pictures, theme,
+  return {
+    session,
+    clock,
+    parts,
+    pictures,
+    theme,
     pixels: (x, y, z = 0) => ({x: camera.across(x, y), y: camera.down(x, y, z)}),
     timePixels: (time) => axis.x(time),
-    paint: () => paintSurfaces()};
+    paint: () => paintSurfaces()
+  };
 }

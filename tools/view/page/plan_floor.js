@@ -1,35 +1,54 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The plan's floor, with a grid, walls and furniture; in the oblique view they are prisms.
 
-const WALL_HEIGHT = 2;  // metres: what is higher hides the room behind it, and is drawn as a wall
+const WALL_HEIGHT = 2; // metres: what is higher hides the room behind it, and is drawn as a wall
 
 const isWall = (obstacle) => obstacle.high >= WALL_HEIGHT;
 
 /** The corners of a shape with an outline or a radius; of a body at a pose, if one is given. */
 function cornersOf(shape, pose = null) {
   const sides = 20;
-  const corners = shape.outline ?? Array.from({length: sides}, (_, i) =>
-    [(shape.x ?? 0) + (shape.radius ?? 0.2) * Math.cos(2 * Math.PI * i / sides), (shape.y ?? 0) + (shape.radius ?? 0.2) * Math.sin(2 * Math.PI * i / sides)]);
+  const corners =
+    shape.outline ??
+    Array.from({length: sides}, (_, i) => [
+      (shape.x ?? 0) + (shape.radius ?? 0.2) * Math.cos((2 * Math.PI * i) / sides),
+      (shape.y ?? 0) + (shape.radius ?? 0.2) * Math.sin((2 * Math.PI * i) / sides)
+    ]);
   if (!pose) return corners;
-  const cos = Math.cos(pose[2]), sin = Math.sin(pose[2]);
+  const cos = Math.cos(pose[2]),
+    sin = Math.sin(pose[2]);
   return corners.map(([x, y]) => [pose[0] + x * cos - y * sin, pose[1] + x * sin + y * cos]);
 }
 
 function tracePolygon(path, corners) {
-  corners.forEach(([x, y], i) => i === 0 ? path.moveTo(x, y) : path.lineTo(x, y));
+  corners.forEach(([x, y], i) => (i === 0 ? path.moveTo(x, y) : path.lineTo(x, y)));
   path.closePath();
 }
 
 class PlanFloor {
   constructor() {
     this.obstacles = null;
-    this.picture = document.createElement("canvas");  // of what is still, for a camera that is
+    this.picture = document.createElement("canvas"); // of what is still, for a camera that is
     this.drawn = "";
   }
 
   /** The floor from the picture of the last time, if it would be the same. */
   drawStill(pen, camera, ratio, bounds, layers) {
-    const wanted = [camera.a, camera.b, camera.c, camera.d, camera.e, camera.f, camera.width, camera.height, ratio, layers.grid, layers.furniture, layers.unknown, theme.dark].join();
+    const wanted = [
+      camera.a,
+      camera.b,
+      camera.c,
+      camera.d,
+      camera.e,
+      camera.f,
+      camera.width,
+      camera.height,
+      ratio,
+      layers.grid,
+      layers.furniture,
+      layers.unknown,
+      theme.dark
+    ].join();
     if (wanted !== this.drawn) {
       this.drawn = wanted;
       this.picture.width = Math.round(camera.width * ratio);
@@ -61,7 +80,8 @@ class PlanFloor {
   }
 
   drawGround(pen, camera, ratio, bounds, layers) {
-    const colours = theme.colours, [left, bottom, right, top] = bounds;
+    const colours = theme.colours,
+      [left, bottom, right, top] = bounds;
     pen.fillStyle = colours.outside;
     pen.fillRect(0, 0, camera.width, camera.height);
     camera.apply(pen, ratio);
@@ -84,7 +104,7 @@ class PlanFloor {
     }
     pen.fillStyle = pen.strokeStyle = colours.wall;
     pen.fill(this.walls);
-    pen.stroke(this.walls);  // thin walls stay visible from afar
+    pen.stroke(this.walls); // thin walls stay visible from afar
     if (layers.unknown) {
       const pattern = hatch(pen, "rising", colours.unknownLine, colours.unknown);
       // The pattern's lines have the same distance at any scale.
@@ -101,10 +121,15 @@ class PlanFloor {
   prisms(layers) {
     const colours = theme.colours;
     return this.shapes
-      .filter(({obstacle}) => obstacle.known === false ? layers.unknown : isWall(obstacle) || layers.furniture)
-      .map(({obstacle, corners}) => ({corners, low: obstacle.low, high: obstacle.high, alpha: isWall(obstacle) ? 0.42 : 0.92,
+      .filter(({obstacle}) => (obstacle.known === false ? layers.unknown : isWall(obstacle) || layers.furniture))
+      .map(({obstacle, corners}) => ({
+        corners,
+        low: obstacle.low,
+        high: obstacle.high,
+        alpha: isWall(obstacle) ? 0.42 : 0.92,
         fill: obstacle.known === false ? colours.unknown : isWall(obstacle) ? colours.wall : colours.furniture,
-        line: obstacle.known === false ? colours.unknownLine : isWall(obstacle) ? colours.wall : colours.furnitureLine}));
+        line: obstacle.known === false ? colours.unknownLine : isWall(obstacle) ? colours.wall : colours.furnitureLine
+      }));
   }
 
   /** The obstacle at a place on the floor, the last one drawn first. */
@@ -122,30 +147,37 @@ function within(corners, x, y) {
   let inside = false;
   corners.forEach(([x1, y1], i) => {
     const [x2, y2] = corners[(i + 1) % corners.length];
-    if ((y1 > y) !== (y2 > y) && x < x1 + (x2 - x1) * (y - y1) / (y2 - y1)) inside = !inside;
+    if (y1 > y !== y2 > y && x < x1 + ((x2 - x1) * (y - y1)) / (y2 - y1)) inside = !inside;
   });
   return inside;
 }
 
 /** The least of 1, 2, 5 times a power of ten that is not below `least`. */
 function roundStep(least) {
-  const power = 10 ** Math.floor(Math.log10(least)), part = least / power;
+  const power = 10 ** Math.floor(Math.log10(least)),
+    part = least / power;
   return power * (part <= 1.0000001 ? 1 : part <= 2 ? 2 : part <= 5 ? 5 : 10);
 }
 
 function drawGrid(pen, camera, [left, bottom, right, top]) {
-  const step = roundStep(28 / camera.scale), view = camera.bounds();
+  const step = roundStep(28 / camera.scale),
+    view = camera.bounds();
   pen.strokeStyle = theme.colours.grid;
   pen.lineWidth = 1 / camera.scale;
   pen.beginPath();
-  for (let x = Math.ceil(Math.max(left, view[0]) / step) * step; x <= Math.min(right, view[2]); x += step) pen.moveTo(x, bottom), pen.lineTo(x, top);
-  for (let y = Math.ceil(Math.max(bottom, view[1]) / step) * step; y <= Math.min(top, view[3]); y += step) pen.moveTo(left, y), pen.lineTo(right, y);
+  for (let x = Math.ceil(Math.max(left, view[0]) / step) * step; x <= Math.min(right, view[2]); x += step)
+    (pen.moveTo(x, bottom), pen.lineTo(x, top));
+  for (let y = Math.ceil(Math.max(bottom, view[1]) / step) * step; y <= Math.min(top, view[3]); y += step)
+    (pen.moveTo(left, y), pen.lineTo(right, y));
   pen.stroke();
 }
 
 /** Prisms in the order of their distance; lines in pixels, so the pen is not in metres. */
 function drawPrisms(pen, camera, prisms) {
-  const distant = prisms.map((prism) => ({prism, near: Math.max(...prism.corners.map(([x, y]) => camera.nearness(x, y)))}));
+  const distant = prisms.map((prism) => ({
+    prism,
+    near: Math.max(...prism.corners.map(([x, y]) => camera.nearness(x, y)))
+  }));
   distant.sort((one, other) => one.near - other.near);
   for (const {prism} of distant) drawPrism(pen, camera, prism);
   pen.globalAlpha = 1;
@@ -153,23 +185,27 @@ function drawPrisms(pen, camera, prisms) {
 
 function drawPrism(pen, camera, {corners, low, high, fill, line, alpha}) {
   const points = corners.map(([x, y]) => [camera.across(x, y), camera.down(x, y, low), camera.down(x, y, high)]);
-  const area = points.reduce((sum, [u, v], i) => sum + u * points[(i + 1) % points.length][1] - v * points[(i + 1) % points.length][0], 0);
+  const area = points.reduce(
+    (sum, [u, v], i) => sum + u * points[(i + 1) % points.length][1] - v * points[(i + 1) % points.length][0],
+    0
+  );
   pen.fillStyle = fill;
   pen.strokeStyle = line;
   pen.lineWidth = 0.75;
   points.forEach(([u1, foot1, head1], i) => {
     const [u2, foot2, head2] = points[(i + 1) % points.length];
-    if ((u2 - u1) * Math.sign(area) < 0) {  // the side faces the eye
+    if ((u2 - u1) * Math.sign(area) < 0) {
+      // the side faces the eye
       pen.globalAlpha = alpha * 0.75;
       pen.beginPath();
-      pen.moveTo(u1, foot1), pen.lineTo(u2, foot2), pen.lineTo(u2, head2), pen.lineTo(u1, head1), pen.closePath();
+      (pen.moveTo(u1, foot1), pen.lineTo(u2, foot2), pen.lineTo(u2, head2), pen.lineTo(u1, head1), pen.closePath());
       pen.fill();
       pen.stroke();
     }
   });
   pen.globalAlpha = alpha;
   pen.beginPath();
-  points.forEach(([u, , head], i) => i === 0 ? pen.moveTo(u, head) : pen.lineTo(u, head));
+  points.forEach(([u, , head], i) => (i === 0 ? pen.moveTo(u, head) : pen.lineTo(u, head)));
   pen.closePath();
   pen.fill();
   pen.stroke();

@@ -20,7 +20,8 @@ class PlanGestures {
   }
 
   press(event) {
-    const at = this.view.surface.place(event), canvas = this.view.surface.canvas;
+    const at = this.view.surface.place(event),
+      canvas = this.view.surface.canvas;
     canvas.setPointerCapture(event.pointerId);
     this.pointers.set(event.pointerId, at);
     this.moved = false;
@@ -32,7 +33,8 @@ class PlanGestures {
   }
 
   move(event) {
-    const at = this.view.surface.place(event), before = this.pointers.get(event.pointerId);
+    const at = this.view.surface.place(event),
+      before = this.pointers.get(event.pointerId);
     if (!before) {
       this.status(this.view.textAt(at.x, at.y));
       return;
@@ -56,10 +58,15 @@ class PlanGestures {
   pinch(moving, before, at) {
     const other = [...this.pointers].find(([id]) => id !== moving)[1];
     const middle = (point) => ({x: (point.x + other.x) / 2, y: (point.y + other.y) / 2});
-    const was = middle(before), is = middle(at);
+    const was = middle(before),
+      is = middle(at);
     this.leave();
     this.camera.pan(is.x - was.x, is.y - was.y);
-    this.camera.zoom(Math.hypot(at.x - other.x, at.y - other.y) / Math.max(1, Math.hypot(before.x - other.x, before.y - other.y)), is.x, is.y);
+    this.camera.zoom(
+      Math.hypot(at.x - other.x, at.y - other.y) / Math.max(1, Math.hypot(before.x - other.x, before.y - other.y)),
+      is.x,
+      is.y
+    );
   }
 
   turn(across, down) {
@@ -70,7 +77,8 @@ class PlanGestures {
   }
 
   release(event) {
-    const at = this.view.surface.place(event), pressed = this.pointers.delete(event.pointerId);
+    const at = this.view.surface.place(event),
+      pressed = this.pointers.delete(event.pointerId);
     if (!pressed || this.moved || event.type === "pointercancel" || event.button !== 0 || this.measuring()) return;
     const robot = this.view.robotAt(at.x, at.y);
     if (event.shiftKey) {
@@ -91,7 +99,8 @@ class PlanGestures {
   }
 
   doubleClick(event) {
-    const at = this.view.surface.place(event), robot = this.view.robotAt(at.x, at.y);
+    const at = this.view.surface.place(event),
+      robot = this.view.robotAt(at.x, at.y);
     if (robot >= 0) {
       this.session.selectRobot(robot);
       this.session.follow(true);
@@ -101,7 +110,7 @@ class PlanGestures {
 
   key(event) {
     const pan = {ArrowLeft: [60, 0], ArrowRight: [-60, 0], ArrowUp: [0, 60], ArrowDown: [0, -60]}[event.key];
-    const zoom = {"+": 1.25, "=": 1.25, "-": 0.8, "_": 0.8}[event.key];
+    const zoom = {"+": 1.25, "=": 1.25, "-": 0.8, _: 0.8}[event.key];
     if ((!pan && !zoom && event.key !== "0") || event.ctrlKey || event.metaKey || event.altKey) return;
     if (pan) {
       this.leave();

@@ -20,15 +20,18 @@ class PlanTools {
 
   toggleFollow() {
     this.session.follow(!this.session.following);
-    const {camera} = this.view, {following, header, robot} = this.session;
+    const {camera} = this.view,
+      {following, header, robot} = this.session;
     // From afar a robot is hard to see; it is followed close by.
-    if (following && camera.scale * reachOf(header.robots[robot]) < 8) camera.scale = 16 / reachOf(header.robots[robot]);
+    if (following && camera.scale * reachOf(header.robots[robot]) < 8)
+      camera.scale = 16 / reachOf(header.robots[robot]);
     camera.fitted = false;
     this.repaint();
   }
 
   toggleOblique() {
-    const {camera} = this.view, on = !camera.oblique;
+    const {camera} = this.view,
+      on = !camera.oblique;
     camera.tilt = on ? 0.85 : Math.PI / 2;
     camera.turn = on ? -0.35 : 0;
     if (camera.fitted) camera.fit(this.view.bounds());
@@ -54,14 +57,37 @@ class PlanTools {
   }
 
   makeMenu() {
-    const trail = element("select", {"aria-label": "Length of the trail", onchange: (event) => {
-      this.session.trail = Number(event.target.value);
-      this.session.changed("layers");
-    }}, [[10, "10 s"], [60, "1 min"], [600, "10 min"], [1e9, "all"]].map(([seconds, name]) => element("option", {value: seconds * SECOND, selected: seconds === 60}, name)));
+    const trail = element(
+      "select",
+      {
+        "aria-label": "Length of the trail",
+        onchange: (event) => {
+          this.session.trail = Number(event.target.value);
+          this.session.changed("layers");
+        }
+      },
+      [
+        [10, "10 s"],
+        [60, "1 min"],
+        [600, "10 min"],
+        [1e9, "all"]
+      ].map(([seconds, name]) => element("option", {value: seconds * SECOND, selected: seconds === 60}, name))
+    );
     this.boxes = LAYERS.map((layer) => {
-      const box = element("input", {type: "checkbox", checked: layer.on, onchange: () => this.session.toggleLayer(layer.key)});
+      const box = element("input", {
+        type: "checkbox",
+        checked: layer.on,
+        onchange: () => this.session.toggleLayer(layer.key)
+      });
       const swatch = element("span", {class: "swatch", "aria-hidden": "true"});
-      byId("layer-menu").append(element("div", {class: "layer"}, element("label", {}, box, swatch, layer.name), layer.key === "trail" ? trail : null));
+      byId("layer-menu").append(
+        element(
+          "div",
+          {class: "layer"},
+          element("label", {}, box, swatch, layer.name),
+          layer.key === "trail" ? trail : null
+        )
+      );
       return {layer, box, swatch};
     });
     this.updateMenu();
@@ -69,9 +95,20 @@ class PlanTools {
 
   updateMenu() {
     const colours = theme.colours;
-    const swatches = {grid: colours.grid, furniture: colours.furniture, unknown: colours.unknownLine, trail: colours.robots[0], laser: `${colours.laser}66`,
-      sonar: `${colours.sonar}88`, route: colours.route, goals: colours.goal, estimate: colours.estimate, covariance: `${colours.estimate}44`,
-      odometry: colours.odometry, segments: colours.segment};
+    const swatches = {
+      grid: colours.grid,
+      furniture: colours.furniture,
+      unknown: colours.unknownLine,
+      trail: colours.robots[0],
+      laser: `${colours.laser}66`,
+      sonar: `${colours.sonar}88`,
+      route: colours.route,
+      goals: colours.goal,
+      estimate: colours.estimate,
+      covariance: `${colours.estimate}44`,
+      odometry: colours.odometry,
+      segments: colours.segment
+    };
     for (const {layer, box, swatch} of this.boxes) {
       box.checked = this.session.layers[layer.key];
       swatch.style.background = swatches[layer.key] ?? "none";
@@ -80,9 +117,14 @@ class PlanTools {
 
   /** The selected robot's situation, in a sentence. */
   describe() {
-    const {session} = this, state = session.frame?.robots[session.robot];
+    const {session} = this,
+      state = session.frame?.robots[session.robot];
     if (!state) return setText(byId("plan-text"), "No robot.");
-    const {goals} = session.header.robots[session.robot], [x, y, heading] = state.truth;
-    setText(byId("plan-text"), `At ${shortInstantText(session.time)} ${session.robotName} is at ${placeText(x, y)}, heading ${degrees(heading)}, with ${state.goals_reached} of ${goals.length} goals reached and ${state.collisions} collisions.`);
+    const {goals} = session.header.robots[session.robot],
+      [x, y, heading] = state.truth;
+    setText(
+      byId("plan-text"),
+      `At ${shortInstantText(session.time)} ${session.robotName} is at ${placeText(x, y)}, heading ${degrees(heading)}, with ${state.goals_reached} of ${goals.length} goals reached and ${state.collisions} collisions.`
+    );
   }
 }

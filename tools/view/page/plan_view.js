@@ -9,7 +9,7 @@ class PlanView {
     this.frameOf = frameOf;
     this.line = line;
     this.floor = new PlanFloor();
-    this.measure = null;  // {from: {x, y}, to: {x, y}}
+    this.measure = null; // {from: {x, y}, to: {x, y}}
     this.title = "";
     this.surface = new Surface(canvas, (pen) => this.paint(pen));
     this.surface.resized = () => this.resize();
@@ -17,7 +17,8 @@ class PlanView {
   }
 
   resize() {
-    const {camera, surface} = this, first = camera.width === 0;
+    const {camera, surface} = this,
+      first = camera.width === 0;
     if (surface.width === 0) return;
     camera.width = surface.width;
     camera.height = surface.height;
@@ -38,7 +39,10 @@ class PlanView {
   }
 
   paint(pen) {
-    const {session, camera} = this, {header, layers} = session, ratio = this.surface.ratio, frame = this.frameOf();
+    const {session, camera} = this,
+      {header, layers} = session,
+      ratio = this.surface.ratio,
+      frame = this.frameOf();
     if (!frame) return;
     if (session.following && frame.robots[session.robot]) {
       [camera.x, camera.y] = frame.robots[session.robot].truth;
@@ -47,7 +51,8 @@ class PlanView {
     camera.update();
     this.floor.set(frame.obstacles ?? header.obstacles);
     this.floor.drawStill(pen, camera, ratio, this.bounds(), layers);
-    const seen = robotsInView(camera, header, frame), detailed = this.detailed(seen);
+    const seen = robotsInView(camera, header, frame),
+      detailed = this.detailed(seen);
     this.drawBelow(pen, frame, detailed);
     if (camera.oblique) {
       drawStalks(pen, camera, frame, seen);
@@ -56,7 +61,13 @@ class PlanView {
       drawRobots(pen, camera, header, frame, flat);
       for (const index of seen.filter((index) => detailed.includes(index))) {
         const [x, y, heading, z = 0] = frame.robots[index].truth;
-        drawHeading(pen, camera, [x, y, heading, z + header.robots[index].high], reachOf(header.robots[index]) * 0.72, theme.colours.floor);
+        drawHeading(
+          pen,
+          camera,
+          [x, y, heading, z + header.robots[index].high],
+          reachOf(header.robots[index]) * 0.72,
+          theme.colours.floor
+        );
       }
     } else drawRobots(pen, camera, header, frame, seen);
     this.drawAbove(pen, frame, detailed);
@@ -73,24 +84,32 @@ class PlanView {
   }
 
   drawBelow(pen, frame, indices) {
-    const {session, camera} = this, {layers, header} = session;
+    const {session, camera} = this,
+      {layers, header} = session;
     for (const index of indices) {
-      const state = frame.robots[index], robot = header.robots[index];
+      const state = frame.robots[index],
+        robot = header.robots[index];
       if (layers.laser) drawScans(pen, camera, robot, state, index);
       if (layers.sonar) drawSonars(pen, camera, robot, state);
       if (layers.segments) drawSegments(pen, camera, state);
-      if (layers.trail) drawTrail(pen, camera, session.source.trail(this.line(), index, frame.time, session.trail), robotColour(index));
+      if (layers.trail)
+        drawTrail(pen, camera, session.source.trail(this.line(), index, frame.time, session.trail), robotColour(index));
       if (layers.route) drawRoute(pen, camera, state);
-      if (layers.goals && index === session.robot && !camera.oblique) drawGoals(pen, camera, robot, state, layers.names);
+      if (layers.goals && index === session.robot && !camera.oblique)
+        drawGoals(pen, camera, robot, state, layers.names);
     }
   }
 
   drawAbove(pen, frame, indices) {
-    const {camera, session} = this, {layers, header} = session, colours = theme.colours;
+    const {camera, session} = this,
+      {layers, header} = session,
+      colours = theme.colours;
     for (const index of indices) {
-      const state = frame.robots[index], robot = header.robots[index];
+      const state = frame.robots[index],
+        robot = header.robots[index];
       if (layers.goals && index === session.robot && camera.oblique) drawGoals(pen, camera, robot, state, layers.names);
-      if (layers.covariance && state.estimate && state.covariance) drawCovariance(pen, camera, state.estimate, state.covariance);
+      if (layers.covariance && state.estimate && state.covariance)
+        drawCovariance(pen, camera, state.estimate, state.covariance);
       if (layers.odometry) drawGhost(pen, camera, robot, state.odometry, colours.odometry, [2, 3]);
       if (layers.estimate) drawGhost(pen, camera, robot, state.estimate, colours.estimate, [5, 3]);
     }
@@ -105,11 +124,16 @@ class PlanView {
 
   /** The index of the robot at a pixel, or -1. */
   robotAt(u, v) {
-    const {camera} = this, frame = this.frameOf();
-    let best = -1, nearest = Infinity;
+    const {camera} = this,
+      frame = this.frameOf();
+    let best = -1,
+      nearest = Infinity;
     frame?.robots.forEach((robot, index) => {
       if (!robot) return;
-      const distance = Math.hypot(camera.across(robot.truth[0], robot.truth[1]) - u, camera.down(robot.truth[0], robot.truth[1], robot.truth[3] ?? 0) - v);
+      const distance = Math.hypot(
+        camera.across(robot.truth[0], robot.truth[1]) - u,
+        camera.down(robot.truth[0], robot.truth[1], robot.truth[3] ?? 0) - v
+      );
       const reach = Math.max(10, reachOf(this.session.header.robots[index]) * camera.scale + 3);
       if (distance < reach && distance < nearest) [best, nearest] = [index, distance];
     });
@@ -118,18 +142,27 @@ class PlanView {
 
   /** What is under the pointer, in words. */
   textAt(u, v) {
-    const {x, y} = this.camera.place(u, v), robot = this.robotAt(u, v);
+    const {x, y} = this.camera.place(u, v),
+      robot = this.robotAt(u, v);
     const obstacle = robot < 0 && this.floor.obstacles ? this.floor.at(x, y, this.session.layers) : null;
-    const name = robot >= 0 ? this.session.header.robots[robot].name : obstacle ? `${obstacle.name}, ${metres(obstacle.high)} high${obstacle.known === false ? ", not on the map" : ""}` : "";
+    const name =
+      robot >= 0
+        ? this.session.header.robots[robot].name
+        : obstacle
+          ? `${obstacle.name}, ${metres(obstacle.high)} high${obstacle.known === false ? ", not on the map" : ""}`
+          : "";
     return `${placeText(x, y)}${name ? ` · ${name}` : ""}`;
   }
 }
 
 function drawScaleBar(pen, camera) {
-  if (camera.oblique) return;  // lengths differ by direction
-  const length = roundStep(60 / camera.scale), pixels = length * camera.scale, v = camera.height - 14, u = 14;
+  if (camera.oblique) return; // lengths differ by direction
+  const length = roundStep(60 / camera.scale),
+    pixels = length * camera.scale,
+    v = camera.height - 14,
+    u = 14;
   pen.beginPath();
-  pen.moveTo(u, v - 5), pen.lineTo(u, v), pen.lineTo(u + pixels, v), pen.lineTo(u + pixels, v - 5);
+  (pen.moveTo(u, v - 5), pen.lineTo(u, v), pen.lineTo(u + pixels, v), pen.lineTo(u + pixels, v - 5));
   pen.strokeStyle = theme.colours.text;
   pen.lineWidth = 1.5;
   pen.stroke();
@@ -141,17 +174,25 @@ function drawScaleBar(pen, camera) {
 
 /** A line with its length and direction. */
 function drawMeasure(pen, camera, {from, to}) {
-  const u1 = camera.across(from.x, from.y), v1 = camera.down(from.x, from.y), u2 = camera.across(to.x, to.y), v2 = camera.down(to.x, to.y);
+  const u1 = camera.across(from.x, from.y),
+    v1 = camera.down(from.x, from.y),
+    u2 = camera.across(to.x, to.y),
+    v2 = camera.down(to.x, to.y);
   pen.strokeStyle = pen.fillStyle = theme.colours.measure;
   pen.lineWidth = 1.5;
   pen.beginPath();
-  pen.moveTo(u1, v1), pen.lineTo(u2, v2);
+  (pen.moveTo(u1, v1), pen.lineTo(u2, v2));
   pen.stroke();
-  for (const [u, v] of [[u1, v1], [u2, v2]]) pen.fillRect(u - 2.5, v - 2.5, 5, 5);
+  for (const [u, v] of [
+    [u1, v1],
+    [u2, v2]
+  ])
+    pen.fillRect(u - 2.5, v - 2.5, 5, 5);
   pen.font = "600 12px system-ui, sans-serif";
   pen.textAlign = "center";
   pen.textBaseline = "bottom";
   haloText(pen, measureText({from, to}), (u1 + u2) / 2, (v1 + v2) / 2 - 8);
 }
 
-const measureText = ({from, to}) => `${Math.hypot(to.x - from.x, to.y - from.y).toFixed(3)} m, ${degrees(Math.atan2(to.y - from.y, to.x - from.x))}`;
+const measureText = ({from, to}) =>
+  `${Math.hypot(to.x - from.x, to.y - from.y).toFixed(3)} m, ${degrees(Math.atan2(to.y - from.y, to.x - from.x))}`;

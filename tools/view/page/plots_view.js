@@ -22,28 +22,62 @@ class PlotsView {
 
   /** A run begins with the selected robot's speed, if that is there. */
   begin() {
-    const speed = this.session.source.plottable().find((one) => one.robot === this.session.robot && /(^|\.)v_m_s$/.test(one.field));
+    const speed = this.session.source
+      .plottable()
+      .find((one) => one.robot === this.session.robot && /(^|\.)v_m_s$/.test(one.field));
     if (speed) this.add(speed);
   }
 
   showFields() {
-    const {session} = this, groups = new Map();
+    const {session} = this,
+      groups = new Map();
     for (const one of session.source.plottable()) {
       if (one.robot !== session.robot) continue;
       if (!groups.has(one.poster)) groups.set(one.poster, []);
       groups.get(one.poster).push(one);
     }
-    this.fields.replaceChildren(...[...groups].map(([poster, fields]) => element("optgroup", {label: poster}, fields.map((one) => element("option", {value: JSON.stringify(one)}, `${poster} ${one.field}`)))));
+    this.fields.replaceChildren(
+      ...[...groups].map(([poster, fields]) =>
+        element(
+          "optgroup",
+          {label: poster},
+          fields.map((one) => element("option", {value: JSON.stringify(one)}, `${poster} ${one.field}`))
+        )
+      )
+    );
     byId("plot-add").disabled = this.fields.disabled = groups.size === 0;
   }
 
   add(wanted) {
     if (this.plots.some((plot) => JSON.stringify(plot.series.wanted) === JSON.stringify(wanted))) return;
-    const robot = this.session.header.robots[wanted.robot]?.name ?? "", title = `${this.session.header.robots.length > 1 ? `${robot} ` : ""}${wanted.poster}`;
-    const plot = {series: new PlotSeries(wanted, title), value: element("output", {"aria-live": "off"}), cursor: element("div", {class: "cursor"}), hover: null, colour: this.freeColour()};
-    const canvas = element("canvas", {role: "img", "aria-label": `${title} ${wanted.field} over time`}), remove = element("button", {class: "flat", "aria-label": `Remove ${title} ${wanted.field}`, onclick: () => this.remove(plot)}, "×");
-    plot.root = element("div", {class: "plot"}, element("div", {class: "host"}, canvas, plot.cursor),
-      element("div", {class: "name"}, element("span", {class: "age"}, title), element("span", {class: "field", title: wanted.field}, wanted.field), plot.value, remove));
+    const robot = this.session.header.robots[wanted.robot]?.name ?? "",
+      title = `${this.session.header.robots.length > 1 ? `${robot} ` : ""}${wanted.poster}`;
+    const plot = {
+      series: new PlotSeries(wanted, title),
+      value: element("output", {"aria-live": "off"}),
+      cursor: element("div", {class: "cursor"}),
+      hover: null,
+      colour: this.freeColour()
+    };
+    const canvas = element("canvas", {role: "img", "aria-label": `${title} ${wanted.field} over time`}),
+      remove = element(
+        "button",
+        {class: "flat", "aria-label": `Remove ${title} ${wanted.field}`, onclick: () => this.remove(plot)},
+        "×"
+      );
+    plot.root = element(
+      "div",
+      {class: "plot"},
+      element("div", {class: "host"}, canvas, plot.cursor),
+      element(
+        "div",
+        {class: "name"},
+        element("span", {class: "age"}, title),
+        element("span", {class: "field", title: wanted.field}, wanted.field),
+        plot.value,
+        remove
+      )
+    );
     this.host.append(plot.root);
     this.plots.push(plot);
     plot.surface = new Surface(canvas, (pen, width, height) => this.paint(plot, pen, width, height));
@@ -65,15 +99,25 @@ class PlotsView {
   }
 
   async loadOne(plot) {
-    const {axis} = this, margin = axis.span * 0.1;
-    if (await plot.series.load(this.session.source, this.session.line, axis.from - margin, axis.to + margin, Math.ceil(axis.width * 2))) {
+    const {axis} = this,
+      margin = axis.span * 0.1;
+    if (
+      await plot.series.load(
+        this.session.source,
+        this.session.line,
+        axis.from - margin,
+        axis.to + margin,
+        Math.ceil(axis.width * 2)
+      )
+    ) {
       plot.surface.invalidate();
       this.moveCursors();
     }
   }
 
   paint(plot, pen, width, height) {
-    const {axis} = this, colours = theme.colours;
+    const {axis} = this,
+      colours = theme.colours;
     pen.fillStyle = colours.floor;
     pen.fillRect(0, 0, width, height);
     pen.save();
@@ -87,18 +131,22 @@ class PlotsView {
 
   listen(plot, canvas) {
     let drag = null;
-    canvas.addEventListener("wheel", (event) => {
-      event.preventDefault();
-      this.axis.zoom(2 ** (-wheelPixels(event) / 200), plot.surface.place(event).x);
-    }, {passive: false});
+    canvas.addEventListener(
+      "wheel",
+      (event) => {
+        event.preventDefault();
+        this.axis.zoom(2 ** (-wheelPixels(event) / 200), plot.surface.place(event).x);
+      },
+      {passive: false}
+    );
     canvas.addEventListener("pointerdown", (event) => {
       drag = plot.surface.place(event).x;
       canvas.setPointerCapture(event.pointerId);
     });
-    canvas.addEventListener("pointerup", () => drag = null);
+    canvas.addEventListener("pointerup", () => (drag = null));
     canvas.addEventListener("pointermove", (event) => {
       const {x} = plot.surface.place(event);
-      if (drag !== null) this.axis.pan(x - drag), drag = x;
+      if (drag !== null) (this.axis.pan(x - drag), (drag = x));
       plot.hover = x;
       this.showValue(plot);
     });
@@ -111,8 +159,15 @@ class PlotsView {
 
   /** The value under the pointer, else that at the cursor. */
   showValue(plot) {
-    const time = plot.hover === null ? this.session.time : this.axis.time(plot.hover), value = plot.series.at(time);
-    setText(plot.value, plot.series.note || (value === null ? "–" : `${typeof value === "number" ? Number(value.toPrecision(7)) : value}${plot.hover === null ? "" : ` at ${(time / SECOND).toFixed(3)} s`}`));
+    const time = plot.hover === null ? this.session.time : this.axis.time(plot.hover),
+      value = plot.series.at(time);
+    setText(
+      plot.value,
+      plot.series.note ||
+        (value === null
+          ? "–"
+          : `${typeof value === "number" ? Number(value.toPrecision(7)) : value}${plot.hover === null ? "" : ` at ${(time / SECOND).toFixed(3)} s`}`)
+    );
   }
 
   moveCursors() {

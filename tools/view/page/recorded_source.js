@@ -15,14 +15,24 @@ class RecordedSource {
     this.header = run.header;
     this.control = false;
     this.frames = run.frames;
-    this.until = Math.max(this.frames.at(-1)?.time ?? 0, run.events ? run.events.to : 0);
     if (this.frames.length === 0) this.frames.push({kind: "frame", line: 0, time: 0, events: 0, robots: []});
-    this.store = new EventStore(run.events ?? {t: [], k: [], o: [], x: [], tasks: [], objects: [], from: 0, to: 0, first: 1, complete: true},
-      run.header.operations);
+    this.store = new EventStore(
+      run.events ?? {t: [], k: [], o: [], x: [], tasks: [], objects: [], from: 0, to: 0, first: 1, complete: true},
+      run.header.operations
+    );
+    this.until = Math.max(this.frames.at(-1).time, this.store.count ? this.store.time.at(-1) : 0);
     this.log = run.log ?? [];
-    this.status = {time: this.until, events: this.frames.at(-1).events, over: true, outcome: run.outcome ?? "", summary: run.summary ?? "",
-      digest: run.digest ?? (/wp1:[0-9a-f]+/.exec(run.summary ?? "") ?? [""])[0], speed: 0, paused: false,
-      lines: [{line: 0, from: 0, parent: null, name: "run", to: this.until}]};
+    this.status = {
+      time: this.until,
+      events: this.frames.at(-1).events,
+      over: true,
+      outcome: run.outcome ?? "",
+      summary: run.summary ?? "",
+      digest: run.digest ?? (/wp1:[0-9a-f]+/.exec(run.summary ?? "") ?? [""])[0],
+      speed: 0,
+      paused: false,
+      lines: [{line: 0, from: 0, parent: null, name: "run", to: this.until}]
+    };
     this.complete();
   }
 
@@ -46,17 +56,21 @@ class RecordedSource {
   /** Poses between two frames are interpolated, so that a run plays smoothly; the rest is the earlier frame's. */
   frameAt(time, executed) {
     const next = firstWhere(this.frames.length, (i) => this.frames[i].time > time);
-    const frame = this.frames[Math.max(0, next - 1)], after = this.frames[next];
+    const frame = this.frames[Math.max(0, next - 1)],
+      after = this.frames[next];
     const events = executed ?? (this.store.count ? this.store.first - 1 + this.store.at(time + 1) : frame.events);
     if (!after || time === frame.time) return {...frame, time, events};
     const part = (time - frame.time) / (after.time - frame.time);
-    const robots = frame.robots.map((robot, index) => robot && after.robots[index] ? between(robot, after.robots[index], part) : robot);
+    const robots = frame.robots.map((robot, index) =>
+      robot && after.robots[index] ? between(robot, after.robots[index], part) : robot
+    );
     return {...frame, time, events, robots};
   }
 
   /** The frame after `count` more events (fewer, if negative), of the task of that number if one is given. */
   async step(line, count, task, from) {
-    const store = this.store, executed = from.events - (store.first - 1);
+    const store = this.store,
+      executed = from.events - (store.first - 1);
     const lane = task === null ? null : store.lanes[store.tasks.findIndex((one) => one.number === task)];
     const done = lane ? firstWhere(lane.length, (i) => lane[i] >= executed) : executed;
     const target = Math.max(0, Math.min(done + count, lane ? lane.length : store.count));
@@ -76,7 +90,9 @@ class RecordedSource {
 
   async tasks(line, frame) {
     const executed = frame.events - (this.store.first - 1);
-    return this.store.tasks.length ? this.store.tasks.map((task, index) => taskAt(this.store, index, executed, frame.time)) : this.run.tasks?.tasks ?? [];
+    return this.store.tasks.length
+      ? this.store.tasks.map((task, index) => taskAt(this.store, index, executed, frame.time))
+      : (this.run.tasks?.tasks ?? []);
   }
 
   /** Modules are recorded at the end only; `time` says so. */
@@ -89,7 +105,9 @@ class RecordedSource {
   }
 
   async plot(line, wanted) {
-    const found = (this.run.plots ?? []).find((plot) => plot.robot === wanted.robot && plot.poster === wanted.poster && plot.field === wanted.field);
+    const found = (this.run.plots ?? []).find(
+      (plot) => plot.robot === wanted.robot && plot.poster === wanted.poster && plot.field === wanted.field
+    );
     return found ? {t: found.t ?? this.run.plot_times, v: found.v} : {t: [], v: []};
   }
 
@@ -97,7 +115,10 @@ class RecordedSource {
   trail(line, robot, time, span) {
     const end = firstWhere(this.frames.length, (i) => this.frames[i].time > time);
     const begin = firstWhere(end, (i) => this.frames[i].time >= time - span);
-    return this.frames.slice(begin, end).map((frame) => frame.robots[robot]?.truth).filter(Boolean);
+    return this.frames
+      .slice(begin, end)
+      .map((frame) => frame.robots[robot]?.truth)
+      .filter(Boolean);
   }
 
   async stack() {
@@ -107,7 +128,7 @@ class RecordedSource {
 
 /** Gives a robot's frame what it leaves out as unchanged. A scan keeps the pose at which it was taken. */
 function carryOver(kept, robot) {
-  if (robot.scans) robot.scans.forEach((scan) => scan.pose ??= robot.truth);
+  if (robot.scans) robot.scans.forEach((scan) => (scan.pose ??= robot.truth));
   for (const name of ["scans", "sonars", "route", "segments"]) {
     if (robot[name] === undefined) robot[name] = kept[name];
     else kept[name] = robot[name];
@@ -115,7 +136,14 @@ function carryOver(kept, robot) {
 }
 
 function between(robot, after, part) {
-  const pose = (a, b) => !a || !b ? a : a.map((value, i) => i === 2 ? value + wrapped(b[i] - value) * part : value + (b[i] - value) * part);
-  return {...robot, truth: pose(robot.truth, after.truth), estimate: pose(robot.estimate, after.estimate),
-    odometry: pose(robot.odometry, after.odometry)};
+  const pose = (a, b) =>
+    !a || !b
+      ? a
+      : a.map((value, i) => (i === 2 ? value + wrapped(b[i] - value) * part : value + (b[i] - value) * part));
+  return {
+    ...robot,
+    truth: pose(robot.truth, after.truth),
+    estimate: pose(robot.estimate, after.estimate),
+    odometry: pose(robot.odometry, after.odometry)
+  };
 }

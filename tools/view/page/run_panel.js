@@ -1,14 +1,31 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The run itself: how far it is, its summary, and, if the program allows it, its pace.
 
-const PACES = [[0, "as fast as it computes"], [0.1, "0.1×"], [0.5, "0.5×"], [1, "1×"], [2, "2×"], [10, "10×"], [100, "100×"]];
+const PACES = [
+  [0, "as fast as it computes"],
+  [0.1, "0.1×"],
+  [0.5, "0.5×"],
+  [1, "1×"],
+  [2, "2×"],
+  [10, "10×"],
+  [100, "100×"]
+];
 
 class RunPanel {
   constructor(panel, session, report) {
     this.session = session;
-    const {source} = session, told = (promise) => promise.catch((error) => report(error.message));
-    this.hold = element("button", {"aria-pressed": "false", onclick: () => told(source.pause(!source.status.paused))}, "Hold the run");
-    this.pace = element("select", {onchange: (event) => told(source.pace(Number(event.target.value)))}, PACES.map(([value, name]) => element("option", {value}, name)));
+    const {source} = session,
+      told = (promise) => promise.catch((error) => report(error.message));
+    this.hold = element(
+      "button",
+      {"aria-pressed": "false", onclick: () => told(source.pause(!source.status.paused))},
+      "Hold the run"
+    );
+    this.pace = element(
+      "select",
+      {onchange: (event) => told(source.pace(Number(event.target.value)))},
+      PACES.map(([value, name]) => element("option", {value}, name))
+    );
     this.controls = element("div", {class: "row"}, this.hold, element("label", {}, "Pace ", this.pace));
     this.facts = new TextTable("Run", ["Fact", "Value"]);
     this.text = element("pre");
@@ -16,11 +33,18 @@ class RunPanel {
   }
 
   update() {
-    const {source, header} = this.session, {status} = source;
+    const {source, header} = this.session,
+      {status} = source;
     this.controls.hidden = !source.control || status.over;
     this.hold.setAttribute("aria-pressed", String(status.paused === true));
-    const rows = [["Scenario", header.scenario], ["Seed, order", `${header.seed}, ${header.order}`], ["State", status.over ? status.outcome || "over" : status.paused ? "held" : "running"],
-      ["Time", `${shortInstantText(status.time)} of at most ${shortInstantText(header.until)}`], ["Events", countText(status.events)], ["Robots", String(header.robots.length)]];
+    const rows = [
+      ["Scenario", header.scenario],
+      ["Seed, order", `${header.seed}, ${header.order}`],
+      ["State", status.over ? status.outcome || "over" : status.paused ? "held" : "running"],
+      ["Time", `${shortInstantText(status.time)} of at most ${shortInstantText(header.until)}`],
+      ["Events", countText(status.events)],
+      ["Robots", String(header.robots.length)]
+    ];
     if (header.description) rows.splice(1, 0, ["Description", header.description]);
     if (status.digest) rows.push(["Digest", status.digest]);
     this.facts.set(rows);

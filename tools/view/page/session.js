@@ -12,11 +12,11 @@ class Session {
     this.source = source;
     this.header = source.header;
     this.line = 0;
-    this.frame = null;      // the robots at the cursor
-    this.robot = 0;         // index in the header
+    this.frame = null; // the robots at the cursor
+    this.robot = 0; // index in the header
     this.following = false;
-    this.event = null;      // as EventStore.describe gives it
-    this.compared = null;   // {line, frame, difference}
+    this.event = null; // as EventStore.describe gives it
+    this.compared = null; // {line, frame, difference}
     this.trail = 60 * SECOND;
     this.layers = Object.fromEntries(LAYERS.map((layer) => [layer.key, layer.on]));
     this.listeners = new Map();
@@ -82,5 +82,5 @@ const LAYERS = [
   {key: "covariance", name: "Covariance, 3 σ", on: true},
   {key: "odometry", name: "Odometry alone", on: false},
   {key: "segments", name: "Segments mapped", on: true},
-  {key: "names", name: "Names", on: true},
+  {key: "names", name: "Names", on: true}
 ];

@@ -13,6 +13,8 @@ QUOTED = re.compile(r'"(?:[^"\\\n]|\\.)*"|\'(?:[^\'\\\n]|\\.)*\'', re.DOTALL)
 EXPRESSION = re.compile(r"/(?![*/])(?:[^/\\\[\n]|\\.|\[(?:[^\]\\\n]|\\.)*\])+/[a-z]*")
 COMMENT = re.compile(r"//[^\n]*|/\*.*?\*/", re.DOTALL)
 SPACES = re.compile(r"[ \t]+")
+SIGNS = "+-/"
+NO_SPACE_BESIDE = "=<>?:,;{}()&|!*%[]"
 
 
 def template_end(text, at):
@@ -65,17 +67,25 @@ def squeeze_script(text):
         if piece == "\n":
             if kept and kept[-1] == " ":
                 kept.pop()
+            # Where a statement cannot end, a line need not.
             if not kept or kept[-1][-1] in "\n{;,([":
                 continue
         elif piece == " ":
-            if last in "=<>?:,;{}()&|!*%[]\n+-":
-                # Two signs must not become one operator.
-                if last not in "+-":
-                    continue
-        elif kept and kept[-1] == " " and piece[0] in "=<>?:,;{}()&|!*%[]":
-            kept.pop()
+            if last in NO_SPACE_BESIDE + "\n":
+                continue
+        else:
+            if kept and kept[-1] == " " and (piece[0] in NO_SPACE_BESIDE or joins(kept[-2][-1], piece[0])):
+                kept.pop()
+            # Nor does one end before what only goes on.
+            if kept and kept[-1] == "\n" and piece[0] in ")]}.?:&|=,;":
+                kept.pop()
         kept.append(piece)
     return "".join(squeeze_code(part) if code else "".join(part) for code, part in runs(kept))
+
+
+def joins(one, other):
+    """Whether a space between a sign and another character can go; two signs must not become one operator."""
+    return (one in SIGNS) != (other in SIGNS)
 
 
 def runs(kept):
@@ -85,9 +95,9 @@ def runs(kept):
 
 
 def squeeze_code(part):
-    """Without the parentheses about a function's only parameter, and the semicolons at the ends of blocks."""
+    """Without the parentheses about a function's only parameter, and what need not be before the end of a block or list."""
     text = re.sub(r"(?<![\w$)\]])\((\w+)\)=>", r"\1=>", "".join(part))
-    return text.replace(";\n}", "}").replace("}\n}", "}}").replace("}\n}", "}}")
+    return re.sub(r";+(?=})|,(?=[}\])])", "", text).replace("}\n}", "}}")
 
 
 def squeeze_style(text):

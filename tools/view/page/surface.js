@@ -23,7 +23,7 @@ function paintSurfaces() {
     surface.paint(surface.pen, surface.width, surface.height);
   }
   ++pictures.count;
-  pictures.cost += ((performance.now() - begin) - pictures.cost) / 8;
+  pictures.cost += (performance.now() - begin - pictures.cost) / 8;
 }
 
 class Surface {
@@ -45,7 +45,8 @@ class Surface {
   fit() {
     const box = this.canvas.parentElement.getBoundingClientRect();
     const ratio = window.devicePixelRatio || 1;
-    const width = Math.floor(box.width), height = Math.floor(box.height);
+    const width = Math.floor(box.width),
+      height = Math.floor(box.height);
     if (width === this.width && height === this.height && ratio === this.ratio) return;
     Object.assign(this, {width, height, ratio});
     this.canvas.width = Math.round(width * ratio);

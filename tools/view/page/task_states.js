@@ -7,18 +7,30 @@ const STATES = {
   ready: {name: "ready", pattern: "dotted"},
   blocked: {name: "blocked", pattern: "rising"},
   idle: {name: "idle", pattern: null},
-  late: {name: "late", pattern: "upright"},
+  late: {name: "late", pattern: "upright"}
 };
 
 /** Operations after which a task waits, if nothing is known about what followed. */
-const WAITS = new Set(["wait", "acquire", "join", "receive", "accept", "connect", "poll", "arrive", "lock", "lock_shared"]);
+const WAITS = new Set([
+  "wait",
+  "acquire",
+  "join",
+  "receive",
+  "accept",
+  "connect",
+  "poll",
+  "arrive",
+  "lock",
+  "lock_shared"
+]);
 
 /**
  * The state between the events `before` and `after` (indices, or -1: not known) of a task, and the object it waits for
  * (-1: none). At one instant a task is at most "ready": its event is in the event list.
  */
 function stateBetween(store, before, after) {
-  const was = before >= 0 ? store.operationName(before) : "", is = after >= 0 ? store.operationName(after) : "";
+  const was = before >= 0 ? store.operationName(before) : "",
+    is = after >= 0 ? store.operationName(after) : "";
   if (was === "end" || is === "start") return {state: null, object: -1};
   if (is === "resume" || is === "timeout") {
     const object = store.object[after] >= 0 ? store.object[after] : before >= 0 ? store.object[before] : -1;
@@ -34,7 +46,8 @@ function stateBetween(store, before, after) {
 function activationAt(store, lane, place) {
   // An activation has tens of events; a task that does not wait for its timer for thousands has no period in this sense.
   for (let i = Math.min(place, lane.length - 1), end = Math.max(0, i - 2000); i >= end; --i) {
-    const operation = store.operationName(lane[i]), object = store.object[lane[i]];
+    const operation = store.operationName(lane[i]),
+      object = store.object[lane[i]];
     if (operation === "timer_wait" && i < place) return null;
     if (operation === "resume" && object >= 0 && store.objects[object].kind === "timer") return store.time[lane[i]];
   }
@@ -45,11 +58,21 @@ function activationAt(store, lane, place) {
 function taskAt(store, task, executed, time) {
   const lane = store.lanes[task];
   const next = firstWhere(lane.length, (i) => lane[i] >= executed);
-  const before = next > 0 ? lane[next - 1] : -1, after = next < lane.length ? lane[next] : -1;
+  const before = next > 0 ? lane[next - 1] : -1,
+    after = next < lane.length ? lane[next] : -1;
   const {state, object} = stateBetween(store, before, after);
   const {number, name, robot} = store.tasks[task];
   const until = after >= 0 && store.operationName(after) === "timeout" ? store.time[after] : null;
-  return {number, name, robot, events: next, local: before >= 0 ? Math.max(store.time[before], Math.min(time, after >= 0 ? store.time[after] : time)) : time,
-    state: state ?? (before < 0 ? "not started" : "ended"), operation: before >= 0 ? store.operationName(before) : "", deadline: until, work: "",
-    object: object >= 0 ? {...store.objects[object], owner: null} : null};
+  return {
+    number,
+    name,
+    robot,
+    events: next,
+    local: before >= 0 ? Math.max(store.time[before], Math.min(time, after >= 0 ? store.time[after] : time)) : time,
+    state: state ?? (before < 0 ? "not started" : "ended"),
+    operation: before >= 0 ? store.operationName(before) : "",
+    deadline: until,
+    work: "",
+    object: object >= 0 ? {...store.objects[object], owner: null} : null
+  };
 }

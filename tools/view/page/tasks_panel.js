@@ -4,7 +4,7 @@
 class TasksPanel {
   constructor(panel, session, choose) {
     this.session = session;
-    this.choose = choose;  // told a task's name and robot
+    this.choose = choose; // told a task's name and robot
     this.all = element("input", {type: "checkbox", onchange: () => this.update()});
     this.table = new TextTable("Tasks", ["Task", "State", "Since", "Waits for, or does"]);
     this.asked = 0;
@@ -12,21 +12,43 @@ class TasksPanel {
   }
 
   async update() {
-    const {session} = this, asked = ++this.asked;
+    const {session} = this,
+      asked = ++this.asked;
     if (!session.frame) return;
     const tasks = await session.source.tasks(session.line, session.frame).catch(() => null);
-    if (!tasks || asked !== this.asked) return;  // the cursor has moved on
-    const shown = tasks.filter((task) => this.all.checked || task.robot === session.robotName || !session.header.robots.some((robot) => robot.name === task.robot)).slice(0, 400);
+    if (!tasks || asked !== this.asked) return; // the cursor has moved on
+    const shown = tasks
+      .filter(
+        (task) =>
+          this.all.checked ||
+          task.robot === session.robotName ||
+          !session.header.robots.some((robot) => robot.name === task.robot)
+      )
+      .slice(0, 400);
     const several = new Set(shown.map((task) => task.robot)).size > 2;
     setText(this.table.table.caption, `Tasks at ${shortInstantText(session.time)}`);
-    this.table.set(shown.map((task) => [several ? `${task.robot} ${task.name}` : task.name, task.state, task.local ? shortInstantText(task.local) : "–", doingText(task)]),
-      {marked: shown.findIndex((task) => task.name === session.event?.task && task.robot === session.event?.robot), choose: (i) => this.choose(shown[i])});
+    this.table.set(
+      shown.map((task) => [
+        several ? `${task.robot} ${task.name}` : task.name,
+        task.state,
+        task.local ? shortInstantText(task.local) : "–",
+        doingText(task)
+      ]),
+      {
+        marked: shown.findIndex((task) => task.name === session.event?.task && task.robot === session.event?.robot),
+        choose: (i) => this.choose(shown[i])
+      }
+    );
   }
 }
 
 function doingText(task) {
-  const {object} = task, parts = [];
-  if (object) parts.push(`${task.operation} ${object.kind}#${object.number}${object.label ? ` "${object.label}"` : ""}${object.owner ? `, held by ${object.owner}` : ""}`);
+  const {object} = task,
+    parts = [];
+  if (object)
+    parts.push(
+      `${task.operation} ${object.kind}#${object.number}${object.label ? ` "${object.label}"` : ""}${object.owner ? `, held by ${object.owner}` : ""}`
+    );
   else if (task.operation) parts.push(task.operation);
   if (task.work) parts.push(task.work);
   if (task.deadline !== null && task.deadline !== undefined) parts.push(`until ${shortInstantText(task.deadline)}`);

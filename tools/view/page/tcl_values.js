@@ -30,21 +30,51 @@ function tclElements(text) {
 /** Names and values of a record by its shape; lists are told by their first elements. */
 function tclFields(text, shape) {
   if (shape.kind === "record") {
-    const elements = tclElements(text), shapes = new Map(shape.parts.map((part) => [part.name, part])), fields = [];
+    const elements = tclElements(text),
+      shapes = new Map(shape.parts.map((part) => [part.name, part])),
+      fields = [];
     for (let i = 0; i + 1 < elements.length; i += 2) {
       const part = shapes.get(elements[i]) ?? {kind: "value"};
-      fields.push({name: elements[i], ...(part.kind === "value" ? {value: elements[i + 1]} : {parts: tclFields(elements[i + 1], part)})});
+      fields.push({
+        name: elements[i],
+        ...(part.kind === "value" ? {value: elements[i + 1]} : {parts: tclFields(elements[i + 1], part)})
+      });
     }
     return fields;
   }
   if (shape.kind === "list") {
-    const elements = tclElements(text), most = 24, part = shape.parts.length === 1 && shape.parts[0].kind === "record" ? shape.parts[0] : {kind: "record", parts: shape.parts};
-    const fields = elements.slice(0, most).map((one, i) => /\s/.test(one) ? {name: String(i), value: tclFields(one, part).map((field) => `${field.name} ${field.value ?? "…"}`).join("  ")} : {name: String(i), value: one});
+    const elements = tclElements(text),
+      most = 24,
+      part =
+        shape.parts.length === 1 && shape.parts[0].kind === "record"
+          ? shape.parts[0]
+          : {kind: "record", parts: shape.parts};
+    const fields = elements.slice(0, most).map((one, i) =>
+      /\s/.test(one)
+        ? {
+            name: String(i),
+            value: tclFields(one, part)
+              .map((field) => `${field.name} ${field.value ?? "…"}`)
+              .join("  ")
+          }
+        : {name: String(i), value: one}
+    );
     return elements.length > most ? [...fields, {name: "…", value: `${elements.length} in all`}] : fields;
   }
   return [{name: "", value: text}];
 }
 
 function fieldList(fields) {
-  return element("ul", {class: "field-list"}, fields.map((field) => element("li", {}, element("span", {class: "name"}, `${field.name} `), field.parts ? fieldList(field.parts) : field.value)));
+  return element(
+    "ul",
+    {class: "field-list"},
+    fields.map((field) =>
+      element(
+        "li",
+        {},
+        element("span", {class: "name"}, `${field.name} `),
+        field.parts ? fieldList(field.parts) : field.value
+      )
+    )
+  );
 }

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The axis of virtual time that the timeline and the plots share: from hours to nanoseconds.
 
-const LEAST_SPAN = 40;  // nanoseconds in the whole width
+const LEAST_SPAN = 40; // nanoseconds in the whole width
 
 class TimeAxis {
   constructor(session) {
     this.session = session;
     this.from = 0;
     this.to = 1;
-    this.left = 160;   // pixels of labels before it
+    this.left = 160; // pixels of labels before it
     this.width = 600;
     this.listeners = [];
     this.whole = true; // the whole run is shown, however far it comes
@@ -24,11 +24,11 @@ class TimeAxis {
   }
 
   x(time) {
-    return this.left + (time - this.from) / this.span * this.width;
+    return this.left + ((time - this.from) / this.span) * this.width;
   }
 
   time(x) {
-    return this.from + (x - this.left) / this.width * this.span;
+    return this.from + ((x - this.left) / this.width) * this.span;
   }
 
   set(from, to) {
@@ -52,7 +52,7 @@ class TimeAxis {
   }
 
   pan(pixels) {
-    const shift = -pixels / this.width * this.span;
+    const shift = (-pixels / this.width) * this.span;
     this.set(this.from + shift, this.to + shift);
   }
 
@@ -65,9 +65,15 @@ class TimeAxis {
 
   /** Instants for lines and texts: round ones, with enough room for a text between two. */
   ticks() {
-    const least = this.span * 95 / Math.max(this.width, 95);
-    const step = least >= 60 * SECOND ? [60, 120, 300, 600, 1200, 1800, 3600, 7200, 14400, 43200, 86400].map((s) => s * SECOND).find((s) => s >= least) ?? least
-      : least >= 10 * SECOND ? [10, 15, 20, 30, 60].map((s) => s * SECOND).find((s) => s >= least) : Math.max(1, roundStep(least));
+    const least = (this.span * 95) / Math.max(this.width, 95);
+    const step =
+      least >= 60 * SECOND
+        ? ([60, 120, 300, 600, 1200, 1800, 3600, 7200, 14400, 43200, 86400]
+            .map((s) => s * SECOND)
+            .find((s) => s >= least) ?? least)
+        : least >= 10 * SECOND
+          ? [10, 15, 20, 30, 60].map((s) => s * SECOND).find((s) => s >= least)
+          : Math.max(1, roundStep(least));
     const found = [];
     for (let time = Math.ceil(Math.max(0, this.from) / step) * step; time <= this.to; time += step) found.push(time);
     return {step, times: found};
@@ -88,7 +94,7 @@ class TimeAxis {
     pen.beginPath();
     for (const time of times) {
       const x = Math.round(this.x(time)) + 0.5;
-      pen.moveTo(x, texts ? 16 : 0), pen.lineTo(x, height);
+      (pen.moveTo(x, texts ? 16 : 0), pen.lineTo(x, height));
     }
     pen.stroke();
     if (!texts) return;
@@ -96,7 +102,9 @@ class TimeAxis {
     pen.font = "11px system-ui, sans-serif";
     pen.textBaseline = "middle";
     pen.textAlign = "left";
-    for (const time of times) if (this.x(time) < this.left + this.width - 24) pen.fillText(this.tickText(time, step), Math.round(this.x(time)) + 3, 10);
+    for (const time of times)
+      if (this.x(time) < this.left + this.width - 24)
+        pen.fillText(this.tickText(time, step), Math.round(this.x(time)) + 3, 10);
   }
 }
 

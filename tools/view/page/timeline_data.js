@@ -1,20 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The events that the timeline needs for its view: those of a recorded run are all there, those of a live one are asked for.
 
-const MOST_EVENTS = 30000;  // beyond it, lanes show densities
+const MOST_EVENTS = 30000; // beyond it, lanes show densities
 
 class TimelineData {
   constructor(session, axis, line, changed) {
     Object.assign(this, {session, axis, line, changed});
     this.store = null;
     this.counts = null;
-    this.asked = null;  // the view of a question under way
+    this.asked = null; // the view of a question under way
     this.state = "";
   }
 
   async loadCounts() {
     const counts = await this.session.source.counts(this.line()).catch(() => null);
-    if (counts) counts.byKey = new Map(counts.tasks.map(([number, name, robot], i) => [`${robot}/${name}/${number}`, i]));
+    if (counts)
+      counts.byKey = new Map(counts.tasks.map(([number, name, robot], i) => [`${robot}/${name}/${number}`, i]));
     this.counts = counts;
     this.changed();
   }
@@ -28,28 +29,35 @@ class TimelineData {
   /** All tasks that are known, by the store and the counts. */
   tasks() {
     const found = new Map();
-    for (const [number, name, robot] of this.counts?.tasks ?? []) found.set(`${robot}/${name}/${number}`, {number, name, robot, key: `${robot}/${name}/${number}`});
+    for (const [number, name, robot] of this.counts?.tasks ?? [])
+      found.set(`${robot}/${name}/${number}`, {number, name, robot, key: `${robot}/${name}/${number}`});
     for (const task of this.store?.tasks ?? []) found.set(task.key, task);
     const places = new Map(this.session.header.robots.map((robot, i) => [robot.name, i + 1]));
     // The environment comes first, then robots as the header has them, then tasks in the order of their making.
-    return [...found.values()].sort((one, other) => (places.get(one.robot) ?? 0) - (places.get(other.robot) ?? 0) || one.number - other.number);
+    return [...found.values()].sort(
+      (one, other) => (places.get(one.robot) ?? 0) - (places.get(other.robot) ?? 0) || one.number - other.number
+    );
   }
 
   covers(from, to) {
     const end = this.axis.end;
-    return this.store && (this.store.from <= Math.max(0, from)) && (this.store.to >= Math.min(to, end));
+    return this.store && this.store.from <= Math.max(0, from) && this.store.to >= Math.min(to, end);
   }
 
   /** Asks for the events in view, with a margin, unless they are there or the counts tell that they are too many. */
   async need() {
-    const {source} = this.session, {from, to, span} = this.axis;
+    const {source} = this.session,
+      {from, to, span} = this.axis;
     if (this.covers(from, to) || this.asked || this.tooMany(from, to)) return;
     const wanted = {from: Math.max(0, Math.floor(from - span / 2)), to: Math.ceil(to + span / 2)};
     this.asked = wanted;
     try {
       const store = await source.events(this.line(), wanted.from, wanted.to, MOST_EVENTS);
       // Too many for all: the view alone, of which the rest is drawn as density.
-      this.store = store.complete || source.kind === "recorded" ? store : await source.events(this.line(), Math.max(0, Math.floor(from)), Math.ceil(to), MOST_EVENTS);
+      this.store =
+        store.complete || source.kind === "recorded"
+          ? store
+          : await source.events(this.line(), Math.max(0, Math.floor(from)), Math.ceil(to), MOST_EVENTS);
       this.state = "";
     } catch (error) {
       this.state = error.message;
@@ -62,7 +70,9 @@ class TimelineData {
 
   tooMany(from, to) {
     if (!this.counts || this.session.source.kind === "recorded") return false;
-    const {period, from: begin, events} = this.counts, first = Math.max(0, Math.floor((from - begin) / period)), end = Math.ceil((to - begin) / period);
+    const {period, from: begin, events} = this.counts,
+      first = Math.max(0, Math.floor((from - begin) / period)),
+      end = Math.ceil((to - begin) / period);
     let sum = 0;
     for (const row of events) for (let i = first; i < Math.min(end, row.length); ++i) sum += row[i];
     return sum * Math.min(1, (to - from) / ((end - first) * period)) > MOST_EVENTS;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What is drawn in the timeline's lanes: states and events if they are few, their density if they are many.
 
-const MOST_APART = 400;  // events in view, up to which those of an instant are set apart
+const MOST_APART = 400; // events in view, up to which those of an instant are set apart
 
 /**
  * Places of events on the axis. Events of one instant have one time; where there is room before the next instant, they are set
@@ -11,14 +11,15 @@ class EventPlaces {
   constructor(store, axis, begin, end) {
     Object.assign(this, {store, axis, begin, end});
     this.x = new Float64Array(Math.max(0, end - begin));
-    this.instants = [];  // those set apart: {x, end}
+    this.instants = []; // those set apart: {x, end}
     // In a wider view the places would look like times.
     const close = end - begin <= MOST_APART;
     for (let i = begin; i < end;) {
       let next = i + 1;
       while (next < end && store.time[next] === store.time[i]) ++next;
-      const x = axis.x(store.time[i]), room = (next < store.count ? axis.x(store.time[next]) : axis.left + axis.width) - x;
-      const apart = close ? Math.min(8, 0.8 * Math.min(room, axis.width) / (next - i)) : 0;
+      const x = axis.x(store.time[i]),
+        room = (next < store.count ? axis.x(store.time[next]) : axis.left + axis.width) - x;
+      const apart = close ? Math.min(8, (0.8 * Math.min(room, axis.width)) / (next - i)) : 0;
       if (apart >= 1.5 && next - i > 1) this.instants.push({x, end: x + apart * (next - i)});
       for (let k = i; k < next; ++k) this.x[k - begin] = apart >= 1.5 ? x + apart * (k - i) : x;
       i = next;
@@ -37,13 +38,21 @@ function stateFill(pen, state) {
 
 /** A task's states between its events, and their ticks. period: of the task, or 0. */
 function drawLane(pen, store, places, axis, task, period, top, height, thin) {
-  const lane = store.lanes[task], begin = Math.max(0, store.atInLane(task, axis.from) - 1), left = axis.left, right = axis.left + axis.width;
-  const middle = top + height / 2, body = thin ? height * 0.4 : height * 0.62;
-  let activation = period > 0 ? activationAt(store, lane, begin) : null, workedTo = -Infinity;
+  const lane = store.lanes[task],
+    begin = Math.max(0, store.atInLane(task, axis.from) - 1),
+    left = axis.left,
+    right = axis.left + axis.width;
+  const middle = top + height / 2,
+    body = thin ? height * 0.4 : height * 0.62;
+  let activation = period > 0 ? activationAt(store, lane, begin) : null,
+    workedTo = -Infinity;
   const draw = (before, after, from, to) => {
-    const x0 = Math.max(left, from), x1 = Math.min(right, to), small = x1 - x0 < 0.5;
+    const x0 = Math.max(left, from),
+      x1 = Math.min(right, to),
+      small = x1 - x0 < 0.5;
     if (x1 < left || x0 > right || x1 < x0) return;
-    const {state, object} = stateBetween(store, before, after), waits = state === "idle" || state === "blocked";
+    const {state, object} = stateBetween(store, before, after),
+      waits = state === "idle" || state === "blocked";
     // Waits shorter than a pixel are left out. Work is not, however short: a pixel has some or none.
     if (!state || (small && (waits || before < 0 || store.time[after] === store.time[before] || x0 < workedTo))) return;
     if (!waits) workedTo = Math.max(x1, x0 + 1.5);
@@ -55,7 +64,8 @@ function drawLane(pen, store, places, axis, task, period, top, height, thin) {
     pen.fillStyle = stateFill(pen, state);
     const size = state === "blocked" ? body * 0.5 : body;
     pen.fillRect(x0, middle - size / 2, Math.max(1.5, x1 - x0), size);
-    if (state === "blocked" && x1 - x0 > 80 && !thin) laneText(pen, object >= 0 ? store.objectText(object) : "waits", x0 + 6, middle, x1 - x0 - 12);
+    if (state === "blocked" && x1 - x0 > 80 && !thin)
+      laneText(pen, object >= 0 ? store.objectText(object) : "waits", x0 + 6, middle, x1 - x0 - 12);
     const end = after >= 0 ? store.time[after] : axis.to;
     if (period > 0 && activation !== null && state !== "blocked" && end > activation + period) {
       const late = Math.max(x0, Math.min(axis.x(activation + period), x1));
@@ -66,7 +76,13 @@ function drawLane(pen, store, places, axis, task, period, top, height, thin) {
   if (begin === 0 && lane.length > 0) draw(-1, lane[0], axis.x(store.from), places.of(lane[0]));
   for (let i = begin; i < lane.length; ++i) {
     const event = lane[i];
-    if (period > 0 && store.operationName(event) === "resume" && store.object[event] >= 0 && store.objects[store.object[event]].kind === "timer") activation = store.time[event];
+    if (
+      period > 0 &&
+      store.operationName(event) === "resume" &&
+      store.object[event] >= 0 &&
+      store.objects[store.object[event]].kind === "timer"
+    )
+      activation = store.time[event];
     const after = i + 1 < lane.length ? lane[i + 1] : -1;
     draw(event, after, places.of(event), after >= 0 ? places.of(after) : axis.x(store.to));
     if (store.operationName(event) === "timer_wait") activation = null;
@@ -89,7 +105,8 @@ function laneText(pen, text, x, y, room) {
 
 /** A line for each event; of those closer than three pixels the first. */
 function drawTicks(pen, store, places, axis, task, top, height) {
-  const lane = store.lanes[task], middle = top + height / 2;
+  const lane = store.lanes[task],
+    middle = top + height / 2;
   pen.fillStyle = theme.colours.text;
   for (let i = store.atInLane(task, axis.from), last = -9; i < lane.length && store.time[lane[i]] <= axis.to; ++i) {
     const x = places.of(lane[i]);
@@ -112,7 +129,8 @@ function drawDensity(pen, axis, numbers, top, height, greatest) {
 
 /** The numbers for drawDensity of some tasks: of the store if it has all events in view, else of the counts by period. */
 function densityOf(tasks, store, counts, axis) {
-  const numbers = [], step = 2;
+  const numbers = [],
+    step = 2;
   if (store && store.complete && store.from <= Math.max(0, axis.from) && store.to >= Math.min(axis.to, axis.end)) {
     const lanes = tasks.map((task) => store.byKey.get(task.key)).filter((task) => task !== undefined);
     const before = (x) => lanes.reduce((sum, task) => sum + store.atInLane(task, axis.time(x)), 0);
@@ -124,13 +142,18 @@ function densityOf(tasks, store, counts, axis) {
     return numbers;
   }
   if (!counts) return numbers;
-  const rows = tasks.map((task) => counts.byKey.get(task.key)).filter((row) => row !== undefined).map((row) => counts.events[row]);
-  const first = Math.max(0, Math.floor((axis.from - counts.from) / counts.period)), last = Math.ceil((axis.to - counts.from) / counts.period);
+  const rows = tasks
+    .map((task) => counts.byKey.get(task.key))
+    .filter((row) => row !== undefined)
+    .map((row) => counts.events[row]);
+  const first = Math.max(0, Math.floor((axis.from - counts.from) / counts.period)),
+    last = Math.ceil((axis.to - counts.from) / counts.period);
   const merge = Math.max(1, Math.ceil(step / (axis.x(counts.period) - axis.x(0))));
-  for (let i = first - first % merge; i < last; i += merge) {
+  for (let i = first - (first % merge); i < last; i += merge) {
     let count = 0;
     for (const row of rows) for (let k = i; k < i + merge; ++k) count += row[k] ?? 0;
-    const x = Math.max(axis.left, axis.x(counts.from + i * counts.period)), end = Math.min(axis.left + axis.width, axis.x(counts.from + (i + merge) * counts.period));
+    const x = Math.max(axis.left, axis.x(counts.from + i * counts.period)),
+      end = Math.min(axis.left + axis.width, axis.x(counts.from + (i + merge) * counts.period));
     if (end > x) numbers.push({x, width: end - x, count: count / merge});
   }
   return numbers;
@@ -143,14 +166,16 @@ function drawMissed(pen, counts, tasks, axis, top, height) {
     const missed = counts.missed?.[counts.byKey.get(task.key)] ?? [];
     missed.forEach((count, i) => {
       const x = axis.x(counts.from + i * counts.period);
-      if (count > 0 && x > axis.left - 2 && x < axis.left + axis.width) pen.fillRect(x, top + 1, Math.max(3, axis.x(counts.period) - axis.x(0)), 4);
+      if (count > 0 && x > axis.left - 2 && x < axis.left + axis.width)
+        pen.fillRect(x, top + 1, Math.max(3, axis.x(counts.period) - axis.x(0)), 4);
     });
   }
 }
 
 /** From a task that wakes to the one that resumes. */
 function drawArrow(pen, x0, y0, x1, y1, strong) {
-  const bend = Math.max(6, Math.min(30, Math.abs(y1 - y0) / 3)), direction = Math.sign(y1 - y0) || 1;
+  const bend = Math.max(6, Math.min(30, Math.abs(y1 - y0) / 3)),
+    direction = Math.sign(y1 - y0) || 1;
   pen.strokeStyle = pen.fillStyle = strong ? theme.colours.select : theme.colours.arrow;
   pen.globalAlpha = strong ? 1 : 0.65;
   pen.lineWidth = strong ? 2 : 1;
@@ -159,7 +184,7 @@ function drawArrow(pen, x0, y0, x1, y1, strong) {
   pen.bezierCurveTo(x0 + bend / 3, y0 + direction * bend, x1, y1 - direction * bend, x1, y1);
   pen.stroke();
   pen.beginPath();
-  pen.moveTo(x1, y1), pen.lineTo(x1 - 3, y1 - direction * 6), pen.lineTo(x1 + 3, y1 - direction * 6);
+  (pen.moveTo(x1, y1), pen.lineTo(x1 - 3, y1 - direction * 6), pen.lineTo(x1 + 3, y1 - direction * 6));
   pen.fill();
   pen.globalAlpha = 1;
 }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The timeline's rows: a lane for each task, in groups of robots and modules that can be closed to one row.
 
-const ROW = 20, GROUP_ROW = 22;
+const ROW = 20,
+  GROUP_ROW = 22;
 
 class TimelineRows {
   constructor(session) {
@@ -10,7 +11,7 @@ class TimelineRows {
     this.opened = new Set();
     this.rows = [];
     this.height = 0;
-    this.wanted = "";  // only tasks with this in their names or their robots'
+    this.wanted = ""; // only tasks with this in their names or their robots'
     this.tasks = [];
     this.rowOf = new Map();
   }
@@ -30,13 +31,14 @@ class TimelineRows {
 
   toggle(key) {
     const robots = new Set(this.tasks.map((task) => task.robot)).size;
-    if (this.isClosed(key, robots)) this.closed.delete(key), this.opened.add(key);
-    else this.closed.add(key), this.opened.delete(key);
+    if (this.isClosed(key, robots)) (this.closed.delete(key), this.opened.add(key));
+    else (this.closed.add(key), this.opened.delete(key));
     this.layOut();
   }
 
   layOut() {
-    const robots = new Map(), wanted = this.wanted.toLowerCase();
+    const robots = new Map(),
+      wanted = this.wanted.toLowerCase();
     for (const task of this.tasks) {
       if (wanted && !`${task.robot} ${task.name}`.toLowerCase().includes(wanted)) continue;
       if (!robots.has(task.robot)) robots.set(task.robot, []);
@@ -52,7 +54,8 @@ class TimelineRows {
       for (const task of row.tasks) if (row.kind !== "robot" || row.closed) this.rowOf.set(task.key, row);
     };
     for (const [robot, tasks] of robots) {
-      const key = `robot ${robot}`, closed = this.isClosed(key, robots.size);
+      const key = `robot ${robot}`,
+        closed = this.isClosed(key, robots.size);
       add({kind: "robot", key, closed, label: robot, height: GROUP_ROW, tasks});
       if (!closed) for (const row of moduleRows(robot, tasks, this.closed)) add(row);
     }
@@ -76,7 +79,8 @@ class TimelineRows {
 function moduleRows(robot, tasks, closed) {
   const modules = new Map();
   for (const task of tasks) {
-    const dot = task.name.indexOf("."), module = dot > 0 ? task.name.slice(0, dot) : "";
+    const dot = task.name.indexOf("."),
+      module = dot > 0 ? task.name.slice(0, dot) : "";
     const key = module ? `module ${robot} ${module}` : `task ${task.key}`;
     if (!modules.has(key)) modules.set(key, {module, tasks: []});
     modules.get(key).tasks.push(task);
@@ -85,9 +89,30 @@ function moduleRows(robot, tasks, closed) {
   let odd = false;
   for (const [key, {module, tasks: own}] of modules) {
     odd = !odd;
-    if (module && closed.has(key)) rows.push({kind: "module", key, closed: true, module, label: `${own.length} tasks`, height: ROW, tasks: own, odd});
-    else own.forEach((task, i) => rows.push({kind: "task", key: module && i === 0 ? key : null, closed: false, module: i === 0 ? module : "",
-      label: module ? task.name.slice(module.length + 1) : task.name, height: ROW, tasks: [task], odd}));
+    if (module && closed.has(key))
+      rows.push({
+        kind: "module",
+        key,
+        closed: true,
+        module,
+        label: `${own.length} tasks`,
+        height: ROW,
+        tasks: own,
+        odd
+      });
+    else
+      own.forEach((task, i) =>
+        rows.push({
+          kind: "task",
+          key: module && i === 0 ? key : null,
+          closed: false,
+          module: i === 0 ? module : "",
+          label: module ? task.name.slice(module.length + 1) : task.name,
+          height: ROW,
+          tasks: [task],
+          odd
+        })
+      );
   }
   return rows;
 }

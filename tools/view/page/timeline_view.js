@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The timeline of a line of time: labels of rows beside a canvas with their lanes, both as high as their window.
 
-const RULER = 20;  // pixels of the axis above the lanes
+const RULER = 20; // pixels of the axis above the lanes
 
 class TimelineView {
   /** host: an element that scrolls; line: gives the line of time, frame: the frame at its cursor. */
@@ -10,13 +10,19 @@ class TimelineView {
     this.rows = new TimelineRows(session);
     this.data = new TimelineData(session, axis, line, () => this.refresh());
     this.places = null;
-    this.mark = null;     // an instant of interest: the first event that differs from another line
-    this.hovered = null;  // {x, y} of the pointer
-    this.canvas = element("canvas", {tabindex: 0, role: "application", "aria-label": "Timeline of tasks. Left and right select events of a task, up and down another task, plus and minus zoom.", "aria-describedby": "event-text"});
-    this.labels = element("div", {class: "lane-labels"});
+    this.mark = null; // an instant of interest: the first event that differs from another line
+    this.hovered = null; // {x, y} of the pointer
+    this.canvas = element("canvas", {
+      tabindex: 0,
+      role: "application",
+      "aria-label":
+        "Timeline of tasks. Left and right select events of a task, up and down another task, plus and minus zoom.",
+      "aria-describedby": "event-text"
+    });
+    this.labels = new TimelineLabels(this);
     this.space = element("div", {class: "lane-space"});
     this.cursor = element("div", {class: "cursor"});
-    this.window = element("div", {class: "lane-window"}, this.canvas, this.cursor, this.labels);
+    this.window = element("div", {class: "lane-window"}, this.canvas, this.cursor, this.labels.root);
     this.scroller = element("div", {class: "lane-scroller"}, this.window, this.space);
     host.append(this.scroller);
     this.surface = new Surface(this.canvas, (pen, width, height) => this.paint(pen, width, height));
@@ -49,7 +55,7 @@ class TimelineView {
   }
 
   scrolled() {
-    this.drawLabels();
+    this.labels.update();
     this.surface.invalidate();
   }
 
@@ -58,43 +64,19 @@ class TimelineView {
     this.surface.invalidate();
   }
 
-  /** Labels of the rows in view only: a thousand robots have many. Rows are made anew if they are others than before. */
-  drawLabels() {
-    const visible = this.rows.visible(this.top, this.surface.height - RULER);
-    const key = `${this.rows.rows.length} ${this.session.event?.key} ` + visible.map((row) => `${row.key ?? row.tasks[0].key} ${row.closed}`).join();
-    this.labels.style.top = `${RULER - this.top}px`;
-    if (key === this.labelled && this.labels.childElementCount === visible.length) return;
-    this.labelled = key;
-    const focused = document.activeElement?.dataset?.group;
-    this.labels.replaceChildren(...visible.map((row) => this.labelOf(row)));
-    if (focused) this.labels.querySelector(`[data-group="${CSS.escape(focused)}"]`)?.focus();
-  }
-
-  labelOf(row) {
-    const name = row.kind === "robot" ? row.label : row.module;
-    const toggle = () => {
-      this.rows.toggle(row.key);
-      this.layOut();
-    };
-    const button = row.key && name ? element("button", {class: "lane-group", "data-group": row.key, "aria-expanded": String(!row.closed), onclick: toggle, title: `${row.closed ? "Open" : "Close"} ${name}`},
-      element("span", {class: "chevron", "aria-hidden": "true"}, row.closed ? "▸" : "▾"), name) : null;
-    const chosen = row.tasks.length === 1 && row.tasks[0].key === this.session.event?.key;
-    const label = element("div", {class: `lane-label ${row.kind}${row.odd ? " odd" : ""}${chosen ? " chosen" : ""}`}, button, row.kind === "robot" ? null : element("span", {class: "lane-name"}, row.label));
-    label.style.top = `${row.y}px`;
-    label.style.height = `${row.height}px`;
-    return label;
-  }
-
   paint(pen, width, height) {
-    const {axis, rows} = this, colours = theme.colours, visible = rows.visible(this.top, height - RULER);
+    const {axis, rows} = this,
+      colours = theme.colours,
+      visible = rows.visible(this.top, height - RULER);
     const {store, counts} = this.data;
     pen.fillStyle = colours.floor;
     pen.fillRect(0, 0, width, height);
     const y = (row) => RULER + row.y - this.top;
-    for (const row of visible) if (row.kind === "robot" || row.odd) {
-      pen.fillStyle = colours.band;
-      pen.fillRect(axis.left, y(row), width - axis.left, row.height);
-    }
+    for (const row of visible)
+      if (row.kind === "robot" || row.odd) {
+        pen.fillStyle = colours.band;
+        pen.fillRect(axis.left, y(row), width - axis.left, row.height);
+      }
     // Beyond the run, and what is not yet known, is outside.
     pen.fillStyle = colours.outside;
     pen.fillRect(axis.x(axis.end), RULER, Math.max(0, width - axis.x(axis.end)), height);
@@ -102,8 +84,13 @@ class TimelineView {
     pen.beginPath();
     pen.rect(axis.left, 0, width - axis.left, height);
     pen.clip();
-    const begin = store ? store.at(axis.from) : 0, end = store ? store.at(axis.to + 1) : 0;
-    const few = store && end - begin <= MOST_EVENTS && (store.complete || store.to >= axis.to) && this.data.covers(axis.from, axis.to);
+    const begin = store ? store.at(axis.from) : 0,
+      end = store ? store.at(axis.to + 1) : 0;
+    const few =
+      store &&
+      end - begin <= MOST_EVENTS &&
+      (store.complete || store.to >= axis.to) &&
+      this.data.covers(axis.from, axis.to);
     this.places = few ? new EventPlaces(store, axis, begin, end) : null;
     axis.draw(pen, RULER, true);
     pen.beginPath();
@@ -112,7 +99,10 @@ class TimelineView {
     axis.draw(pen, height, false);
     if (few) this.paintEvents(pen, visible, y, end - begin);
     else this.paintDensities(pen, visible, y);
-    if (counts) for (const row of visible) if (row.tasks.length > 1 ? row.closed : true) if (!few) drawMissed(pen, counts, row.tasks, axis, y(row), row.height);
+    if (counts)
+      for (const row of visible)
+        if (row.tasks.length > 1 ? row.closed : true)
+          if (!few) drawMissed(pen, counts, row.tasks, axis, y(row), row.height);
     if (this.mark !== null) this.paintMark(pen, height);
     pen.restore();
     this.moveCursor();
@@ -124,9 +114,11 @@ class TimelineView {
   }
 
   paintEvents(pen, visible, y, count) {
-    const {axis, places} = this, {store} = this.data;
+    const {axis, places} = this,
+      {store} = this.data;
     pen.fillStyle = theme.colours.instant;
-    for (const instant of places.instants) pen.fillRect(instant.x - 3, RULER, instant.end - instant.x + 2, this.surface.height);
+    for (const instant of places.instants)
+      pen.fillRect(instant.x - 3, RULER, instant.end - instant.x + 2, this.surface.height);
     for (const row of visible) {
       if (row.kind === "robot" && !row.closed) continue;
       for (const task of row.tasks) {
@@ -141,23 +133,35 @@ class TimelineView {
   }
 
   paintArrows(pen, y) {
-    const {places, rows} = this, {store} = this.data;
+    const {places, rows} = this,
+      {store} = this.data;
     for (let i = places.begin; i < places.end; ++i) {
       const waker = store.waker(i);
       if (waker < 0) continue;
-      const from = rows.rowOf.get(store.tasks[store.task[waker]].key), to = rows.rowOf.get(store.tasks[store.task[i]].key);
+      const from = rows.rowOf.get(store.tasks[store.task[waker]].key),
+        to = rows.rowOf.get(store.tasks[store.task[i]].key);
       if (!from || !to || from === to) continue;
-      const number = this.session.event?.number, strong = number === store.first + i || number === store.first + waker;
+      const number = this.session.event?.number,
+        strong = number === store.first + i || number === store.first + waker;
       const down = to.y > from.y;
-      drawArrow(pen, places.of(waker), y(from) + from.height * (down ? 0.8 : 0.2), places.of(i), y(to) + to.height * (down ? 0.2 : 0.8), strong);
+      drawArrow(
+        pen,
+        places.of(waker),
+        y(from) + from.height * (down ? 0.8 : 0.2),
+        places.of(i),
+        y(to) + to.height * (down ? 0.2 : 0.8),
+        strong
+      );
     }
   }
 
   paintSelection(pen, y) {
-    const event = this.session.event, {store} = this.data;
+    const event = this.session.event,
+      {store} = this.data;
     const index = event && event.line === this.line() ? event.number - store.first : -1;
     if (index < 0 || index >= store.count || store.time[index] !== event.time) return;
-    const row = this.rows.rowOf.get(event.key), x = this.places.of(index);
+    const row = this.rows.rowOf.get(event.key),
+      x = this.places.of(index);
     if (!row) return;
     pen.strokeStyle = theme.colours.select;
     pen.lineWidth = 2;
@@ -166,9 +170,14 @@ class TimelineView {
 
   paintDensities(pen, visible, y) {
     const {store, counts} = this.data;
-    const lanes = visible.filter((row) => row.kind !== "robot" || row.closed).map((row) => ({row, numbers: densityOf(row.tasks, store, counts, this.axis)}));
+    const lanes = visible
+      .filter((row) => row.kind !== "robot" || row.closed)
+      .map((row) => ({row, numbers: densityOf(row.tasks, store, counts, this.axis)}));
     // One measure for all, so that lanes can be compared.
-    const greatest = lanes.reduce((most, {numbers}) => numbers.reduce((least, {count}) => Math.max(least, count), most), 1);
+    const greatest = lanes.reduce(
+      (most, {numbers}) => numbers.reduce((least, {count}) => Math.max(least, count), most),
+      1
+    );
     for (const {row, numbers} of lanes) drawDensity(pen, this.axis, numbers, y(row), row.height, greatest);
   }
 
@@ -178,40 +187,55 @@ class TimelineView {
     pen.lineWidth = 2;
     pen.setLineDash([6, 3]);
     pen.beginPath();
-    pen.moveTo(x, RULER), pen.lineTo(x, height);
+    (pen.moveTo(x, RULER), pen.lineTo(x, height));
     pen.stroke();
     pen.setLineDash([]);
   }
 
   /** The cursor is behind the last event that has been executed, where events of its instant are set apart. */
   cursorX() {
-    const frame = this.frame(), {store} = this.data;
+    const frame = this.frame(),
+      {store} = this.data;
     if (!frame) return -1;
     const last = store && this.places ? frame.events - store.first : -1;
-    if (last >= 0 && last < store.count && store.time[last] === frame.time) return this.places.of(last) + (this.places.instants.length ? 3 : 0);
+    if (last >= 0 && last < store.count && store.time[last] === frame.time)
+      return this.places.of(last) + (this.places.instants.length ? 3 : 0);
     return this.axis.x(frame.time);
   }
 
   periodOf(task) {
-    this.periods ??= new Map(this.session.header.robots.flatMap((robot) => (robot.modules ?? []).flatMap((module) => module.tasks.map((one) => [`${robot.name}/${module.name}.${one.name}`, one.period]))));
+    this.periods ??= new Map(
+      this.session.header.robots.flatMap((robot) =>
+        (robot.modules ?? []).flatMap((module) =>
+          module.tasks.map((one) => [`${robot.name}/${module.name}.${one.name}`, one.period])
+        )
+      )
+    );
     return this.periods.get(`${task.robot}/${task.name}`) ?? 0;
   }
 
   /** Scrolls to a task's row. */
   reveal(key) {
-    const row = this.rows.rowOf.get(key), room = this.surface.height - RULER;
+    const row = this.rows.rowOf.get(key),
+      room = this.surface.height - RULER;
     if (row && (row.y < this.top || row.y + row.height > this.top + room)) this.scroller.scrollTop = row.y - room / 3;
   }
 
   /** The task's row and the event nearest to a pixel: {row, task, event index or -1}. */
   at(x, y) {
-    const row = y < RULER ? null : this.rows.at(y - RULER + this.top), {store} = this.data;
+    const row = y < RULER ? null : this.rows.at(y - RULER + this.top),
+      {store} = this.data;
     if (!row) return null;
-    let best = -1, distance = 7;
+    let best = -1,
+      distance = 7;
     if (this.places && (row.kind !== "robot" || row.closed)) {
       for (const task of row.tasks) {
         const lane = store.lanes[store.byKey.get(task.key)] ?? [];
-        for (let i = Math.max(0, firstWhere(lane.length, (k) => lane[k] >= this.places.begin) - 1); i < lane.length && lane[i] < this.places.end; ++i) {
+        for (
+          let i = Math.max(0, firstWhere(lane.length, (k) => lane[k] >= this.places.begin) - 1);
+          i < lane.length && lane[i] < this.places.end;
+          ++i
+        ) {
           const away = Math.abs(this.places.of(lane[i]) - x);
           if (away < distance) [best, distance] = [lane[i], away];
         }

@@ -15,9 +15,11 @@ class Transport {
     on("next-period", () => clock.stepPeriod(1));
     on("play", () => clock.toggle());
     on("live", () => clock.setLive(!clock.live));
-    byId("speed").append(...SPEEDS.map((speed) => element("option", {value: speed, selected: speed === 1}, `${speed}×`)));
+    byId("speed").append(
+      ...SPEEDS.map((speed) => element("option", {value: speed, selected: speed === 1}, `${speed}×`))
+    );
     byId("speed").addEventListener("change", (event) => clock.setSpeed(Number(event.target.value)));
-    byId("period").addEventListener("change", (event) => clock.period = Number(event.target.value));
+    byId("period").addEventListener("change", (event) => (clock.period = Number(event.target.value)));
     byId("time").addEventListener("change", (event) => this.typed(event.target));
     byId("time").addEventListener("keydown", (event) => {
       if (event.key === "Escape") event.target.blur();
@@ -43,7 +45,9 @@ class Transport {
   }
 
   update() {
-    const {clock, session} = this, time = session.time, end = Math.max(1, clock.end);
+    const {clock, session} = this,
+      time = session.time,
+      end = Math.max(1, clock.end);
     if (document.activeElement !== byId("time")) byId("time").value = instantText(time).replace(" s", "");
     if (Number(this.slider.max) !== end) this.slider.max = end;
     this.slider.value = time;
@@ -57,12 +61,19 @@ class Transport {
     byId("live").hidden = session.source.kind !== "live";
     byId("live").setAttribute("aria-pressed", String(clock.live));
     const speed = byId("speed");
-    if (Number(speed.value) !== clock.speed) speed.value = String(SPEEDS.reduce((best, one) => Math.abs(one - clock.speed) < Math.abs(best - clock.speed) ? one : best));
+    if (Number(speed.value) !== clock.speed)
+      speed.value = String(
+        SPEEDS.reduce((best, one) => (Math.abs(one - clock.speed) < Math.abs(best - clock.speed) ? one : best))
+      );
   }
 
   /** Behind the slider: events a second of all tasks, deadlines missed, lines of the log, the timeline's view. */
   paintOverview(pen, width, height) {
-    const colours = theme.colours, end = Math.max(1, this.clock.end), margin = 8, scale = (width - 2 * margin) / end, x = (time) => margin + time * scale;
+    const colours = theme.colours,
+      end = Math.max(1, this.clock.end),
+      margin = 8,
+      scale = (width - 2 * margin) / end,
+      x = (time) => margin + time * scale;
     pen.clearRect(0, 0, width, height);
     pen.fillStyle = colours.band;
     pen.fillRect(margin, 4, width - 2 * margin, height - 8);
@@ -74,22 +85,28 @@ class Transport {
     }
     pen.strokeStyle = colours.text;
     pen.lineWidth = 1;
-    const from = Math.max(0, this.axis.from), to = Math.min(end, this.axis.to);
-    if (to - from < 0.995 * end) pen.strokeRect(Math.round(x(from)) - 0.5, 3.5, Math.max(2, Math.round(x(to) - x(from))) + 1, height - 7);
+    const from = Math.max(0, this.axis.from),
+      to = Math.min(end, this.axis.to);
+    if (to - from < 0.995 * end)
+      pen.strokeRect(Math.round(x(from)) - 0.5, 3.5, Math.max(2, Math.round(x(to) - x(from))) + 1, height - 7);
   }
 
   paintCounts(pen, counts, x, height) {
-    const length = Math.max(0, ...counts.events.map((row) => row.length)), sums = new Float64Array(length);
-    for (const row of counts.events) row.forEach((count, i) => sums[i] += count);
+    const length = Math.max(0, ...counts.events.map((row) => row.length)),
+      sums = new Float64Array(length);
+    for (const row of counts.events) row.forEach((count, i) => (sums[i] += count));
     const greatest = Math.max(1, ...sums);
     pen.fillStyle = theme.colours.running;
     pen.globalAlpha = 0.35;
     sums.forEach((sum, i) => {
-      const size = (height - 10) * sum / greatest, left = x(counts.from + i * counts.period), right = Math.min(x(counts.from + (i + 1) * counts.period), x(this.clock.end));
+      const size = ((height - 10) * sum) / greatest,
+        left = x(counts.from + i * counts.period),
+        right = Math.min(x(counts.from + (i + 1) * counts.period), x(this.clock.end));
       if (right > left) pen.fillRect(left, height - 5 - size, right - left + 0.3, size);
     });
     pen.globalAlpha = 1;
     pen.fillStyle = theme.colours.late;
-    for (const row of counts.missed ?? []) row.forEach((count, i) => count > 0 && pen.fillRect(x(counts.from + i * counts.period) - 1, 4, 3, 7));
+    for (const row of counts.missed ?? [])
+      row.forEach((count, i) => count > 0 && pen.fillRect(x(counts.from + i * counts.period) - 1, 4, 3, 7));
   }
 }

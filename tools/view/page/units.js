@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Times, lengths and angles as texts. Times are whole nanoseconds of virtual time, exact in a number up to 2^53.
 
-const SECOND = 1e9, MILLISECOND = 1e6, MICROSECOND = 1e3;
+const SECOND = 1e9,
+  MILLISECOND = 1e6,
+  MICROSECOND = 1e3;
 
 /** "34.422200000 s": an instant, in full. */
 function instantText(time) {
@@ -27,8 +29,10 @@ function spanText(span) {
 
 /** "1:02:03": hours, minutes and seconds of a long span. */
 function clockText(span) {
-  const seconds = Math.round(span / SECOND), two = (value) => String(value).padStart(2, "0");
-  const hours = Math.floor(seconds / 3600), minutes = Math.floor(seconds / 60) % 60;
+  const seconds = Math.round(span / SECOND),
+    two = (value) => String(value).padStart(2, "0");
+  const hours = Math.floor(seconds / 3600),
+    minutes = Math.floor(seconds / 60) % 60;
   return hours > 0 ? `${hours}:${two(minutes)}:${two(seconds % 60)}` : `${minutes}:${two(seconds % 60)}`;
 }
 
@@ -36,11 +40,11 @@ function clockText(span) {
 const rounded = (value) => String(Number(value.toPrecision(4)));
 
 const metres = (value) => `${value.toFixed(2)} m`;
-const degrees = (angle) => `${(angle * 180 / Math.PI).toFixed(1)}°`;
+const degrees = (angle) => `${((angle * 180) / Math.PI).toFixed(1)}°`;
 const placeText = (x, y) => `(${x.toFixed(2)}, ${y.toFixed(2)}) m`;
 const countText = (count) => String(count).replace(/\B(?=(\d{3})+$)/g, " ");
 
-const UNITS = {ns: 1, us: MICROSECOND, "µs": MICROSECOND, ms: MILLISECOND, s: SECOND, min: 60 * SECOND, h: 3600 * SECOND};
+const UNITS = {ns: 1, us: MICROSECOND, µs: MICROSECOND, ms: MILLISECOND, s: SECOND, min: 60 * SECOND, h: 3600 * SECOND};
 
 /** A time that was typed: "34.4", "12 ms", "1:02:03", "+0.5" (after `now`); null if it is none. */
 function parseTime(text, now) {
@@ -48,8 +52,10 @@ function parseTime(text, now) {
   if (!match || (match[5] && !(match[5] in UNITS))) return null;
   const [whole, fraction = ""] = match[4].split(".");
   // Digits of seconds are kept to the nanosecond, which the product of a fraction and 1e9 would not be.
-  let time = match[5] && match[5] !== "s" ? Number(match[4]) * UNITS[match[5]]
-    : Number(whole) * SECOND + Number((fraction + "000000000").slice(0, 9));
+  let time =
+    match[5] && match[5] !== "s"
+      ? Number(match[4]) * UNITS[match[5]]
+      : Number(whole) * SECOND + Number((fraction + "000000000").slice(0, 9));
   time += (Number(match[2] ?? 0) * 3600 + Number(match[3] ?? 0) * 60) * SECOND;
   time = Math.round(time);
   return match[1] === "" ? time : now + (match[1] === "+" ? time : -time);

@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: BSD-3-Clause
+import assert from 'node:assert/strict';
+import {after, afterEach, before, test} from 'node:test';
+import {launch, openPage, seek, settle, shareOf} from './browser.mjs';
+import {LiveProgram} from './live_program.mjs';
+import {poseAt, SECOND} from './sample_run.mjs';
+
+let browser, program, page;
+before(async () => (browser = await launch()));
+after(() => browser.close());
+afterEach(async () => {
+  await page?.close();
+  await program?.close();
+  page = program = null;
+});
+
+async function open(options) {
+  program = new LiveProgram(options);
+  await program.listen();
+  page = await openPage(browser, program.address);
+}
+const time = () => page.evaluate(() => window.waitpoint.session.time);
+const text = (selector) => page.$eval(selector, (element) => element.textContent);
+const until = (condition, ...values) => page.waitForFunction(condition, {timeout: 10000}, ...values);
+
+test('the run is followed as it goes', async () => {
+  await open();
+  assert.ok(program.asked.some(({ask, on}) => ask === 'follow' && on));
+  program.advance(7.5 * SECOND);
+  await until((wanted) => window.waitpoint.session.time === wanted, 7.5 * SECOND);
+  await settle(page);
+  const [x, y] = poseAt(7.5),
+    at = await page.evaluate((u, v) => window.waitpoint.pixels(u, v), x, y),
+    [colour] = await page.evaluate(() => window.waitpoint.theme.colours.robots);
+  assert.ok((await shareOf(page, '#plan-canvas', colour, at.x - 20, at.y - 20, 40, 40)) > 0.05);
+  assert.equal(await page.$eval('#slider', (slider) => Number(slider.max)), 7.5 * SECOND);
+  assert.equal(await text('#connection'), 'connected');
+  assert.deepEqual(page.problems, []);
+});
+
+test('going back leaves the run, and g returns to it', async () => {
+  await open();
+  await seek(page, 2 * SECOND);
+  program.advance(8 * SECOND);
+  await settle(page);
+  assert.equal(await time(), 2 * SECOND);
+  assert.equal(program.asked.filter(({ask}) => ask === 'follow').at(-1).on, false);
+  await page.evaluate(() => document.activeElement.blur());
+  await page.keyboard.press('g');
+  await settle(page);
+  program.advance(9 * SECOND);
+  await until((wanted) => window.waitpoint.session.time === wanted, 9 * SECOND);
+});
+
+test('steps, tasks, modules, plots and stacks are asked for', async () => {
+  await open();
+  await seek(page, 2 * SECOND);
+  const before = await page.evaluate(() => window.waitpoint.session.frame.events);
+  await page.keyboard.down('Shift');
+  await page.keyboard.press('ArrowRight');
+  await page.keyboard.up('Shift');
+  await settle(page);
+  assert.equal(await page.evaluate(() => window.waitpoint.session.frame.events), before + 1);
+  await page.click('#tab-tasks');
+  await settle(page);
+  assert.match(await text('#panel-tasks tbody'), /executive.*blocked.*acquire semaphore#2 "mailbox event", until 5 s/);
+  await page.click('#tab-modules');
+  await settle(page);
+  assert.match(await text('#panel-modules'), /ndd GoTo/);
+  await page.evaluate(() => window.waitpoint.parts.axis.set(1999e6, 2004e6));
+  await settle(page);
+  await page.evaluate(() => window.waitpoint.parts.timelineGestures.select(3));
+  await until(() => document.querySelector('#panel-event .stack').textContent.includes('modules/ndd/ndd.cpp:120'));
+  const fields = await page.$$eval('#plot-field option', (options) => options.map((option) => option.textContent));
+  assert.ok(fields.includes('pom.position pose.heading') && fields.includes('ndd.reference w_rad_s'));
+});
+
+test('the events of a live run are asked for by the view', async () => {
+  await open();
+  await page.evaluate(() => window.waitpoint.parts.axis.set(1999e6, 2004e6));
+  await until(() => window.waitpoint.parts.timeline.places !== null);
+  assert.equal(
+    await page.evaluate(() => {
+      const {store} = window.waitpoint.parts.timeline.data;
+      return store.describe(store.at(1999.9e6)).task;
+    }),
+    'world'
+  );
+});
+
+test('a connection that breaks is told and tried again', async () => {
+  await open();
+  await seek(page, 3 * SECOND);
+  await program.close();
+  await until(() => document.getElementById('connection').textContent.includes('connection lost'));
+  await page.keyboard.press('Home');
+  await until(() => document.getElementById('message').textContent === 'not connected');
+  await program.listen();
+  await until(() => document.getElementById('connection').textContent === 'connected');
+  await seek(page, 4 * SECOND);
+  assert.equal(await time(), 4 * SECOND);
+});
+
+test('errors are told in a line', async () => {
+  await open();
+  program.lines[0].to = 20 * SECOND;
+  program.send(program.status());
+  await settle(page);
+  program.lines[0].to = 5 * SECOND;
+  await seek(page, 19 * SECOND);
+  assert.equal(await text('#message'), 'that is beyond the run');
+  assert.equal(await page.$eval('#message', (line) => line.getAttribute('role')), 'alert');
+});
+
+test('a branch with interventions is made, shown and compared', async () => {
+  await open();
+  await seek(page, 3 * SECOND);
+  await page.keyboard.press('b');
+  await page.click('#panel-lines .row button:not(.primary)'); // Show: nothing changes
+  await page.evaluate(() =>
+    [...document.querySelectorAll('#panel-lines button')].find((button) => button.textContent === 'Add').click()
+  );
+  const line = await page.$eval('#panel-lines textarea', (area) => area.value),
+    [x, y] = poseAt(3);
+  assert.equal(line, `move ada ${x.toFixed(2)} ${y.toFixed(2)} 0`);
+  await page.click('#panel-lines .primary');
+  await until(() => window.waitpoint.session.line === 1);
+  assert.deepEqual(
+    program.asked.find(({ask}) => ask === 'branch'),
+    {ask: 'branch', line: 0, time: 3 * SECOND, interventions: [line], seed: null}
+  );
+  await settle(page);
+  await page.click('[aria-label="Line 0 beside"]');
+  await until(() => window.waitpoint.session.compared?.difference);
+  await settle(page);
+  assert.match(await text('.difference'), /Event 2 313 at 2\.002200000 s.*line 1.*resume.*line 0.*unlock/);
+  assert.ok(!(await page.$eval('#plan-beside', (plan) => plan.hidden)));
+  assert.equal((await page.$$('.lanes-of')).length, 2);
+  // The robot is half a metre further up in the branch.
+  const [colour] = await page.evaluate(() => window.waitpoint.theme.colours.robots),
+    place = poseAt(3);
+  const at = await page.evaluate((u, v) => window.waitpoint.pixels(u, v), place[0], place[1]),
+    up = await page.evaluate((u, v) => window.waitpoint.pixels(u, v), place[0], place[1] + 0.5);
+  assert.ok((await shareOf(page, '#plan-canvas', colour, up.x - 8, up.y - 8, 16, 10)) > 0.1);
+  assert.ok((await shareOf(page, '#plan-canvas-beside', colour, at.x - 8, at.y - 2, 16, 10)) > 0.1);
+  await page.click('[aria-label="Journal of line 1"]');
+  await until(() => document.getElementById('panel-lines').textContent.includes('--replay-journal branch.journal'));
+  assert.deepEqual(page.problems, []);
+});
+
+test('an intervention that the program rejects is told', async () => {
+  await open();
+  await seek(page, 3 * SECOND);
+  await page.keyboard.press('b');
+  await page.type('#panel-lines textarea', 'fly ada');
+  await page.click('#panel-lines .primary');
+  await until(() => document.querySelector('#panel-lines [role=status]').textContent === "unknown intervention 'fly'");
+});
+
+test('without control there are no branches', async () => {
+  await open({control: false});
+  await page.click('#tab-lines');
+  await settle(page);
+  assert.ok(await page.$eval('#panel-lines .primary', (button) => button.disabled));
+});
+
+test('the run is held and let go', async () => {
+  await open();
+  await page.click('#tab-run');
+  await settle(page);
+  await page.evaluate(() =>
+    [...document.querySelectorAll('#panel-run button')].find((button) => button.textContent === 'Hold the run').click()
+  );
+  await until(() => document.querySelector('#panel-run button').getAttribute('aria-pressed') === 'true');
+  assert.ok(program.paused);
+});
+
+test('at the end of the run its summary is there', async () => {
+  await open();
+  program.over = true;
+  program.advance(20 * SECOND);
+  await page.click('#tab-run');
+  await until(() => document.getElementById('panel-run').textContent.includes('two rooms: finished'));
+  assert.match(await text('#facts'), /finished · wp1:0123456789abcdef/);
+  assert.equal(await time(), 20 * SECOND);
+});
+
+test('of many robots only those in view are asked for', async () => {
+  await open({robots: 100});
+  await page.evaluate(() => window.waitpoint.clock.setLive(true));
+  await page.evaluate(() => {
+    const {camera, repaintPlans} = window.waitpoint.parts;
+    camera.zoom(8, 100, 100);
+    camera.fitted = false;
+    repaintPlans();
+    window.waitpoint.session.changed('time');
+  });
+  await new Promise((resolve) => setTimeout(resolve, 600));
+  const {view, scans} = program.asked.filter(({ask}) => ask === 'follow').at(-1),
+    area = (view[2] - view[0]) * (view[3] - view[1]);
+  assert.equal(scans, false);
+  assert.ok(area < 40, `${view}`);
+});
