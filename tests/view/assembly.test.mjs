@@ -43,10 +43,15 @@ test('squeezing keeps what strings, templates and expressions have', () => {
     '  ? h',
     '  : g;',
     'result = JSON.stringify([a, b, c, d, e, f(1), g, h, k]);'
-  ].join('\n').replace("'it''s'", "'it\\'s'");
+  ]
+    .join('\n')
+    .replace("'it''s'", "'it\\'s'");
   fs.writeFileSync(path.join(folder, 'in.js'), code);
   const program = 'import sys, squeeze; sys.stdout.write(squeeze.squeeze_script(open(sys.argv[1]).read()))';
-  const small = execFileSync('python3', ['-B', '-c', program, path.join(folder, 'in.js')], {cwd: sources, encoding: 'utf8'});
+  const small = execFileSync('python3', ['-B', '-c', program, path.join(folder, 'in.js')], {
+    cwd: sources,
+    encoding: 'utf8'
+  });
   const value = (text) => new Function(`let result; ${text}\nreturn result;`)();
   assert.equal(value(small), value(code));
   assert.ok(!small.includes('gone'));

@@ -12,7 +12,7 @@ function element(tag, properties = {}, ...children) {
 function setProperties(target, properties) {
   for (const [name, value] of Object.entries(properties)) {
     if (value === null || value === undefined || value === false) continue;
-    if (name.startsWith("on")) target.addEventListener(name.slice(2), value);
+    if (name.startsWith("on")) target.addEventListener(name.slice(2), value, {passive: false});
     else target.setAttribute(name, value === true ? "" : String(value));
   }
 }

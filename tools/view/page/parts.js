@@ -43,7 +43,7 @@ function buildParts(session, clock) {
   panel("event", "Event", (at) => new EventPanel(at, session, clock, () => parts.timelineGestures));
   panel("log", "Log", (at) => new LogPanel(at, session, clock));
   panel("lines", "Lines", (at) => new LinesPanel(at, session, clock));
-  panel("run", "Run", (at) => new RunPanel(at, session, report));
+  panel("run", "Run", (at) => new RunPanel(at, session, report, () => parts.timeline.data.counts));
   parts.beside = new Beside(session, clock, parts);
   parts.plots = new PlotsView(session, axis, clock);
   makeSplitter(byId("split-side"), byId("side"), 160);

@@ -8,15 +8,18 @@ class PlanGestures {
     Object.assign(this, {view, session, camera: view.camera, repaint, status, measuring});
     this.pointers = new Map();
     this.moved = false;
-    const canvas = view.surface.canvas;
-    canvas.addEventListener("pointerdown", (event) => this.press(event));
-    canvas.addEventListener("pointermove", (event) => this.move(event));
-    for (const name of ["pointerup", "pointercancel"]) canvas.addEventListener(name, (event) => this.release(event));
-    canvas.addEventListener("pointerleave", () => status(""));
-    canvas.addEventListener("wheel", (event) => this.wheel(event), {passive: false});
-    canvas.addEventListener("contextmenu", (event) => event.preventDefault());
-    canvas.addEventListener("dblclick", (event) => this.doubleClick(event));
-    canvas.addEventListener("keydown", (event) => this.key(event));
+    const release = (event) => this.release(event);
+    setProperties(view.surface.canvas, {
+      onpointerdown: (event) => this.press(event),
+      onpointermove: (event) => this.move(event),
+      onpointerup: release,
+      onpointercancel: release,
+      onpointerleave: () => status(""),
+      onwheel: (event) => this.wheel(event),
+      oncontextmenu: (event) => event.preventDefault(),
+      ondblclick: (event) => this.doubleClick(event),
+      onkeydown: (event) => this.key(event)
+    });
   }
 
   press(event) {

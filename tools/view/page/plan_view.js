@@ -91,7 +91,8 @@ class PlanView {
         robot = header.robots[index];
       if (layers.laser) drawScans(pen, camera, robot, state, index);
       if (layers.sonar) drawSonars(pen, camera, robot, state);
-      if (layers.segments) drawSegments(pen, camera, state);
+      // Maps of several robots hide each other.
+      if (layers.segments && index === session.robot) drawSegments(pen, camera, state);
       if (layers.trail)
         drawTrail(pen, camera, session.source.trail(this.line(), index, frame.time, session.trail), robotColour(index));
       if (layers.route) drawRoute(pen, camera, state);
@@ -178,7 +179,7 @@ function drawMeasure(pen, camera, {from, to}) {
     v1 = camera.down(from.x, from.y),
     u2 = camera.across(to.x, to.y),
     v2 = camera.down(to.x, to.y);
-  pen.strokeStyle = pen.fillStyle = theme.colours.measure;
+  pen.strokeStyle = pen.fillStyle = theme.colours.text;
   pen.lineWidth = 1.5;
   pen.beginPath();
   (pen.moveTo(u1, v1), pen.lineTo(u2, v2));

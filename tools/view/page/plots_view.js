@@ -130,31 +130,31 @@ class PlotsView {
   }
 
   listen(plot, canvas) {
+    const {axis, clock} = this,
+      at = (event) => plot.surface.place(event).x;
     let drag = null;
-    canvas.addEventListener(
-      "wheel",
-      (event) => {
-        event.preventDefault();
-        this.axis.zoom(2 ** (-wheelPixels(event) / 200), plot.surface.place(event).x);
-      },
-      {passive: false}
-    );
-    canvas.addEventListener("pointerdown", (event) => {
-      drag = plot.surface.place(event).x;
-      canvas.setPointerCapture(event.pointerId);
-    });
-    canvas.addEventListener("pointerup", () => (drag = null));
-    canvas.addEventListener("pointermove", (event) => {
-      const {x} = plot.surface.place(event);
-      if (drag !== null) (this.axis.pan(x - drag), (drag = x));
+    const hover = (x) => {
       plot.hover = x;
       this.showValue(plot);
+    };
+    setProperties(canvas, {
+      onwheel: (event) => {
+        event.preventDefault();
+        axis.zoom(2 ** (-wheelPixels(event) / 200), at(event));
+      },
+      onpointerdown: (event) => {
+        drag = at(event);
+        canvas.setPointerCapture(event.pointerId);
+      },
+      onpointerup: () => (drag = null),
+      onpointermove: (event) => {
+        if (drag !== null) axis.pan(at(event) - drag);
+        if (drag !== null) drag = at(event);
+        hover(at(event));
+      },
+      onpointerleave: () => hover(null),
+      ondblclick: (event) => clock.seek(axis.time(at(event)))
     });
-    canvas.addEventListener("pointerleave", () => {
-      plot.hover = null;
-      this.showValue(plot);
-    });
-    canvas.addEventListener("dblclick", (event) => this.clock.seek(this.axis.time(plot.surface.place(event).x)));
   }
 
   /** The value under the pointer, else that at the cursor. */

@@ -26,7 +26,7 @@ class RecordedSource {
       time: this.until,
       events: this.frames.at(-1).events,
       over: true,
-      outcome: run.outcome ?? "",
+      outcome: run.outcome ?? (/: (.+?) after/.exec(run.summary ?? "") ?? ["", ""])[1],
       summary: run.summary ?? "",
       digest: run.digest ?? (/wp1:[0-9a-f]+/.exec(run.summary ?? "") ?? [""])[0],
       speed: 0,

@@ -12,8 +12,8 @@ const PACES = [
 ];
 
 class RunPanel {
-  constructor(panel, session, report) {
-    this.session = session;
+  constructor(panel, session, report, counts) {
+    Object.assign(this, {session, counts});
     const {source} = session,
       told = (promise) => promise.catch((error) => report(error.message));
     this.hold = element(
@@ -46,8 +46,22 @@ class RunPanel {
       ["Robots", String(header.robots.length)]
     ];
     if (header.description) rows.splice(1, 0, ["Description", header.description]);
+    if (this.missed()) rows.push(["Deadlines missed", this.missed()]);
     if (status.digest) rows.push(["Digest", status.digest]);
     this.facts.set(rows);
     setText(this.text, status.summary || (status.over ? "No summary." : "When the run is over."));
+  }
+
+  /** Deadlines that tasks have missed in the whole run, the most first. */
+  missed() {
+    const counts = this.counts(),
+      several = this.session.header.robots.length > 1;
+    const sums = (counts?.missed ?? []).map((row, i) => ({task: counts.tasks[i], sum: row.reduce((a, b) => a + b, 0)}));
+    return sums
+      .filter(({sum}) => sum > 0)
+      .sort((one, other) => other.sum - one.sum)
+      .slice(0, 8)
+      .map(({task: [, name, robot], sum}) => `${several ? `${robot} ` : ""}${name} ${sum}`)
+      .join(", ");
   }
 }

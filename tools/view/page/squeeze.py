@@ -95,8 +95,12 @@ def runs(kept):
 
 
 def squeeze_code(part):
-    """Without the parentheses about a function's only parameter, and what need not be before the end of a block or list."""
+    """Without the parentheses about a function's only parameter, and what need not be before the end of a block or list.
+
+    Constants become variables: that nothing assigns to them has been seen by then, by the tests on the sources.
+    """
     text = re.sub(r"(?<![\w$)\]])\((\w+)\)=>", r"\1=>", "".join(part))
+    text = re.sub(r"(?<![.\w$])const(?=[\s\[{])", "let", text)
     return re.sub(r";+(?=})|,(?=[}\])])", "", text).replace("}\n}", "}}")
 
 

@@ -42,14 +42,26 @@ function stateBetween(store, before, after) {
   return {state: is === "yield" ? "ready" : "running", object: -1};
 }
 
-/** The instant at which the activation of a periodic task began that is under way at its lane's place; null if none is. */
-function activationAt(store, lane, place) {
+/**
+ * The instant at which the activation of a periodic task begins with the event at a lane's place: a tick resumes it, or has come
+ * before it was waited for. null if the activation ends there, undefined if the event changes nothing.
+ */
+function activationFrom(store, lane, place) {
+  const event = lane[place],
+    object = store.object[event];
+  if (store.operationName(event) === "timer_wait") {
+    return place + 1 < lane.length && store.operationName(lane[place + 1]) !== "resume" ? store.time[event] : null;
+  }
+  if (store.operationName(event) !== "resume" || object < 0 || store.objects[object].kind !== "timer") return undefined;
+  return store.time[event];
+}
+
+/** The begin of the activation under way just before a lane's place; null if none is. */
+function activationBefore(store, lane, place) {
   // An activation has tens of events; a task that does not wait for its timer for thousands has no period in this sense.
-  for (let i = Math.min(place, lane.length - 1), end = Math.max(0, i - 2000); i >= end; --i) {
-    const operation = store.operationName(lane[i]),
-      object = store.object[lane[i]];
-    if (operation === "timer_wait" && i < place) return null;
-    if (operation === "resume" && object >= 0 && store.objects[object].kind === "timer") return store.time[lane[i]];
+  for (let i = place - 1, end = Math.max(0, place - 2000); i >= end; --i) {
+    const activation = activationFrom(store, lane, i);
+    if (activation !== undefined) return activation;
   }
   return null;
 }

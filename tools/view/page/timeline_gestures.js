@@ -7,15 +7,16 @@ class TimelineGestures {
   constructor(view, session, axis, clock, tip) {
     Object.assign(this, {view, session, axis, clock, tip});
     this.drag = null;
-    const canvas = view.canvas;
-    canvas.addEventListener("pointerdown", (event) => this.press(event));
-    canvas.addEventListener("pointermove", (event) => this.move(event));
-    canvas.addEventListener("pointerup", (event) => this.release(event));
-    canvas.addEventListener("pointercancel", () => (this.drag = null));
-    canvas.addEventListener("pointerleave", () => this.hideTip());
-    canvas.addEventListener("dblclick", (event) => this.doubleClick(event));
-    canvas.addEventListener("wheel", (event) => this.wheel(event), {passive: false});
-    canvas.addEventListener("keydown", (event) => this.key(event));
+    setProperties(view.canvas, {
+      onpointerdown: (event) => this.press(event),
+      onpointermove: (event) => this.move(event),
+      onpointerup: (event) => this.release(event),
+      onpointercancel: () => (this.drag = null),
+      onpointerleave: () => this.hideTip(),
+      ondblclick: (event) => this.doubleClick(event),
+      onwheel: (event) => this.wheel(event),
+      onkeydown: (event) => this.key(event)
+    });
   }
 
   press(event) {

@@ -33,7 +33,7 @@ class EventPlaces {
 
 function stateFill(pen, state) {
   const colour = theme.colours[state];
-  return STATES[state].pattern ? hatch(pen, STATES[state].pattern, colour, `${colour}44`) : colour;
+  return STATES[state].pattern ? hatch(pen, STATES[state].pattern, colour, theme.colours[`${state}Ground`]) : colour;
 }
 
 /** A task's states between its events, and their ticks. period: of the task, or 0. */
@@ -44,7 +44,7 @@ function drawLane(pen, store, places, axis, task, period, top, height, thin) {
     right = axis.left + axis.width;
   const middle = top + height / 2,
     body = thin ? height * 0.4 : height * 0.62;
-  let activation = period > 0 ? activationAt(store, lane, begin) : null,
+  let activation = period > 0 ? activationBefore(store, lane, begin) : null,
     workedTo = -Infinity;
   const draw = (before, after, from, to) => {
     const x0 = Math.max(left, from),
@@ -75,17 +75,11 @@ function drawLane(pen, store, places, axis, task, period, top, height, thin) {
   };
   if (begin === 0 && lane.length > 0) draw(-1, lane[0], axis.x(store.from), places.of(lane[0]));
   for (let i = begin; i < lane.length; ++i) {
-    const event = lane[i];
-    if (
-      period > 0 &&
-      store.operationName(event) === "resume" &&
-      store.object[event] >= 0 &&
-      store.objects[store.object[event]].kind === "timer"
-    )
-      activation = store.time[event];
-    const after = i + 1 < lane.length ? lane[i + 1] : -1;
+    const event = lane[i],
+      after = i + 1 < lane.length ? lane[i + 1] : -1,
+      changed = period > 0 ? activationFrom(store, lane, i) : undefined;
+    if (changed !== undefined) activation = changed;
     draw(event, after, places.of(event), after >= 0 ? places.of(after) : axis.x(store.to));
-    if (store.operationName(event) === "timer_wait") activation = null;
     if (store.time[event] > axis.to) break;
   }
 }

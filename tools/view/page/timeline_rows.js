@@ -26,7 +26,13 @@ class TimelineRows {
   isClosed(key, robots) {
     if (this.closed.has(key)) return true;
     // Many robots begin closed, except the one that is selected.
-    return key.startsWith("robot ") && robots > 6 && !this.opened.has(key) && key !== `robot ${this.session.robotName}`;
+    return (
+      key.startsWith("robot ") &&
+      robots > 6 &&
+      key !== "robot environment" &&
+      !this.opened.has(key) &&
+      key !== `robot ${this.session.robotName}`
+    );
   }
 
   toggle(key) {
