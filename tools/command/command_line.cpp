@@ -60,6 +60,11 @@ void Command::option(const char* name, std::string& value, const char* type, con
   app_->add_option(name, value, description)->type_name(type);
 }
 
+void Command::option_or_flag(const char* name, std::string& value, const char* type, const std::string& usual,
+                             const std::string& description) {
+  app_->add_option(name, value, description)->type_name(type)->expected(0, 1)->default_str(usual);
+}
+
 void Command::repeated(const char* name, std::vector<std::string>& values, const char* type,
                        const std::string& description) {
   app_->add_option(name, values, description)->type_name(type)->allow_extra_args(false);

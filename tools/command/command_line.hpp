@@ -27,6 +27,9 @@ class Command {
   void argument(const char* name, std::string& value, const char* description, Presence presence);
   /// "NAME VALUE"; --help shows `type` for the value.
   void option(const char* name, std::string& value, const char* type, const std::string& description);
+  /// An option whose value may be left out: it is `usual` then.
+  void option_or_flag(const char* name, std::string& value, const char* type, const std::string& usual,
+                      const std::string& description);
   /// An option that may be given several times, with one value each.
   void repeated(const char* name, std::vector<std::string>& values, const char* type, const std::string& description);
   /// An option without a value.

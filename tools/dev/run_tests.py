@@ -37,6 +37,7 @@ OWN_CASES = {
     "clang++ -O0 gives this build's run": [str(ROOT / "tools/dev/builds.sh"), "build", "clang++-O0"],
     "documents": [sys.executable, str(ROOT / "tests/docs/pages_test.py"), BUILD],
     "the kernel's plain path gives this build's run": [str(ROOT / "tools/dev/builds.sh"), "build", "build-plain-path"],
+    "view": [sys.executable, str(ROOT / "tests/programs/view_test.py"), BUILD],
     "exec": [sys.executable, str(ROOT / "tests/exec/debian_test.py"), BUILD],
     "exec, the command": [sys.executable, str(ROOT / "tests/exec/command_test.py"), BUILD],
     "exec, misuse": [sys.executable, str(ROOT / "tests/exec/misuse_test.py"), BUILD],

@@ -24,6 +24,7 @@ void check_no_world(const RunOptions& options, const scenario::LogFile& log) {
       {"--replay-journal", options.replay_journal.has_value()},
       {"--record", options.record.has_value()},
       {"--page", options.page.has_value()},
+      {"--serve", options.serve.has_value()},
       {"--decisions", options.decisions.has_value()},
       {"--record-durations", options.record_durations.has_value()},
       {"--replay-durations", options.replay_durations.has_value()},

@@ -11,17 +11,12 @@
 #include "tools/output/picture.hpp"
 #include "tools/output/summary.hpp"
 #include "tools/record/formats.hpp"
-#include "tools/version.hpp"
+#include "tools/run/viewed_run.hpp"
 
 namespace waitpoint::tools {
 namespace {
 
 Outputs* of_this_run = nullptr;
-
-std::string program_name() {
-  const std::string version = version_text();
-  return version.substr(0, version.find('\n'));
-}
 
 std::string picture_of(const run::Experiment& experiment, const bridge::RunResult& result) {
   const world::WorldDescription& world = experiment.world().description();
@@ -42,7 +37,7 @@ Outputs::Outputs(const RunOptions& options, const scenario::Scenario& scenario, 
   if (options.summary) summary_.emplace(*options.summary);
   if (options.picture) picture_.emplace(*options.picture);
   if (options.page) page_.emplace(*options.page);
-  scene_ = {options.seed, options.order, options.limit(scenario.until), program_name()};
+  scene_ = scene_options(options, scenario);
   if (options.digests) digests_.emplace(*options.digests);
   if (options.events) events_.emplace(*options.events);
   if (options.decisions) decisions_.emplace(*options.decisions);

@@ -30,6 +30,7 @@
 #include "tools/run/seed_runs.hpp"
 #include "tools/run/session.hpp"
 #include "tools/run/tcl_shell.hpp"
+#include "tools/run/viewed_run.hpp"
 
 namespace waitpoint::tools {
 namespace {
@@ -47,10 +48,12 @@ Session session_of(const RunOptions& options, run::Experiment& experiment, Outpu
 }
 
 bridge::RunResult carry_out(const RunOptions& options, const scenario::Scenario& scenario, std::uint64_t seed,
-                            run::Experiment& experiment, Outputs& outputs, outside::Partners& partners) {
+                            run::Experiment& experiment, Outputs& outputs, outside::Partners& partners,
+                            view::LiveRun* live) {
   Session session = session_of(options, experiment, outputs, options.limit(scenario.until));
   JournalFile* const journal = outputs.journal();
   if (journal != nullptr) session.keep(*journal);
+  if (live != nullptr) session.show(*live);
   if (!partners.empty()) session.take_part(partners, options.partners.faults_end);
   bool interrupted = false;
   if (options.tcl)
@@ -67,11 +70,12 @@ bridge::RunResult carry_out(const RunOptions& options, const scenario::Scenario&
 
 // Replays a journal to its end; `same` tells if the run ended with the journal's event count and digest.
 bridge::RunResult repeat(const RunOptions& options, const scenario::Scenario& scenario, const run::Journal& journal,
-                         run::Experiment& experiment, Outputs& outputs, bool& same) {
+                         run::Experiment& experiment, Outputs& outputs, view::LiveRun* live, bool& same) {
   const std::optional<run::JournalEnd> end = options.until ? std::nullopt : journal.end;
   // The run may have been left between two events of an instant: the number of events says where.
   const Time until = end ? end->time + Duration::from_ns(1) : options.limit(scenario.until);
   Session session = session_of(options, experiment, outputs, until);
+  if (live != nullptr) session.show(*live);
   const kernel::Scheduler& scheduler = experiment.simulation().scheduler();
   Session::Stop stop = Session::Stop::target;
   if (!end)
@@ -115,11 +119,11 @@ bridge::RunResult run_seed(const RunOptions& options, const scenario::Scenario& 
   single.summary.reset();
   Outputs none(single, scenario, experiment);
   outside::Partners nobody;
-  return carry_out(options, scenario, seed, experiment, none, nobody);
+  return carry_out(options, scenario, seed, experiment, none, nobody, nullptr);
 }
 
 int run_once(const RunOptions& options, const scenario::Scenario& scenario, run::Experiment& experiment,
-             std::optional<Outputs>& outputs) {
+             view::Channel* viewer, std::optional<Outputs>& outputs) {
   const run::JournalHead head = run::journal_head(scenario, options.seed, options.order);
   std::string lines = to_text(head);
   std::optional<run::Journal> journal;
@@ -133,15 +137,20 @@ int run_once(const RunOptions& options, const scenario::Scenario& scenario, run:
   sync::tell_threads_outside();
   outputs.emplace(options, scenario, experiment);
   if (outputs->journal() != nullptr) outputs->journal()->write(lines);
+  std::optional<view::LiveRun> live;
+  if (viewer != nullptr) live.emplace(*viewer, scenario, experiment, scene_options(options, scenario), lines);
+  view::LiveRun* const shown = live ? &*live : nullptr;
   bool same = true;
-  bridge::RunResult result = journal ? repeat(options, scenario, *journal, experiment, *outputs, same)
-                                     : carry_out(options, scenario, options.seed, experiment, *outputs, partners);
+  bridge::RunResult result = journal
+                                 ? repeat(options, scenario, *journal, experiment, *outputs, shown, same)
+                                 : carry_out(options, scenario, options.seed, experiment, *outputs, partners, shown);
   if (options.idle > Duration() && result.outcome != bridge::Outcome::deadlock)
     result.idle = experiment.idle(options.idle);
   outputs->check(result);
   Printed printed(options);
   printed.print(summary_text(result));
   outputs->write(result);
+  if (live) live->finish(result);
   printed.check();
   if (!same) tell_of_difference(*journal);
   return same ? status(scenario, result) : 1;
@@ -157,7 +166,7 @@ scenario::Scenario scenario_of(const RunOptions& options) {
 
 // In one process, or as the leader of several.
 int run_alone(const RunOptions& options, const scenario::Scenario& scenario, std::span<const genom::ModuleType> types,
-              run::Ranks* ranks) {
+              run::Ranks* ranks, view::Channel* viewer) {
   const std::string replay = replay_line(options, options.seed);
   const kernel::UnfinishedRun unfinished(replay.c_str());
   std::optional<run::Experiment> experiment;
@@ -167,7 +176,7 @@ int run_alone(const RunOptions& options, const scenario::Scenario& scenario, std
     for (const auto& robot : experiment->robots())
       if (const std::string text = robot->plan_text(); !text.empty())
         std::fprintf(stderr, "waitpoint: %s\n", text.c_str());
-    return run_once(options, scenario, *experiment, outputs);
+    return run_once(options, scenario, *experiment, viewer, outputs);
   } catch (const BadInput&) {
     throw;
   } catch (const std::system_error&) {
@@ -224,7 +233,8 @@ int run_rank(const RunOptions& options, std::span<const genom::ModuleType> types
     if (ranks.leads()) throw;
     return 0;
   }
-  return ranks.leads() ? run_alone(options, *scenario, types, &ranks) : follow(options, *scenario, types, ranks);
+  return ranks.leads() ? run_alone(options, *scenario, types, &ranks, nullptr)
+                       : follow(options, *scenario, types, ranks);
 }
 
 }  // namespace
@@ -237,9 +247,18 @@ int run(const RunOptions& options, std::span<const genom::ModuleType> types) {
   }
   const scenario::Scenario scenario = scenario_of(options);
   heed_signals();
+  if (scenario.log) {
+    const RunWatchdog watchdog(options.watchdog_s);
+    return run_log(options, scenario, types);
+  }
+  const auto run_here = [&](view::Channel* viewer) {
+    const RunWatchdog watchdog(options.watchdog_s);
+    return run_alone(options, scenario, types, nullptr, viewer);
+  };
+  if (options.serve) check_can_be_viewed(scenario);
+  if (options.serve) return run_viewed(options, [&](view::Channel& viewer) { return run_here(&viewer); });
+  if (!options.seeds) return run_here(nullptr);
   const RunWatchdog watchdog(options.watchdog_s);
-  if (scenario.log) return run_log(options, scenario, types);
-  if (!options.seeds) return run_alone(options, scenario, types, nullptr);
   return run_seeds(options, scenario, [&](std::uint64_t seed, const std::string& replay) {
     return run_seed(options, scenario, types, seed, replay);
   });

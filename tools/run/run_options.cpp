@@ -18,6 +18,8 @@
 namespace waitpoint::tools {
 namespace {
 
+constexpr const char* free_port = "127.0.0.1:0";
+
 /// A picture's format does not follow from its name: a viewer would take it for another.
 void check_picture(const std::string& name) {
   constexpr std::string_view others[] = {".png", ".jpg",  ".jpeg", ".gif", ".webp", ".bmp",
@@ -129,6 +131,11 @@ RunArguments::RunArguments(CommandLine& line)
                   "at unix:PATH or tcp:PORT of the loopback; needs --speed 1 (docs/external.md)");
   command_.flag("--outside-faults-end", partners_.faults_end,
                 "end the run, with status 1, at the first fault of a process outside");
+  command_.option_or_flag("--serve", serve_, "ADDRESS:PORT", free_port,
+                          "show the run in a browser, also after its end, until Ctrl-C: at this address, or\n"
+                          "at a free port of the loopback; the page's address is printed (docs/view.md)");
+  command_.flag("--serve-control", serve_control_,
+                "viewers may pause and pace the run, and try in branches what interventions do");
   command_.option("--journal", journal_, "FILE",
                   "write the interventions of the prompt, shell and outside with their virtual times");
   command_.option("--replay-journal", replay_journal_, "FILE",
@@ -178,6 +185,22 @@ void RunArguments::check_of_many(const char* option) const {
                               {"--events", events_},
                               {"--decisions", decisions_},
                               {"--record-durations", record_durations_}});
+}
+
+/// A run in one process can be viewed, once.
+void RunArguments::check_served() const {
+  if (serve_.empty()) {
+    if (serve_control_) throw BadInput("--serve-control", "expected --serve, whose viewers it concerns");
+    return;
+  }
+  check_not_together("--serve", {{"--seeds", seeds_},
+                                 {"--ranks", ranks_},
+                                 {"--replay-durations", replay_durations_},
+                                 {"--record-durations", record_durations_}});
+  if (check_) throw BadInput("--serve", "cannot be used together with --check");
+  if (partners_.any())
+    throw BadInput("--serve", std::string("cannot be used together with ") + partners_.name() +
+                                  ": what is outside has no past to go back to");
 }
 
 /// A self-check compares runs and writes no files.
@@ -263,6 +286,9 @@ RunOptions RunArguments::options() const {
   const auto file = [](const std::string& name) {
     return name.empty() ? std::nullopt : std::optional<std::filesystem::path>(name);
   };
+  check_served();
+  if (!serve_.empty()) options.serve = serve_ == free_port ? "" : serve_;
+  options.serve_control = serve_control_;
   options.interactive = interactive_;
   options.tcl = tcl_;
   if (tcl_ && interactive_) throw BadInput("--tcl", "cannot be used together with --interactive");

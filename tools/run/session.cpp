@@ -42,6 +42,17 @@ void Session::take_part(outside::Partners& partners, bool faults_end) {
   partners_->begin(*this);
 }
 
+// In short windows, so that it is shown smoothly also at the speed of the wall clock.
+void Session::show(view::LiveRun& live) {
+  live_ = &live;
+  window_ = std::min(usual_window, experiment_.world().description().step);
+}
+
+void Session::show_window() {
+  live_->after_window(reached_, [] { return interruption() != 0; });
+  if (const auto speed = live_->take_speed()) set_speed(*speed);
+}
+
 Session::Stop Session::carry_on(Time target, const Enough& enough, const Heed& heed) {
   pacing_.restart(now(), pacing_.speed());
   const double start_s = wall_clock_s();
@@ -63,6 +74,7 @@ Session::Stop Session::carry_on_in_windows(Time target, const Enough& enough, co
     if (experiment_.paused()) return Stop::enough;
     close_window(next);
     if (partners_ != nullptr) partners_->publish(*this);
+    if (live_ != nullptr) show_window();
     bool asked = false;
     pacing_.wait_for(next, [&] { return interruption() != 0 || (heed && (asked = heed())); });
     if (partners_ != nullptr) tell_lag();
@@ -119,7 +131,9 @@ void Session::tell_fault(const std::string& of, const std::string& text) {
 
 Time Session::intervene(const run::Intervention& intervention, std::optional<Time> date) {
   const Time at = experiment_.intervene(intervention, date);
-  if (journal_ != nullptr) journal_->write(run::to_text(at, intervention));
+  const std::string line = run::to_text(at, intervention);
+  if (journal_ != nullptr) journal_->write(line);
+  if (live_ != nullptr) live_->add_to_journal(line);
   return at;
 }
 

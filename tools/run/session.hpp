@@ -15,6 +15,7 @@
 #include "tools/output/progress.hpp"
 #include "tools/run/journal_file.hpp"
 #include "tools/run/pacing.hpp"
+#include "tools/view/history/live_run.hpp"
 
 namespace waitpoint::tools {
 
@@ -37,6 +38,9 @@ class Session : private outside::Host {
 
   /// Also writes interventions to the journal from now on, with their dates.
   void keep(JournalFile& journal) { journal_ = &journal; }
+
+  /// Shows the run, from now on.
+  void show(view::LiveRun& live);
 
   /// Takes in what partners send, from now on, before each step of the world, whose state they get after it.
   /// `faults_end`: their first fault ends the run.
@@ -73,6 +77,7 @@ class Session : private outside::Host {
   void end_forked_copy();
   void tell_outcomes();
   void tell_lag();
+  void show_window();
   void intervene(const std::string& text, const scenario::Location& written) override;
   void tell(const std::string& of, const std::string& text) override;
   void tell_fault(const std::string& of, const std::string& text) override;
@@ -84,6 +89,7 @@ class Session : private outside::Host {
   Pacing pacing_;
   JournalFile* journal_ = nullptr;
   outside::Partners* partners_ = nullptr;
+  view::LiveRun* live_ = nullptr;
   bool faults_end_ = false, is_behind_ = false;
   std::string fault_;
   Duration window_;

@@ -24,7 +24,6 @@ std::string without_view_members(Json request, const char* what) {
   request["do"] = what;
   request.erase("id");
   request.erase("ask");
-  request.erase("line");
   return text_of(request);
 }
 
@@ -49,9 +48,9 @@ std::shared_ptr<Peer> History::join(Channel channel) {
 // The last owner of a peer closes its channel, and the process ends.
 void History::leave(const std::shared_ptr<Peer>& peer) { loop_.forget(peer->number()); }
 
-void History::add_snapshot(Time time, Channel channel) {
+void History::add_snapshot(Time time, std::uint64_t events, Channel channel) {
   Line& line = lines_.front();
-  line.snapshots.push_back({time, join(std::move(channel))});
+  line.snapshots.push_back({time, events, join(std::move(channel))});
   line.reached = std::max(line.reached, time);
   if (line.snapshots.size() > snapshots_max) thin_out(line);
 }
@@ -75,12 +74,18 @@ History::Line& History::line_of(const Json& request) {
   return lines_[number];
 }
 
-const History::Snapshot& History::snapshot_before(const Line& line, Time time) const {
+// Or the first one.
+const History::Snapshot& History::last_snapshot(const Line& line,
+                                                const std::function<bool(const Snapshot&)>& is_early) const {
   const Snapshot* found = nullptr;
   for (const Snapshot& snapshot : line.snapshots)
-    if (snapshot.peer->is_open() && (found == nullptr || snapshot.time <= time)) found = &snapshot;
+    if (snapshot.peer->is_open() && (found == nullptr || is_early(snapshot))) found = &snapshot;
   if (found == nullptr) throw BadInput("the view", "there is no snapshot of this run");
   return *found;
+}
+
+const History::Snapshot& History::snapshot_before(const Line& line, Time time) const {
+  return last_snapshot(line, [time](const Snapshot& snapshot) { return snapshot.time <= time; });
 }
 
 void History::copy(const Snapshot& from, std::function<void(std::shared_ptr<Peer>)> use) {
@@ -125,7 +130,7 @@ void History::ask(Cursor& cursor, std::string request, Reply reply) {
 }
 
 void History::ask_cursor(Owner owner, const Json& request, Reply reply) {
-  const Line& line = line_of(request);
+  Line& line = line_of(request);
   const std::string what = request.at("ask");
   const CursorKey key(owner, static_cast<int>(&line - lines_.data()));
   const auto present = cursors_.find(key);
@@ -135,6 +140,7 @@ void History::ask_cursor(Owner owner, const Json& request, Reply reply) {
                                                 : line.reached;
   Cursor& cursor = cursor_at(key, line, time);
   cursor.time = std::max(cursor.time, time);
+  if (&line != &lines_.front()) line.reached = std::max(line.reached, time);
   if (!is_seek && present == cursors_.end()) ask(cursor, text_of(Json{{"do", "to"}, {"time", time.ns()}}), [](auto) {});
   // Where steps lead is known from their reply.
   const auto moved = [this, key, reply](const std::string& text) {
@@ -150,9 +156,11 @@ void History::ask_cursor(Owner owner, const Json& request, Reply reply) {
 void History::ask_once(const Json& request, Reply reply) {
   const std::string what = request.at("ask");
   const Line& line = line_of(request);
-  // A call stack is asked for with the time before its event.
-  const Time from = request.contains("from") ? time_of(request, "from") : line.reached;
-  const Snapshot& snapshot = what == "counts" ? line.snapshots.back() : snapshot_before(line, from);
+  const auto is_early = [&](const Snapshot& snapshot) {
+    if (what == "stack") return snapshot.events < request.at("event").get<std::uint64_t>();
+    return what == "counts" || snapshot.time <= time_of(request, "from");
+  };
+  const Snapshot& snapshot = last_snapshot(line, is_early);
   const std::string text = without_view_members(request, what.c_str());
   copy(snapshot, [this, text, reply](const std::shared_ptr<Peer>& peer) {
     if (!peer) return reply(error_text("a copy of the run cannot be made"));
@@ -183,17 +191,22 @@ void History::branch(const Json& request, Reply reply) {
 
 // One after the other; the first that is refused ends the attempt.
 void History::intervene(std::shared_ptr<Peer> peer, std::vector<std::string> texts, Line line, Reply reply) {
-  if (texts.empty()) {
-    line.snapshots.push_back({line.from, peer});
-    lines_.push_back(std::move(line));
-    return reply(text_of(Json{{"line", lines_.size() - 1}}));
-  }
+  if (texts.empty()) return add_line(peer, line, reply);
   const std::string next = texts.front();
   texts.erase(texts.begin());
   peer->ask(text_of(Json{{"do", "intervene"}, {"text", next}}), [=, this](Channel::Message* message) {
     if (message != nullptr && !Json::parse(message->text).contains("error")) return intervene(peer, texts, line, reply);
     reply(text_of_reply(message));
     leave(peer);
+  });
+}
+
+void History::add_line(std::shared_ptr<Peer> peer, Line line, const Reply& reply) {
+  peer->ask(R"({"do":"events_so_far"})", [=, this](Channel::Message* message) mutable {
+    if (message == nullptr) return reply(text_of_reply(message));
+    line.snapshots.push_back({line.from, Json::parse(message->text).at("events").get<std::uint64_t>(), peer});
+    lines_.push_back(std::move(line));
+    reply(text_of(Json{{"line", lines_.size() - 1}}));
   });
 }
 

@@ -40,7 +40,9 @@ class History {
   History& operator=(const History&) = delete;
 
   /// A snapshot of line 0, later than those before.
-  void add_snapshot(Time time, Channel channel);
+  void add_snapshot(Time time, std::uint64_t events, Channel channel);
+  /// Of line 0: fewer than before if they were too many.
+  std::size_t snapshots() const { return lines_.front().snapshots.size(); }
   /// The run has come so far.
   void set_reached(Time time) { lines_.front().reached = time; }
 
@@ -59,12 +61,13 @@ class History {
  private:
   struct Snapshot {
     Time time;
+    std::uint64_t events;  // so far
     std::shared_ptr<Peer> peer;
   };
   struct Line {
     std::string name;
     int parent = -1;
-    Time from, reached;
+    Time from = {}, reached = {};
     std::vector<Snapshot> snapshots = {};  // by time
   };
   struct Cursor {
@@ -76,6 +79,7 @@ class History {
   using CursorKey = std::pair<Owner, int>;  // with the line
 
   Line& line_of(const Json& request);
+  const Snapshot& last_snapshot(const Line& line, const std::function<bool(const Snapshot&)>& is_early) const;
   const Snapshot& snapshot_before(const Line& line, Time time) const;
   void thin_out(Line& line);
   std::shared_ptr<Peer> join(Channel channel);
@@ -83,6 +87,7 @@ class History {
   void copy(const Snapshot& from, std::function<void(std::shared_ptr<Peer>)> use);
   Cursor& cursor_at(const CursorKey& key, const Line& line, Time time);
   void ask(Cursor& cursor, std::string request, Reply reply);
+  void add_line(std::shared_ptr<Peer> peer, Line line, const Reply& reply);
   void intervene(std::shared_ptr<Peer> peer, std::vector<std::string> texts, Line line, Reply reply);
 
   Loop loop_;

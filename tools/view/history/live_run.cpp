@@ -44,7 +44,8 @@ LiveRun::LiveRun(Channel& viewer, const scenario::Scenario& scenario, run::Exper
 void LiveRun::make_snapshot() {
   const RunCopy here(scenario_, experiment_, journal_, reached_, counts_);
   const Channel copy = here.fork();
-  viewer_.send(text_of(Json{{"kind", "snapshot"}, {"time", reached_.ns()}}), copy.number());
+  viewer_.send(text_of(Json{{"kind", "snapshot"}, {"time", reached_.ns()}, {"events", experiment_.events()}}),
+               copy.number());
   next_snapshot_s_ = clock_s(CLOCK_PROCESS_CPUTIME_ID) + snapshot_period_s_;
 }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/view/history/run_copy.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -16,6 +15,7 @@
 #include "tools/output/recorders.hpp"
 #include "tools/view/event_trace.hpp"
 #include "tools/view/frame_reader.hpp"
+#include "tools/view/history/private_files.hpp"
 #include "tools/view/poster_plots.hpp"
 #include "tools/view/run_states.hpp"
 
@@ -28,12 +28,14 @@ constexpr std::size_t frames_of_stack = 64, points_max = 100'000, events_max = 1
 
 Time time_of(const Json& request, const char* key) { return Time::from_ns(request.at(key).get<std::int64_t>()); }
 
-// Standard output and error belong to the run.
-void leave_terminal() {
-  const Descriptor nothing(open("/dev/null", O_WRONLY | O_CLOEXEC));
-  if (nothing.number() < 0) return;
-  dup2(nothing.number(), STDOUT_FILENO);
-  dup2(nothing.number(), STDERR_FILENO);
+/// "function at file:line" in its parts.
+Json frame_of_stack(const std::string& line) {
+  const std::size_t at = line.rfind(" at "), colon = line.rfind(':');
+  if (at == std::string::npos || colon == std::string::npos || colon < at) return {{"function", line}};
+  constexpr std::size_t word = 4;
+  return {{"function", line.substr(0, at)},
+          {"file", line.substr(at + word, colon - at - word)},
+          {"line", std::atoi(line.c_str() + colon + 1)}};
 }
 
 }  // namespace
@@ -53,7 +55,7 @@ void RunCopy::serve(Channel channel) {
   kernel::set_post_mortem(nullptr);
   std::signal(SIGINT, SIG_IGN);
   std::signal(SIGCHLD, SIG_IGN);
-  leave_terminal();
+  make_files_private(channel.number());
   experiment_.set_observer([this](Time time) { counts_.take(time); });
   experiment_.simulation().scheduler().set_watch(nullptr);
   for (const auto& robot : experiment_.robots()) robot->set_watch(nullptr);
@@ -82,11 +84,13 @@ void RunCopy::answer_requests() {
 
 std::string RunCopy::answer(const Json& request) {
   const std::string what = request.at("do");
+  line_ = request.value("line", 0);
   if (what == "to") {
     go_to(time_of(request, "time") + Duration::from_ns(1));
     return floor();
   }
   if (what == "look") return floor();
+  if (what == "events_so_far") return text_of({{"events", experiment_.events()}});
   if (what == "step") return step(request);
   if (what == "tasks") return text_of(task_states(experiment_));
   if (what == "modules") {
@@ -106,7 +110,7 @@ std::string RunCopy::answer(const Json& request) {
 
 std::string RunCopy::floor(const Json& more) {
   FrameReader reader(scenario_, experiment_);  // a new one: the whole floor
-  std::string text = reader.read(now(), {});
+  std::string text = reader.read(now(), {.line = line_});
   return text + (more.empty() ? "}" : "," + text_of(more).substr(1));
 }
 
@@ -203,7 +207,15 @@ std::string RunCopy::stack(const Json& request) {
   if (task.empty()) throw BadInput("the view", "the run ends before this event");
   const sync::ReturnAddresses stacks[] = {addresses};
   Json frames = Json::array();
-  for (const std::string& line : sync::user_source_lines(stacks, frames_of_stack).front()) frames.push_back(line);
+  const std::vector<std::vector<std::string>> lines = sync::user_source_lines(stacks, frames_of_stack);
+  // The innermost frames are of the observer that stopped the run.
+  const auto is_observer = [](const std::string& line) {
+    return line.find("view/history/run_copy.cpp") != std::string::npos ||
+           line.find("modules/run/experiment.cpp") != std::string::npos;
+  };
+  bool is_inside = true;
+  for (const std::string& line : lines.front())
+    if (!(is_inside = is_inside && is_observer(line))) frames.push_back(frame_of_stack(line));
   return text_of({{"task", task}, {"event", last}, {"frames", frames}});
 }
 

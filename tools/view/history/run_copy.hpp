@@ -3,12 +3,13 @@
 // is closed. Threads of the run are fibers, so that a fork copies all of them: what the copy does from here on is what
 // the run does, or would do after an intervention, and the run itself is not touched.
 //
-// Requests are JSON: {"do": ..., ...}; each has one reply, with "error" if it is refused:
+// Requests are JSON: {"do": ..., "line": its line of time, ...}; each has one reply, with "error" if it is refused:
 //
 //   fork                       a copy of the copy: its channel comes as the reply's descriptor
 //   to {time}                  goes on to that time, everything at it included, and shows the floor
 //   step {count, task}         goes on by so many events, of one task if its number is given
 //   look                       the floor
+//   events_so_far              their number
 //   tasks; modules {robot}     run_states.hpp
 //   events {from, to, most}    goes on to `from`, then shows the events up to `to`
 //   plot {robot, poster, field, from, to, points}     samples of a poster's number
@@ -65,6 +66,7 @@ class RunCopy {
   std::string journal_;
   Channel* channel_ = nullptr;  // in the copy
   Time reached_;                // everything before it is done
+  int line_ = 0;                // of time, for frames
   bool is_over_ = false;
 };
 

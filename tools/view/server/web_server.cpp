@@ -52,8 +52,8 @@ using Response = http::response<http::string_body>;
 Response answer(const Rules& rules, const Request& request) {
   Response response(http::status::ok, request.version());
   response.set(http::field::cache_control, "no-store");
-  response.set(http::field::x_content_type_options, "nosniff");
-  response.set(http::field::referrer_policy, "no-referrer");
+  response.set("X-Content-Type-Options", "nosniff");
+  response.set("Referrer-Policy", "no-referrer");
   response.set(http::field::content_type, "text/plain; charset=utf-8");
   response.keep_alive(false);
   const std::string_view target(request.target().data(), request.target().size());
@@ -96,6 +96,7 @@ struct WebServer::Implementation {
     void accept(const Request& request) {
       socket.set_option(websocket::stream_base::timeout::suggested(beast::role_type::server));
       socket.read_message_max(text_bytes_max);
+      socket.auto_fragment(false);
       socket.async_accept(request, [self = shared_from_this()](error_code error) {
         if (error) return self->end();
         self->is_open = true;

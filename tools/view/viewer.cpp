@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/view/viewer.hpp"
+
+#include <fmt/format.h>
+#include <sys/random.h>
+
+#include <algorithm>
+#include <array>
+#include <ctime>
+
+#include "core/error.hpp"
+#include "tools/view/page.hpp"
+
+namespace waitpoint::tools::view {
+namespace {
+
+constexpr int look_ms = 5, status_ms = 100;
+constexpr double frames_s_max = 60;
+// A client with more than this to take gets no further frames until it has taken them.
+constexpr std::size_t queued_max = 1 << 20;
+constexpr std::size_t log_bytes_max = 4 << 20;
+
+double wall_s() {
+  timespec now{};
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+/// A secret of 128 bits. It reaches no event.
+std::string make_token() {
+  std::array<unsigned char, 16> bytes{};
+  WAITPOINT_CHECK(getrandom(bytes.data(), bytes.size(), 0) == static_cast<ssize_t>(bytes.size()),
+                  "the system has no random bytes");
+  std::string text;
+  for (const unsigned char byte : bytes) text += fmt::format("{:02x}", byte);
+  return text;
+}
+
+/// A reply with the number of its request.
+std::string with_id(const Json& id, const std::string& text) {
+  return "{\"id\":" + text_of(id) + (text == "{}" ? "" : ",") + text.substr(1);
+}
+
+}  // namespace
+
+Viewer::Viewer(const ViewerOptions& options, Channel run)
+    : options_(options),
+      run_(std::move(run)),
+      server_({options.address, options.port, make_token(), page()}, "--serve"),
+      history_({[this](int descriptor, std::function<void()> ready) { server_.watch(descriptor, std::move(ready)); },
+                [this](int descriptor) { server_.forget(descriptor); }}) {
+  server_.opened = [this](ClientNumber client) { clients_[client]; };
+  server_.closed = [this](ClientNumber client) {
+    clients_.erase(client);
+    history_.forget(client);
+  };
+  server_.received = [this](ClientNumber client, const std::string& text) { received(client, text); };
+  server_.watch(run_.number(), [this] { take_from_run(); });
+}
+
+void Viewer::serve(const std::function<bool()>& is_over) {
+  server_.repeat(look_ms, [this] { ask_for_frame(); });
+  server_.repeat(status_ms, [this, &is_over] {
+    if (is_over()) return server_.stop();
+    send_status();
+  });
+  server_.run();
+}
+
+void Viewer::take_from_run() {
+  while (auto message = run_.poll()) take(*message);
+  if (run_.is_open()) return;
+  server_.forget(run_.number());
+  // Without its last status: it has died.
+  if (!run_is_over_) {
+    status_["over"] = true;
+    status_["outcome"] = "crashed";
+  }
+  run_is_over_ = true;
+}
+
+void Viewer::take(Channel::Message& message) {
+  constexpr std::string_view frame = "{\"kind\":\"frame\"";
+  if (message.text.starts_with(frame)) {
+    frame_is_due_ = false;
+    return send_frame(message.text);
+  }
+  if (message.text.starts_with("{\"kind\":\"header\"")) {
+    scene_ = std::move(message.text);
+    return;
+  }
+  Json json = Json::parse(message.text);
+  if (json["kind"] == "snapshot") {
+    const std::size_t before = history_.snapshots();
+    history_.add_snapshot(Time::from_ns(json["time"].get<std::int64_t>()), json["events"],
+                          Channel(std::move(message.descriptor)));
+    if (history_.snapshots() < before) run_.queue(R"({"do":"thin"})");
+  } else if (json["kind"] == "status") {
+    history_.set_reached(Time::from_ns(json["time"].get<std::int64_t>()));
+    run_is_over_ = json["over"];
+    status_ = std::move(json);
+  } else if (json["kind"] == "log") {
+    if (log_.size() < log_bytes_max)
+      for (const Json& line : json["lines"]) log_ += (log_.empty() ? "" : ",") + text_of(line);
+    send_to_all(message.text);
+  }
+}
+
+// One frame at a time is asked for, when a client that follows is ready for it. Of several sections the whole is shown.
+void Viewer::ask_for_frame() {
+  run_.flush();
+  if (frame_is_due_ || run_is_over_) return;
+  const double now_s = wall_s();
+  bool any = false, scans = false;
+  Json section = nullptr;
+  for (const auto& [number, client] : clients_) {
+    if (!client.follows || now_s < client.next_s || server_.queued(number) > queued_max) continue;
+    section = !any || section == client.section ? client.section : Json(nullptr);
+    any = true;
+    scans = scans || client.scans;
+  }
+  if (!any) return;
+  frame_is_due_ = true;
+  run_.queue(text_of(Json{{"do", "frame"}, {"scans", scans}, {"view", section}}));
+}
+
+void Viewer::send_frame(const std::string& text) {
+  const double now_s = wall_s();
+  for (auto& [number, client] : clients_) {
+    if (!client.follows || now_s < client.next_s || server_.queued(number) > queued_max) continue;
+    client.next_s = now_s + client.frame_s;
+    server_.send(number, text);
+  }
+}
+
+void Viewer::send_status() {
+  if (status_.empty()) return;
+  status_["lines"] = history_.lines();
+  send_to_all(text_of(status_));
+}
+
+void Viewer::send_to_all(const std::string& text) {
+  for (const auto& [number, client] : clients_)
+    if (server_.queued(number) <= queued_max) server_.send(number, text);
+}
+
+void Viewer::received(ClientNumber client, const std::string& text) {
+  Json id = nullptr;
+  try {
+    const Json request = Json::parse(text);
+    if (!request.is_object() || !request.contains("ask")) throw BadInput("the view", "expected {\"id\", \"ask\", ...}");
+    id = request.value("id", Json(nullptr));
+    answer(client, request, [this, client, id](const std::string& reply) { server_.send(client, with_id(id, reply)); });
+  } catch (const std::exception& refusal) {
+    server_.send(client, with_id(id, text_of(Json{{"error", refusal.what()}})));
+  }
+}
+
+void Viewer::answer(ClientNumber client, const Json& request, History::Reply reply) {
+  const std::string what = request.at("ask");
+  const auto is_one_of = [&what](auto... names) { return ((what == names) || ...); };
+  if (what == "header") {
+    if (scene_.empty()) throw BadInput("the view", "the run has not begun");
+    reply(scene_);
+    server_.send(client, "{\"kind\":\"log\",\"lines\":[" + log_ + "]}");
+    return send_status();
+  }
+  if (what == "follow") {
+    follow(clients_[client], request);
+    return reply("{}");
+  }
+  if (what == "journal") return answer_journal(client, request, reply);
+  if (is_one_of("seek", "step", "tasks", "modules")) return history_.ask_cursor(client, request, std::move(reply));
+  if (is_one_of("events", "plot", "stack", "digests", "counts")) return history_.ask_once(request, std::move(reply));
+  if (!is_one_of("branch", "pause", "speed")) throw BadInput("the view", "there is no request '" + what + "'");
+  if (!options_.is_controlled) throw BadInput("the view", "expected waitpoint run --serve-control for '" + what + "'");
+  if (what == "branch") return history_.branch(request, std::move(reply));
+  control(request, reply);
+}
+
+// With the command that repeats it.
+void Viewer::answer_journal(ClientNumber client, const Json& request, const History::Reply& reply) {
+  history_.ask_cursor(client, request, [reply, command = options_.replay_command](const std::string& text) {
+    Json journal = Json::parse(text);
+    if (!journal.contains("error")) journal["command"] = command + " --replay-journal FILE";
+    reply(text_of(journal));
+  });
+}
+
+void Viewer::follow(Client& client, const Json& request) {
+  client.follows = request.value("on", true);
+  client.scans = request.value("scans", true);
+  client.section = request.value("view", Json(nullptr));
+  client.frame_s = 1 / std::clamp(request.value("rate", 30.0), 0.1, frames_s_max);
+}
+
+void Viewer::control(const Json& request, const History::Reply& reply) {
+  if (run_is_over_) throw BadInput("the view", "the run is over");
+  Json passed = request;
+  passed["do"] = request["ask"];
+  if (request["ask"] == "speed") {
+    const double speed = request.at("value");
+    if (!(speed >= 0 && speed <= 1e6)) throw BadInput("the view", "expected a speed from 0 to 1000000");
+  } else if (!request.at("on").is_boolean()) {
+    throw BadInput("the view", "expected true or false");
+  }
+  run_.queue(text_of(passed));
+  reply("{}");
+}
+
+}  // namespace waitpoint::tools::view
