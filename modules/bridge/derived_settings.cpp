@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "modules/executive/trajectory_follower.hpp"
 #include "world/planar/outline.hpp"
 
 namespace waitpoint::bridge {
@@ -49,6 +50,16 @@ void derive_outline(const RobotOutline& outline, genom::Settings& settings, cons
   }
   if (const std::string beyond = key(outline.corners.size()) + ".x"; settings.has(beyond))
     settings.reject(beyond, "left out: the robot's shape has " + std::to_string(outline.corners.size()) + " corners");
+}
+
+std::vector<Setting> settings_of(const scenario::RobotScenario& robot, const scenario::ModuleScenario& module) {
+  constexpr const char* key = "speed_poster";
+  std::vector<Setting> settings = module.settings;
+  const bool is_set =
+      std::any_of(settings.begin(), settings.end(), [&](const Setting& each) { return each.key == key; });
+  if (robot.trajectory && module.type == "rflex" && !is_set)
+    settings.push_back({key, executive::TrajectoryFollower::speed_poster, module.written.file, module.written.line});
+  return settings;
 }
 
 void derive_settings(const scenario::RobotScenario& robot, const scenario::ModuleScenario& module,

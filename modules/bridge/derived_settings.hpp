@@ -21,6 +21,9 @@ RobotOutline robot_outline(const world::Shape& shape);
 /// Derives the outline's settings, whose keys begin with `prefix`. A setting that contradicts it is BadInput.
 void derive_outline(const RobotOutline& outline, genom::Settings& settings, const std::string& prefix = "");
 
+/// The module's settings as written; of the base of a robot that follows a trajectory, with the poster of its speeds.
+std::vector<Setting> settings_of(const scenario::RobotScenario& robot, const scenario::ModuleScenario& module);
+
 /// Derives what the module's type asks for. The laser of a module is that which the bridge's table connects to its
 /// poster `reading`.
 void derive_settings(const scenario::RobotScenario& robot, const scenario::ModuleScenario& module,

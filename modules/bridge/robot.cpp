@@ -11,6 +11,7 @@
 #include "modules/control/parser.hpp"
 #include "modules/executive/executive.hpp"
 #include "modules/executive/known_space.hpp"
+#include "modules/executive/trajectory_follower.hpp"
 #include "modules/genom/module.hpp"
 #include "modules/plan/executor.hpp"
 #include "modules/plan/plan_reader.hpp"
@@ -40,6 +41,10 @@ std::string report_text(const executive::GoalRecord& record) {
   }
 }
 
+GoalResult goal_result(Point position, const std::string& name, const executive::GoalRecord& record) {
+  return {position, name, record.visits, record.times_reached, record.date, report_text(record)};
+}
+
 }  // namespace
 
 Robot::Robot(const scenario::RobotScenario& scenario, std::span<const genom::ModuleType> types,
@@ -50,6 +55,7 @@ Robot::Robot(const scenario::RobotScenario& scenario, std::span<const genom::Mod
   make_modules(types, network, {known, &known->map()});
   if (!scenario.goals.empty() || scenario.script) make_executive(std::move(known), seed);
   if (scenario.plan != nullptr) make_plan();
+  if (scenario.trajectory) make_follower();
   connect();
   if (scenario.control) make_controller();
 }
@@ -74,7 +80,7 @@ void Robot::make_modules(std::span<const genom::ModuleType> types, io::Network* 
                          const std::shared_ptr<const OccupancyGrid>& known_map) {
   for (const scenario::ModuleScenario& module : scenario_.modules) {
     if (!module.enabled) continue;
-    genom::ModuleSetup setup{names_, module.name, genom::Settings(module.settings), network, known_map};
+    genom::ModuleSetup setup{names_, module.name, genom::Settings(settings_of(scenario_, module)), network, known_map};
     derive_settings(scenario_, module, setup.settings);
     modules_.push_back(make_module(module, types, scenario_.name, setup));
     module_scenarios_.push_back(&module);
@@ -104,13 +110,26 @@ void Robot::make_executive(std::shared_ptr<const executive::KnownSpace> known, s
                                                       RandomStream(seed, scenario_.name, "executive"));
 }
 
+// Of a task without parameters of its own.
+void Robot::read_computing() {
+  genom::Settings settings(scenario_.executive);
+  computing_ = genom::read_computing(settings, "", names_, {});
+  settings.check_all_used();
+}
+
+void Robot::make_follower() {
+  read_computing();
+  const scenario::TrajectoryScenario& of = *scenario_.trajectory;
+  executive::Trajectory trajectory(of.text, of.file);
+  posters::KnownPose start;
+  start.pose = scenario_.body.start;
+  at(scenario_.start_written,
+     [&] { executive_ = std::make_unique<executive::TrajectoryFollower>(names_, std::move(trajectory), start); });
+}
+
 // With a script, the keys of `executive` are the script's.
 void Robot::make_plan() {
-  if (!scenario_.script) {
-    genom::Settings settings(scenario_.executive);
-    computing_ = genom::read_computing(settings, "", names_, {});
-    settings.check_all_used();
-  }
+  if (!scenario_.script) read_computing();
   posters::KnownPose start;
   start.pose = scenario_.body.start;
   plan_ = std::make_unique<plan::Executor>(names_, plan::read_plan(*scenario_.plan), start);
@@ -273,10 +292,11 @@ RobotResult Robot::result() const {
   result.name = scenario_.name;
   result.shape = scenario_.body.shape;
   if (presence() == Presence::elsewhere) return result;
-  for (std::size_t i = 0; i < scenario_.goals.size(); ++i) {
-    const executive::GoalRecord& record = executive_->goals()[i];
-    result.goals.push_back({scenario_.goals[i].position, scenario_.goals[i].name, record.visits, record.times_reached,
-                            record.date, report_text(record)});
+  for (std::size_t i = 0; i < scenario_.goals.size(); ++i)
+    result.goals.push_back(goal_result(scenario_.goals[i].position, scenario_.goals[i].name, executive_->goals()[i]));
+  if (scenario_.trajectory) {
+    const executive::GoalRecord& end = executive_->goals().front();
+    result.goals.push_back(goal_result(end.goal, "end of the trajectory", end));
   }
   if (plan_) result.plan = PlanResult{plan_->plan().name, plan_->completed(), plan_->end(), plan_->log()};
   const world::BodyState& body = world_.body(body_);

@@ -94,8 +94,10 @@ class Robot {
   const std::string& name() const { return scenario_.name; }
   genom::NameSpace& names() { return names_; }
   const genom::NameSpace& names() const { return names_; }
-  /// True if run() ends by itself: after the rounds of goals, the script or the plan.
-  bool has_mission() const { return !scenario_.goals.empty() || scenario_.script || scenario_.plan != nullptr; }
+  /// True if run() ends by itself: after the rounds of goals, the script, the plan or the trajectory.
+  bool has_mission() const {
+    return !scenario_.goals.empty() || scenario_.script || scenario_.plan != nullptr || scenario_.trajectory;
+  }
   bool has_script() const { return scenario_.script.has_value(); }
   /// "ada: plan 'round': 9 time points, 14 constraints: consistent, ..."; empty without a plan, or elsewhere.
   std::string plan_text() const;
@@ -121,6 +123,8 @@ class Robot {
   bool has_script_below_plan() const { return plan_ != nullptr && executive_ != nullptr; }
   void make_procedures(const tcl::Library& library);
   void make_plan();
+  void make_follower();
+  void read_computing();
   void check_calls() const;
   void run_script_below_plan();
   void make_scripted_executive(const executive::Parameters& parameters, const posters::KnownPose& start,
@@ -141,7 +145,7 @@ class Robot {
   genom::TaskComputing computing_;
   genom::TaskComputing script_computing_;                 // of a script below a plan
   tcl::Procedures* procedures_ = nullptr;                 // of a script below a plan
-  std::unique_ptr<executive::RobotExecutive> executive_;  // null without goals or a script
+  std::unique_ptr<executive::RobotExecutive> executive_;  // null without goals, script and trajectory
   std::unique_ptr<control::Controller> controller_;       // null without rules
   std::unique_ptr<plan::Executor> plan_;                  // null without a plan
   Evaluation evaluation_;

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "modules/executive/module_start.hpp"
+
 namespace waitpoint::executive {
 
 using posters::GoToInput;
@@ -47,7 +49,7 @@ void Executive::connect() {
 }
 
 void Executive::run() {
-  start_modules();
+  start_modules(client_, names_, parameters_.start_known ? std::optional(start_) : std::nullopt);
   wait_for_position();
   if (lost()) find_robot();
   // A separate statement: the order of evaluation of arguments differs between compilers, and the read may take time.
@@ -79,22 +81,6 @@ void Executive::run() {
 const Order* Executive::planned(const Order& order) const {
   if (order.kind != Order::Kind::finished) threads::compute(parameters_.plan_cost_us);
   return &order;
-}
-
-// A robot without localisation relies on its odometry.
-void Executive::start_modules() {
-  const posters::KnownPose start = parameters_.start_known ? start_ : posters::KnownPose();
-  client_.call("rflex", "SetPos", start);
-  client_.call("pom", "SetPos", start);
-  client_.send("sick", "ContinuousShot");
-  if (names_.find_module("segloc") != nullptr) client_.send("segloc", "Localise", start);
-  if (names_.find_module("locate") != nullptr) {
-    if (parameters_.start_known)
-      client_.send("locate", "Localise", start);
-    else
-      client_.send("locate", "Find");
-  }
-  client_.send("rflex", "TrackSpeedStart");
 }
 
 void Executive::wait_for_position() {

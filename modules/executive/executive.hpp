@@ -67,7 +67,6 @@ class Executive : public RobotExecutive {
   std::size_t current_goal() const override { return mission_.current(); }
 
  private:
-  void start_modules();
   void wait_for_position();
   bool lost() const { return whereabouts_.lost(!parameters_.start_known); }
   void find_robot();

@@ -180,6 +180,15 @@ ScriptScenario read_script(const YamlNode& node) {
   return script;
 }
 
+TrajectoryScenario read_trajectory(const YamlNode& node) {
+  constexpr std::size_t bytes_max = 256 << 20;
+  TrajectoryScenario trajectory;
+  trajectory.file = node.written.resolve(read_text(node, "trajectory")).string();
+  trajectory.text = file_contents(trajectory.file, "a trajectory", bytes_max);
+  trajectory.written = node.written;
+  return trajectory;
+}
+
 std::vector<Goal> read_goals(const YamlNode& node) {
   std::vector<Goal> goals;
   for (const YamlNode& item : read_list(node, "goals")) {
@@ -213,7 +222,7 @@ YamlMap map_of_robot(const YamlNode& node) {
   return YamlMap(node, name_of(node).empty() ? "a robot" : "robot '" + std::string(name_of(node)) + "'",
                  {"name",    "type",   "start",     "goals",      "shape",          "base",    "lasers",    "sonars",
                   "modules", "bridge", "executive", "processors", "start_height_m", "bumpers", "infrareds", "urdf",
-                  "imu",     "gps",    "battery",   "programs",   "control",        "plan"});
+                  "imu",     "gps",    "battery",   "programs",   "control",        "plan",    "trajectory"});
 }
 
 /// The keys of a robot type: all but name, start and goals.
@@ -272,6 +281,12 @@ RobotScenario read_robot(const YamlNode& node, const YamlNode* types) {
   if (const YamlNode* plan = own.find("plan")) {
     if (!robot.goals.empty()) throw plan->written.bad("expected goals or a plan, found both in " + own.what());
     robot.plan = read_plan_document(*plan);
+  }
+  if (const YamlNode* trajectory = own.find("trajectory")) {
+    if (!robot.goals.empty() || robot.plan != nullptr || robot.script)
+      throw trajectory->written.bad("expected a trajectory without goals, plan and script, found one of them in " +
+                                    own.what());
+    robot.trajectory = read_trajectory(*trajectory);
   }
   return robot;
 }

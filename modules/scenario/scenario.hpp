@@ -115,6 +115,13 @@ struct ScriptScenario {
   Location written;
 };
 
+/// The file of a trajectory, which the robot follows in place of goals.
+struct TrajectoryScenario {
+  std::string file;  ///< resolved
+  std::string text;
+  Location written;
+};
+
 struct RobotScenario {
   std::string name;
   world::BodyDescription body;           ///< including the robot's name
@@ -129,6 +136,7 @@ struct RobotScenario {
   std::optional<ControlScenario> control;
   std::shared_ptr<const YamlNode> plan;  ///< the document of its temporal plan, in the place of goals; null: none
   std::optional<ScriptScenario> script;
+  std::optional<TrajectoryScenario> trajectory;
   Location written, start_written;
 };
 

@@ -134,11 +134,13 @@ std::string read_title(const YamlNode& node) {
   return title;
 }
 
-// Scripts are part of the scenario that a journal belongs to.
-void add_scripts(Scenario& scenario) {
+// Scripts and trajectories are part of the scenario that a journal belongs to.
+void add_texts(Scenario& scenario) {
   Digest digest;
-  for (const RobotScenario& robot : scenario.robots)
+  for (const RobotScenario& robot : scenario.robots) {
     if (robot.script) digest.add(std::string_view(robot.script->text));
+    if (robot.trajectory) digest.add(std::string_view(robot.trajectory->text));
+  }
   if (digest.value() == Digest().value()) return;
   digest.add(scenario.fingerprint);
   scenario.fingerprint = digest.value();
@@ -199,7 +201,7 @@ Scenario read_scenario(const std::filesystem::path& file, const std::vector<std:
   add_rules_to_fingerprint(scenario);
   for (const RobotScenario& robot : scenario.robots)
     if (robot.plan != nullptr) scenario.fingerprint = scenario.fingerprint * 31 + fingerprint(*robot.plan);
-  add_scripts(scenario);
+  add_texts(scenario);
   return scenario;
 }
 
