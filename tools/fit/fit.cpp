@@ -21,6 +21,16 @@ namespace {
 
 constexpr std::string_view letters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-";
 
+/// Each by the median of itself and its neighbours: a jump of the odometry is no speed of the robot.
+std::vector<double> without_spikes(const std::vector<double>& speeds) {
+  std::vector<double> smooth;
+  for (std::size_t i = 1; i + 1 < speeds.size(); ++i) {
+    const auto [least, greatest] = std::minmax({speeds[i - 1], speeds[i], speeds[i + 1]});
+    smooth.push_back(speeds[i - 1] + speeds[i] + speeds[i + 1] - least - greatest);
+  }
+  return smooth;
+}
+
 /// The speeds over half a second that are exceeded once in a thousand times.
 void find_speeds(const logs::PlayingOrder& order, RobotFit& fit) {
   std::vector<double> v, w;
@@ -37,7 +47,8 @@ void find_speeds(const logs::PlayingOrder& order, RobotFit& fit) {
     }
     before = &record;
   }
-  const auto greatest = [](std::vector<double>& speeds) {
+  const auto greatest = [](const std::vector<double>& all) {
+    std::vector<double> speeds = without_spikes(all);
     if (speeds.empty()) return 0.0;
     const auto at = speeds.begin() + static_cast<std::ptrdiff_t>(speeds.size() - 1 - speeds.size() / 1000);
     std::nth_element(speeds.begin(), at, speeds.end());
@@ -63,6 +74,8 @@ FitOptions FitArguments::options() const {
   if (!name_.empty()) options.name = name_;
   if (options.name.find_first_not_of(letters) != options.name.npos)
     refuse("--name", "letters, digits, '_' and '-'", options.name);
+  if (options.name == "include" || options.name.front() == '-')
+    refuse("--name", "a name that begins with no '-', and is not the key 'include' of robot_types", options.name);
   if (!out_.empty()) options.out = out_;
   check_distinct({{"--out", out_},
                   {"--scenario", source_.scenario(), NamedFile::Use::read},
@@ -80,7 +93,7 @@ int fit(const FitOptions& options, std::span<const genom::ModuleType> types) {
   fitted.name = options.name;
   fitted.log = options.source.log.filename().string();
   fitted.mount = replayed->log.mount;
-  fitted.odometry = fit_odometry(replayed->measured, replayed->localised);
+  fitted.odometry = fit_odometry(replayed->measured, replayed->localised, replayed->log.file);
   fitted.laser = fit_laser(replayed->log);
   find_speeds(replayed->order, fitted);
   file.write(robot_type_text(fitted));

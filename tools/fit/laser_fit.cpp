@@ -7,6 +7,8 @@
 
 #include "core/error.hpp"
 #include "modules/logs/playing_order.hpp"
+#include "tools/fit/log_scan.hpp"
+#include "tools/fit/median.hpp"
 
 namespace waitpoint::tools {
 namespace {
@@ -90,9 +92,7 @@ void fit_dropout(const std::vector<Scan>& scans, LaserFit& fit) {
 void fit_timing(const std::vector<Scan>& scans, LaserFit& fit) {
   std::vector<double> times_s;
   for (std::size_t i = 1; i < scans.size(); ++i) times_s.push_back((scans[i].date - scans[i - 1].date).seconds());
-  const auto middle = times_s.begin() + static_cast<std::ptrdiff_t>(times_s.size() / 2);
-  std::nth_element(times_s.begin(), middle, times_s.end());
-  fit.period_s = *middle;
+  fit.period_s = median(times_s);
   double squares = 0;
   std::uint64_t count = 0;
   for (const double time_s : times_s) {
@@ -113,9 +113,14 @@ LaserFit fit_laser(const logs::SensorLog& log) {
     throw BadInput(log.file, "expected at least ten scans, found " + std::to_string(log.scans.size()));
   const std::vector<Scan> scans = in_order(log);
   const logs::LoggedScan& first = log.scans.front();
+  if (first.range_m.size() < 2 || !(first.angle_step_rad > 0))
+    throw BadInput(log.file, "expected scans of two beams or more, counter-clockwise, found " +
+                                 std::to_string(first.range_m.size()));
   LaserFit fit;
-  fit.beams = first.range_m.size();
-  fit.field_of_view_rad = static_cast<double>(fit.beams - 1) * first.angle_step_rad;
+  fit.stride = beam_stride(first.range_m.size());
+  fit.beams = (first.range_m.size() + fit.stride - 1) / fit.stride;
+  fit.field_of_view_rad =
+      std::min(static_cast<double>((fit.beams - 1) * fit.stride) * first.angle_step_rad, 2 * exact::pi);
   fit.range_max_m = first.range_max_m;
   fit.resolution_m = resolution_of(log);
   fit_noise(scans, fit);

@@ -18,6 +18,7 @@ namespace waitpoint::tools {
 
 struct LaserFit {
   std::size_t beams = 0;
+  std::size_t stride = 1;  ///< of the log's beams every n-th: more do not fit into a scan of a simulated laser
   double field_of_view_rad = 0;
   double range_max_m = 0;
   double resolution_m = 0;  ///< 0: finer than a millimetre
@@ -28,7 +29,7 @@ struct LaserFit {
   std::uint64_t missing = 0;  ///< scans that did not come
 };
 
-/// BadInput for fewer than ten scans.
+/// BadInput for fewer than ten scans, and for scans of a single beam.
 LaserFit fit_laser(const logs::SensorLog& log);
 
 }  // namespace waitpoint::tools

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/fit/odometry_fit.hpp"
 
+#include <fmt/format.h>
+
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
 #include "core/error.hpp"
+#include "tools/fit/median.hpp"
 
 namespace waitpoint::tools {
 namespace {
@@ -15,6 +18,8 @@ constexpr double lengths_m[] = {1, 2, 4, 8};
 constexpr double travel_least_m = 40;
 constexpr double robust = 1.4826;  // of the median deviation of a normal distribution
 constexpr double deviations_max = 5;
+// Squared turns that show their scale: summed over the stretches, and of each in the mean.
+constexpr double turns_least_rad2 = 1, turn_least_rad2 = 0.02;
 constexpr double at_rest_m = 0.02, at_rest_rad = 0.01;  // shorter steps are of the localisation's noise
 
 /// Adds a motion, its travel along the mean heading.
@@ -32,13 +37,6 @@ std::vector<std::size_t> steps_of(std::span<const Pose> measured) {
     if (length(step.position()) >= at_rest_m || std::fabs(step.heading) >= at_rest_rad) ends.push_back(i);
   }
   return ends;
-}
-
-double median(std::vector<double> values) {
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 /// The bound of residuals that count.
@@ -88,6 +86,8 @@ struct Residual {
   double value, travel_m, turns_rad;
 };
 
+std::string metres(double length_m) { return fmt::format("{:.1f} m", length_m); }
+
 /// The squared residuals by a constant, travel and turns; relative to their own scale, which grows with the stretch.
 Eigen::Vector3d variances(const std::vector<Residual>& residuals, bool by_turns) {
   LeastSquares squares;
@@ -99,11 +99,33 @@ Eigen::Vector3d variances(const std::vector<Residual>& residuals, bool by_turns)
   return squares.solve(true);
 }
 
+bool is_corrected(const Stretch& of) {
+  constexpr double least_m = 1e-4, least_rad = 1e-4;  // the localisation's own noise is greater
+  return std::fabs(of.measured_travel_m - of.travel_m) > least_m ||
+         std::fabs(of.measured_turn_rad - of.turn_rad) > least_rad;
+}
+
+/// What the turns of stretches tell of their scale, beside a drift that grows with the travel.
+double shown_turns(const std::vector<Stretch>& stretches) {
+  double turns = 0, both = 0, travels = 0;
+  for (const Stretch& of : stretches) {
+    turns += of.turn_rad * of.turn_rad;
+    both += of.turn_rad * of.travel_m;
+    travels += of.travel_m * of.travel_m;
+  }
+  return travels > 0 ? turns - both * both / travels : turns;
+}
+
 class Fit {
  public:
   Fit(std::span<const Pose> measured, std::span<const Pose> localised) {
-    for (const double length_m : lengths_m) all_.push_back(stretches_of(measured, localised, length_m));
+    for (const double length_m : lengths_m) {
+      all_.push_back(stretches_of(measured, localised, length_m));
+      result_.uncorrected += std::erase_if(all_.back(), [](const Stretch& of) { return !is_corrected(of); });
+    }
   }
+
+  double corrected_m() const { return lengths_m[0] * static_cast<double>(all_.front().size()); }
 
   OdometryFit fit() {
     fit_systematic(all_.back());  // of the longest, in which the localisation's errors weigh least
@@ -128,11 +150,15 @@ class Fit {
     result_.travel_scale = median(ratios);
     for (const Stretch& of : stretches) turns.push_back(turn_residual(of));
     const double bound = bound_of(turns);
+    std::vector<Stretch> within;
+    for (std::size_t i = 0; i < stretches.size(); ++i)
+      if (std::fabs(turns[i]) <= bound) within.push_back(stretches[i]);
+    const double shown_rad2 = shown_turns(within);
+    result_.turns_seen =
+        shown_rad2 > turns_least_rad2 && shown_rad2 > turn_least_rad2 * static_cast<double>(within.size());
     LeastSquares squares;
-    for (std::size_t i = 0; i < stretches.size(); ++i) {
-      const Stretch& of = stretches[i];
-      if (std::fabs(turns[i]) <= bound) squares.add({of.turn_rad, of.travel_m, 0}, of.measured_turn_rad - of.turn_rad);
-    }
+    for (const Stretch& of : within)
+      squares.add({result_.turns_seen ? of.turn_rad : 0, of.travel_m, 0}, of.measured_turn_rad - of.turn_rad);
     const Eigen::Vector3d solution = squares.solve(false);
     result_.turn_scale = 1 + solution(0);
     result_.drift_rad_per_m = solution(1);
@@ -184,14 +210,18 @@ std::vector<Stretch> stretches_of(std::span<const Pose> measured, std::span<cons
   return stretches;
 }
 
-OdometryFit fit_odometry(std::span<const Pose> measured, std::span<const Pose> localised) {
+OdometryFit fit_odometry(std::span<const Pose> measured, std::span<const Pose> localised, const std::string& file) {
   WAITPOINT_CHECK(measured.size() == localised.size(), "poses of other times are compared");
   double travel_m = 0;
   for (std::size_t i = 1; i < measured.size(); ++i)
     travel_m += length(measured[i].position() - measured[i - 1].position());
   if (travel_m < travel_least_m)
-    throw BadInput("fit", "expected a log of at least 40 m of travel, found " + std::to_string(travel_m) + " m");
-  return Fit(measured, localised).fit();
+    throw BadInput(file, "expected at least 40 m of travel that were localised, found " + metres(travel_m));
+  Fit fit(measured, localised);
+  if (fit.corrected_m() < travel_least_m)
+    throw BadInput(file, "expected at least 40 m over which the scans correct the odometry, found " +
+                             metres(fit.corrected_m()) + ": the localisation stood still, or saw nothing");
+  return fit.fit();
 }
 
 }  // namespace waitpoint::tools

@@ -10,7 +10,10 @@
 //   squared residual of the turn          c + turn_noise_per_m^2 D + turn_noise_per_rad^2 |A|
 //
 // The constants c take up the errors of the localisation itself, which do not grow with the stretch. Residuals beyond
-// five robust deviations of their length, such as of lost localisation, are left out, and counted.
+// five robust deviations of their length, such as of lost localisation, are left out, and counted. So are stretches
+// over which the localisation only followed the odometry, since the scans showed nothing to correct it by.
+//
+// A straight drive does not show the scale of turns, nor does a drive in one circle tell it from the drift: it stays 1.
 //
 // The model is that of the simulated odometry (docs/vehicles.md; Borenstein, Feng 1996), so that its parameters can be
 // used there.
@@ -18,6 +21,7 @@
 
 #include <cstdint>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "core/pose.hpp"
@@ -37,10 +41,13 @@ std::vector<Stretch> stretches_of(std::span<const Pose> measured, std::span<cons
 struct OdometryFit {
   double travel_scale = 1, turn_scale = 1, drift_rad_per_m = 0;
   double travel_noise_m_per_sqrt_m = 0, turn_noise_rad_per_sqrt_m = 0, turn_noise_rad_per_sqrt_rad = 0;
+  bool turns_seen = true;  ///< false: turn_scale is not from the log
   std::uint64_t stretches = 0, left_out = 0;
+  std::uint64_t uncorrected = 0;  ///< stretches besides, over which the localisation only followed the odometry
 };
 
-/// The poses at the same times. Fewer than 40 m of travel: BadInput.
-OdometryFit fit_odometry(std::span<const Pose> measured, std::span<const Pose> localised);
+/// The poses at the same times, of the log `file`. BadInput for fewer than 40 m of travel, or of travel over which the
+/// localisation corrects the odometry.
+OdometryFit fit_odometry(std::span<const Pose> measured, std::span<const Pose> localised, const std::string& file);
 
 }  // namespace waitpoint::tools

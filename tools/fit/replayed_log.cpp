@@ -16,7 +16,7 @@ using playback::StampedPose;
 
 std::optional<ReplayedLog> replayed_log(const LogOptions& options, std::span<const genom::ModuleType> types) {
   const LogSource source = log_source(options);
-  ReplayedLog result{.log = source.read(), .order = {}, .measured = {}, .localised = {}};
+  ReplayedLog result{.log = source.read(), .order = {}, .measured = {}, .localised = {}, .scans = {}};
   playback::Playback playback(result.log, source.robot, types, {});
   if (!playback.has(PoseSource::segloc))
     throw BadInput("--modules", "expected segloc, with whose poses the odometry is compared");
@@ -29,6 +29,7 @@ std::optional<ReplayedLog> replayed_log(const LogOptions& options, std::span<con
     if (at == odometry.end()) break;
     result.measured.push_back(at->pose);
     result.localised.push_back(localised.pose);
+    result.scans.push_back(localised.scan);
   }
   return result;
 }

@@ -16,7 +16,9 @@ namespace waitpoint::tools {
 struct ReplayedLog {
   logs::SensorLog log;
   logs::PlayingOrder order;
-  std::vector<Pose> measured, localised;  ///< of the scans that have both, in the order of play
+  // Of the scans that have both poses, in the order of play.
+  std::vector<Pose> measured, localised;
+  std::vector<std::size_t> scans = {};  ///< their indices in the log
 };
 
 /// Nothing after a signal. BadInput as of a replay, and without a module that localises.

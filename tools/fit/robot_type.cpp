@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "core/exact_math.hpp"
 #include "core/printable_line.hpp"
@@ -13,16 +14,31 @@ namespace waitpoint::tools {
 namespace {
 
 constexpr double degree = exact::pi / 180;
+constexpr double hundredth = 0.01;   // the last digit of what scenarios require to be positive
 constexpr double speed_least = 0.1;  // of a log in which the robot stands
+constexpr double speed_most = 1e4;   // of scenarios
+
+/// What limits the fit of the odometry.
+std::vector<std::string> odometry_notes(const OdometryFit& of) {
+  std::vector<std::string> notes;
+  if (of.uncorrected > 0)
+    notes.push_back(
+        fmt::format("Not from {} stretches over which the localisation only followed the odometry.", of.uncorrected));
+  if (!of.turns_seen) notes.emplace_back("The log has too few turns to show their scale.");
+  if (of.left_out * 4 > of.stretches)
+    notes.emplace_back("More than a quarter are outliers: the localisation may have been lost (replay --picture).");
+  return notes;
+}
 
 std::string base_text(const RobotFit& fit) {
   const OdometryFit& of = fit.odometry;
   std::string text = fmt::format(
       "    # Greatest speeds in the log; its kind and accelerations are not in it.\n"
       "    base:\n      kind: synchro\n      v_max_m_s: {:.2f}\n      w_max_rad_s: {:.2f}\n",
-      std::max(fit.v_max_m_s, speed_least), std::max(fit.w_max_rad_s, speed_least));
+      std::clamp(fit.v_max_m_s, speed_least, speed_most), std::clamp(fit.w_max_rad_s, speed_least, speed_most));
   text += fmt::format("      # From {} stretches of 1 to 8 m, without {} outliers.\n", of.stretches - of.left_out,
                       of.left_out);
+  for (const std::string& note : odometry_notes(of)) text += "      # " + note + "\n";
   return text + fmt::format(
                     "      odometry:\n"
                     "        travel_scale: {:.4f}\n"
@@ -47,8 +63,9 @@ std::string laser_text(const RobotFit& fit) {
   text +=
       fmt::format("    lasers:\n      - name: laser\n        mount: [{:.3f}, {:.3f}, {:.2f}]\n        height_m: 0.4\n",
                   fit.mount.x, fit.mount.y, fit.mount.heading / degree);
+  if (of.stride > 1) text += fmt::format("        # One beam in {} of the log's.\n", of.stride);
   text += fmt::format("        beams: {}\n        field_of_view_deg: {:.2f}\n        range_max_m: {:.2f}\n", of.beams,
-                      of.field_of_view_rad / degree, of.range_max_m);
+                      std::max(of.field_of_view_rad / degree, hundredth), std::max(of.range_max_m, hundredth));
   constexpr double of_lms = 0.005;
   text += fmt::format("        range_noise_m: {:.4f}\n", of.noise_pairs > 0 ? of.range_noise_m : of_lms);
   if (of.resolution_m > 0) text += fmt::format("        resolution_m: {:g}\n", of.resolution_m);

@@ -12,11 +12,11 @@ namespace waitpoint::tools {
 
 struct RobotFit {
   std::string name;
-  std::string log;  ///< its file, for comments
-  Pose mount;
+  std::string log = {};  ///< its file, for comments
+  Pose mount = {};
   double v_max_m_s = 0, w_max_rad_s = 0;  ///< as driven
-  OdometryFit odometry;
-  LaserFit laser;
+  OdometryFit odometry = {};
+  LaserFit laser = {};
 };
 
 /// The text of a file for `robot_types: {include: FILE}`, with the modules and the bridge of the shipped robot. What a

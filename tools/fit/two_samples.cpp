@@ -32,13 +32,20 @@ TwoSamples compare_samples(std::vector<double> a, std::vector<double> b) {
   std::sort(b.begin(), b.end());
   const auto of_a = static_cast<double>(a.size()), of_b = static_cast<double>(b.size());
   TwoSamples result;
-  for (std::size_t i = 0, j = 0; i < a.size() && j < b.size();) {
+  double greater = 0;  // pairs in which the second's value is greater, less those in which it is smaller
+  std::size_t i = 0, j = 0;
+  while (i < a.size() && j < b.size()) {
     const double value = std::min(a[i], b[j]);
+    const std::size_t first_j = j, first_i = i;
     while (i < a.size() && a[i] <= value) ++i;
     while (j < b.size() && b[j] <= value) ++j;
+    const auto equal = static_cast<double>(j - first_j);
+    greater += equal * (static_cast<double>(first_i) - static_cast<double>(a.size() - i));
     const double apart = static_cast<double>(i) / of_a - static_cast<double>(j) / of_b;
     result.distance = std::max(result.distance, std::fabs(apart));
   }
+  greater += static_cast<double>(b.size() - j) * of_a;  // those above all of the first
+  result.delta = greater / (of_a * of_b);
   const double size = std::sqrt(of_a * of_b / (of_a + of_b));
   result.probability = exceeds((size + 0.12 + 0.11 / size) * result.distance);
   return result;

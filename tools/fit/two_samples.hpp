@@ -11,6 +11,9 @@ namespace waitpoint::tools {
 struct TwoSamples {
   double distance = 0;     ///< greatest difference of the two empirical distribution functions
   double probability = 1;  ///< of such a distance or a greater one between samples of one distribution
+  /// Cliff's delta, the size of the effect: the probability that a value of the second is greater than one of the
+  /// first, less that it is smaller. From -1 to 1; 0: neither tends to be greater.
+  double delta = 0;
 };
 
 /// Of samples that are not empty; their values need not be distinct.

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The median of a sample.
+#pragma once
+
+#include <algorithm>
+#include <vector>
+
+namespace waitpoint::tools {
+
+/// The upper one of the two in the middle; 0 of no values.
+inline double median(std::vector<double> values) {
+  if (values.empty()) return 0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+}  // namespace waitpoint::tools
