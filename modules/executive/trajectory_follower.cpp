@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "modules/executive/trajectory_follower.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
 
 #include "modules/executive/looks.hpp"
 #include "modules/executive/module_start.hpp"
@@ -15,6 +18,7 @@ namespace {
 
 constexpr Duration period = 50ms;
 constexpr double near_m = 0.3, far_m = 0.8;
+constexpr double degree = exact::pi / 180, near_rad = 20 * degree;
 constexpr Duration progress = 1s, patience = 30s;
 
 /// How much of the trajectory's time passes in a second, for a robot this far from its place.
@@ -31,8 +35,11 @@ TrajectoryFollower::TrajectoryFollower(genom::NameSpace& names, Trajectory traje
       goals_(1) {
   goals_.front().goal = trajectory_.at(trajectory_.duration()).pose.position();
   goals_.front().visits = 1;
-  if (length(trajectory_.at(Duration()).pose.position() - start_.pose.position()) > near_m)
-    throw BadInput("the executive", "expected a start within 0.3 m of the trajectory's first pose");
+  const Pose first = trajectory_.at(Duration()).pose, off = between(first, start_.pose);
+  if (length(off.position()) > near_m || std::fabs(off.heading) > near_rad)
+    throw BadInput("the executive",
+                   fmt::format("expected a start near the trajectory's first pose, [{:.2f}, {:.2f}, {:.0f}]", first.x,
+                               first.y, first.heading / degree));
 }
 
 void TrajectoryFollower::connect() {

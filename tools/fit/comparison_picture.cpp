@@ -94,8 +94,9 @@ std::string comparison_picture_svg(const std::string& first_name, std::span<cons
     x += 1.5 * (plot_width + gap);
   }
   for (std::size_t i = 0; i < first.size(); ++i) {
-    const auto column = static_cast<double>(i % columns), row = static_cast<double>(i / columns);
-    draw_frame(svg, {left + column * (plot_width + gap), top + row * (plot_height + gap)}, first[i], second[i]);
+    const std::size_t row = i / columns;
+    const auto x_places = static_cast<double>(i % columns), y_places = static_cast<double>(row);
+    draw_frame(svg, {left + x_places * (plot_width + gap), top + y_places * (plot_height + gap)}, first[i], second[i]);
   }
   return svg.finish();
 }

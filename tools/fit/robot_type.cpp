@@ -73,6 +73,22 @@ std::string laser_text(const RobotFit& fit) {
   return text + fmt::format("        period_ms: {}\n", std::max(1LL, std::llround(of.period_s * 1e3)));
 }
 
+/// The base's module expects the errors that the base has: the systematic ones, too, which it does not know.
+std::string module_text(const OdometryFit& of) {
+  const auto variance = [](double noise, double systematic) {
+    return exact::square(noise) + exact::square(systematic);
+  };
+  return fmt::format(
+      "      - name: rflex\n"
+      "        noise:\n"
+      "          travel_variance_m2_per_m: {:.6f}\n"
+      "          turn_variance_rad2_per_rad: {:.6f}\n"
+      "          turn_variance_rad2_per_m: {:.6f}\n",
+      variance(of.travel_noise_m_per_sqrt_m, of.travel_scale - 1),
+      variance(of.turn_noise_rad_per_sqrt_rad, of.turn_scale - 1),
+      variance(of.turn_noise_rad_per_sqrt_m, of.drift_rad_per_m));
+}
+
 }  // namespace
 
 std::string robot_type_text(const RobotFit& fit) {
@@ -80,9 +96,7 @@ std::string robot_type_text(const RobotFit& fit) {
   text += fmt::format("format: 1\ndescription: robot type {0}\n\nrobot_types:\n  {0}:\n", fit.name);
   text += "    # Not in the log.\n    shape: {radius_m: 0.26, height_m: 1.2}\n";
   text += base_text(fit) + laser_text(fit);
-  return text +
-         "    modules:\n"
-         "      - name: rflex\n"
+  return text + "    modules:\n" + module_text(fit.odometry) +
          "      - name: sick\n"
          "      - name: segloc\n"
          "      - name: pom\n"
