@@ -7,17 +7,48 @@ using genom::Nothing;
 using genom::State;
 using namespace std::chrono_literals;
 
-Parameters Locate::read(genom::Settings& settings) {
+namespace {
+
+void check(const genom::Settings& settings, const Parameters& p) {
+  const auto within = [&](const char* key, double value, double least, double most) {
+    settings.check_least(key, value, least);
+    settings.check_most(key, value, most);
+  };
+  const auto& [tracking, finding] = p;
+  within("tracking.independent_share", tracking.independent_share, 0.001, 1);
+  within("tracking.position_floor_m", tracking.position_floor_m, 1e-4, 10);
+  within("tracking.heading_floor_rad", tracking.heading_floor_rad, 1e-4, 1);
+  within("tracking.explained_min", tracking.explained_min, 0.01, 1);
+  within("tracking.lost_scans", tracking.lost_scans, 1, 1e6);
+  within("tracking.rest_scans", tracking.rest_scans, 1, 1e6);
+  within("finding.view_turn_rad", finding.view_turn_rad, 0.01, 100);
+  within("finding.view_travel_m", finding.view_travel_m, 0.01, 1000);
+  within("finding.views_min", finding.views_min, 1, 1000);
+  within("finding.views_max", finding.views_max, 1, 1000);
+  within("finding.score_min", finding.score_min, 0.01, 1);
+  within("finding.rival_share", finding.rival_share, 0.01, 1);
+  within("finding.explained_min", finding.explained_min, 0.01, 1);
+  if (finding.views_min > finding.views_max) {
+    // At the one that is given: the defaults are in order.
+    if (settings.has("finding.views_min"))
+      settings.check_most("finding.views_min", finding.views_min, finding.views_max);
+    settings.check_least("finding.views_max", finding.views_max, finding.views_min);
+  }
+}
+
+}  // namespace
+
+Parameters read_parameters(genom::Settings& settings) {
   Parameters parameters;
   settings.read(parameters);
   settings.check_not_negative(parameters);
-  check(parameters);
+  check(settings, parameters);
   return parameters;
 }
 
 Locate::Locate(genom::ModuleSetup& setup)
     : Module(setup, 27),
-      parameters_(read(setup.settings)),
+      parameters_(read_parameters(setup.settings)),
       map_(setup.known_map),
       locating_(add_task("locating", {.period_ms = 20ms, .delay_ms = {}, .cost_us = {}})),
       echoes_(read_poster<posters::Echoes>("sick.echoes")),

@@ -23,12 +23,14 @@
 
 namespace waitpoint::locate {
 
+/// The parameters, with those that are set. Throws BadInput at a setting that it cannot work with.
+Parameters read_parameters(genom::Settings& settings);
+
 class Locate : public genom::Module {
  public:
   explicit Locate(genom::ModuleSetup& setup);
 
  private:
-  static Parameters read(genom::Settings& settings);
   void start(const std::optional<posters::KnownPose>& known);
   void locate();
   void track(const Pose& odometry);

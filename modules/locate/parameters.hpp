@@ -2,7 +2,6 @@
 // Parameters of localisation on a known map. The defaults suit a SICK LMS and raw wheel odometry in a building.
 #pragma once
 
-#include "core/error.hpp"
 #include "core/fields.hpp"
 #include "modules/matching/refinement.hpp"
 #include "modules/matching/surface.hpp"
@@ -70,21 +69,5 @@ struct Parameters {
     field("finding", &Parameters::finding);
   }
 };
-
-/// Throws BadInput for invalid values.
-inline void check(const Parameters& p) {
-  const auto share = [](const char* key, double value) {
-    if (!(value > 0 && value <= 1)) throw BadInput(key, "expected a share from 0 to 1");
-  };
-  share("tracking.independent_share", p.tracking.independent_share);
-  share("tracking.explained_min", p.tracking.explained_min);
-  share("finding.score_min", p.finding.score_min);
-  share("finding.rival_share", p.finding.rival_share);
-  share("finding.explained_min", p.finding.explained_min);
-  if (!(p.tracking.position_floor_m > 0 && p.tracking.heading_floor_rad > 0))
-    throw BadInput("tracking.position_floor_m, tracking.heading_floor_rad", "expected more than 0");
-  if (p.finding.views_min < 1 || p.finding.views_max < p.finding.views_min || p.finding.views_max > 1000)
-    throw BadInput("finding.views_min, finding.views_max", "expected 1 <= views_min <= views_max <= 1000");
-}
 
 }  // namespace waitpoint::locate
