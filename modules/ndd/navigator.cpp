@@ -21,6 +21,7 @@ struct WorkingMemory {
   std::vector<Point> about_disc;  // the obstacles of the diagram, for a robot that is no disc
   Diagram diagram;
   Regions regions;
+  std::vector<Foresight::Disc> moving;
 };
 
 WorkingMemory& working_memory() {
@@ -68,7 +69,8 @@ Navigator::Navigator(const Parameters& parameters)
       watch_(parameters.progress_m, Duration::from_seconds(parameters.patience_s)),
       bypass_(parameters_),
       limiter_(parameters_),
-      shape_limiter_(parameters_, footprint_) {}
+      shape_limiter_(parameters_, footprint_),
+      foresight_(parameters_, footprint_) {}
 
 void Navigator::add_odometry(const posters::Odometry& odometry) {
   trail_.add(odometry.position.date, odometry.position.pose);
@@ -79,6 +81,7 @@ void Navigator::add_echoes(const posters::Echoes& echoes) {
   if (trail_.empty() || echoes.scan.date <= scan_date_) return;
   scan_date_ = echoes.scan.date;
   memory_.see(trail_.at(scan_date_), echoes);
+  if (parameters_.foresight_s > 0) tracks_.see(compose(trail_.at(scan_date_), echoes.mount), echoes.scan);
 }
 
 Pose Navigator::in_map(const posters::PositionEstimate& position) const {
@@ -103,17 +106,22 @@ bool Navigator::reroute(const posters::PositionEstimate& position, std::span<con
 Decision Navigator::decide(Time now, const posters::PositionEstimate& position) {
   if (route_.empty() || trail_.empty() || scan_date_ < Time()) return {};
   const Pose robot = in_map(position);
-  route_.advance(robot.position(), parameters_.via_tolerance_m);
   const Pose ahead = displacement(measured_, parameters_.prediction_s);
   decided_for_ = compose(trail_.newest(), ahead);
   memory_.points_from(decided_for_, working_memory().obstacles);
-  const Point via = between(compose(robot, ahead), {route_.target().x, route_.target().y, 0}).position();
+  const auto seen_from_robot = [expected = compose(robot, ahead)](Point p) {
+    return between(expected, {p.x, p.y, 0}).position();
+  };
+  route_.advance(robot.position(), parameters_.via_tolerance_m,
+                 [&](Point next) { return is_clear(seen_from_robot(next)); });
+  const Point via = seen_from_robot(route_.target());
   const Point target = clear_of_obstacles(via);
   Decision decision;
   decision.remaining_m = route_.remaining_m(robot.position());
   decision.outcome = outcome(now, decision.remaining_m, length(target));
   if (decision.outcome != Outcome::driving) route_.clear();
-  if (decision.outcome == Outcome::driving && !at_goal(decision.remaining_m, length(target))) steer(target, decision);
+  if (decision.outcome == Outcome::driving && !at_goal(decision.remaining_m, length(target)))
+    steer(now, target, decision);
   return decision;
 }
 
@@ -132,7 +140,12 @@ Outcome Navigator::outcome(Time now, double remaining_m, double target_distance_
   return near_enough ? Outcome::arrived : Outcome::blocked;
 }
 
-void Navigator::steer(Point target, Decision& decision) {
+void Navigator::steer(Time now, Point target, Decision& decision) {
+  steer_among_standing(target, decision);
+  if (parameters_.foresight_s > 0) decision.speeds = foresee(now, decision.speeds);
+}
+
+void Navigator::steer_among_standing(Point target, Decision& decision) {
   const double distance = length(target);
   const Assessment assessment = assess(target, distance);
   decision.situation = assessment.situation;
@@ -145,6 +158,30 @@ void Navigator::steer(Point target, Decision& decision) {
   const std::vector<Point>& obstacles = working_memory().obstacles;
   decision.speeds = footprint_.is_disc() ? limiter_.limit(wanted, measured_, obstacles)
                                          : shape_limiter_.limit(wanted, measured_, obstacles);
+}
+
+// For the obstacles in motion as they will be when the command takes effect.
+Speeds Navigator::foresee(Time now, const Speeds& wanted) {
+  auto& [obstacles, about_disc, diagram, regions, moving] = working_memory();
+  const Time effect = now + Duration::from_seconds(parameters_.prediction_s);
+  moving.clear();
+  for (const Track& track : tracks_.moving()) {
+    const Point centre = track.at(effect);
+    moving.push_back({between(decided_for_, {centre.x, centre.y, 0}).position(),
+                      transform({0, 0, -decided_for_.heading}, track.velocity), track.radius_m});
+  }
+  return foresight_.choose(wanted, measured_, moving, obstacles);
+}
+
+// True if the robot's disc touches no known obstacle on the straight way to a target.
+bool Navigator::is_clear(Point target) const {
+  const double least = parameters_.robot_radius_m + parameters_.emergency_distance_m;
+  const double square = dot(target, target);
+  return std::none_of(working_memory().obstacles.begin(), working_memory().obstacles.end(), [&](Point p) {
+    const double part = square == 0 ? 0 : std::clamp(dot(p, target) / square, 0.0, 1.0);
+    const Point aside = p - part * target;
+    return dot(aside, aside) < least * least;
+  });
 }
 
 // A small position error can put a via point into a door's jamb, or the goal into a wall: the robot drives to the
@@ -168,7 +205,7 @@ Point Navigator::clear_of_obstacles(Point via) const {
 }
 
 Assessment Navigator::assess(Point target, double target_distance_m) {
-  auto& [obstacles, about_disc, diagram, regions] = working_memory();
+  auto& [obstacles, about_disc, diagram, regions, moving] = working_memory();
   if (!footprint_.is_disc()) draw_to_disc(footprint_, obstacles, about_disc);
   diagram.build(footprint_.is_disc() ? obstacles : about_disc, parameters_.diagram_range_m);
   const double width = 2 * parameters_.robot_radius_m;

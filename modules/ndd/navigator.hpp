@@ -15,8 +15,10 @@
 #pragma once
 
 #include "modules/ndd/bypass.hpp"
+#include "modules/ndd/foresight.hpp"
 #include "modules/ndd/motion_law.hpp"
 #include "modules/ndd/obstacle_memory.hpp"
+#include "modules/ndd/obstacle_tracks.hpp"
 #include "modules/ndd/progress_watch.hpp"
 #include "modules/ndd/route.hpp"
 #include "modules/ndd/shape_limiter.hpp"
@@ -68,7 +70,10 @@ class Navigator {
   Pose in_map(const posters::PositionEstimate& position) const;
   bool at_goal(double remaining_m, double target_distance_m) const;
   Outcome outcome(Time now, double remaining_m, double target_distance_m);
-  void steer(Point target, Decision& decision);
+  void steer(Time now, Point target, Decision& decision);
+  void steer_among_standing(Point target, Decision& decision);
+  Speeds foresee(Time now, const Speeds& wanted);
+  bool is_clear(Point target) const;
   Point clear_of_obstacles(Point via) const;
   Assessment assess(Point target, double target_distance_m);
   double security_distance_m(Point target, double target_distance_m) const;
@@ -79,12 +84,14 @@ class Navigator {
   posters::OdometryTrail trail_;
   Speeds measured_;
   ObstacleMemory memory_;
+  ObstacleTracks tracks_;
   Time scan_date_ = Time::from_ns(-1);
   Route route_;
   ProgressWatch watch_;
   Bypass bypass_;
   SpeedLimiter limiter_;
   ShapeLimiter shape_limiter_;
+  Foresight foresight_;
   std::optional<Point> last_target_;  // of the region choice, in the odometry frame
   double last_turn_ = 0;              // direction of the last decision
 

@@ -25,6 +25,7 @@ struct Parameters {
   double diagram_range_m = 8.0;        ///< echoes farther away are ignored
   double memory_range_m = 3.0;         ///< remembered echoes farther away are forgotten
   double memory_age_s = 10.0;          ///< older remembered echoes are forgotten
+  double foresight_s = 0;              ///< the motion of obstacles is regarded for so long; 0: not at all
   double turning_gain_per_s = 1.5;     ///< turning speed per radian of direction
   double via_tolerance_m = 0.4;        ///< within this, an intermediate via point counts as passed
   double goal_tolerance_m = 0.1;       ///< within this, the goal counts as reached
@@ -51,6 +52,7 @@ struct Parameters {
     field("diagram_range_m", &Parameters::diagram_range_m);
     field("memory_range_m", &Parameters::memory_range_m);
     field("memory_age_s", &Parameters::memory_age_s);
+    field("foresight_s", &Parameters::foresight_s);
     field("turning_gain_per_s", &Parameters::turning_gain_per_s);
     field("via_tolerance_m", &Parameters::via_tolerance_m);
     field("goal_tolerance_m", &Parameters::goal_tolerance_m);

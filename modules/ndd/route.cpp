@@ -7,6 +7,7 @@ namespace waitpoint::ndd {
 namespace {
 
 constexpr double beyond_m_max = 1.2;
+constexpr double close_share = 0.5;  // of the tolerance: as near as this, corners are cut
 
 }  // namespace
 
@@ -18,12 +19,14 @@ void Route::start(Point from, std::span<const Point> via_points) {
   next_ = 1;
 }
 
-void Route::advance(Point robot, double via_tolerance_m) {
+void Route::advance(Point robot, double via_tolerance_m, const std::function<bool(Point)>& is_clear) {
   while (!empty() && !target_is_last()) {
     const Point leg = points_[next_] - points_[next_ - 1], beyond = robot - points_[next_];
     const double distance = length(beyond);
     const bool past = dot(leg, beyond) > 0 && distance < beyond_m_max;
     if (distance >= via_tolerance_m && !past) return;
+    const bool is_close = past || distance < close_share * via_tolerance_m;
+    if (!is_close && is_clear && !is_clear(points_[next_ + 1])) return;
     ++next_;
   }
 }

@@ -2,10 +2,11 @@
 // The via points of the present route: the next one, and the remaining length.
 //
 // An intermediate via point is passed within a tolerance, or when the robot is beyond it (past the line through it
-// perpendicular to the leg) and close: a robot that had to give way need not turn back for it. The last one is never
-// passed.
+// perpendicular to the leg) and close: a robot that had to give way need not turn back for it. Within the tolerance, a
+// corner may be cut only if the straight way to the next via point is clear. The last one is never passed.
 #pragma once
 
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -20,8 +21,9 @@ class Route {
   void clear() { points_.clear(); }
   bool empty() const { return points_.empty(); }
 
-  /// Removes the via points that a robot at `robot` has reached.
-  void advance(Point robot, double via_tolerance_m);
+  /// Removes the via points that a robot at `robot` has reached. `is_clear` tells of a via point whether the straight
+  /// way there is; without it, all are.
+  void advance(Point robot, double via_tolerance_m, const std::function<bool(Point)>& is_clear = {});
 
   /// The next via point; an empty route is a bug.
   Point target() const;

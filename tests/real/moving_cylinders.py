@@ -2,9 +2,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Drives the robot of barn.yaml through fields of moving cylinders, after the DynaBARN benchmark, and prints a table.
 
-Each cylinder goes to and fro on a parabola across the field, at a constant speed, whatever is in its way. A row for each
-number of cylinders and greatest speed of them; success: the goal is reached, and the robot has had no collision, with
-a cylinder that drives into it neither. The last line is "N passed, M failed"; status 0 if nine in ten pass.
+Each cylinder goes to and fro on a parabola across the field, at a constant speed, whatever is in its way; with --varied their
+radii differ, their ways are parabolas or waves, and they stop and turn back at any time. A row for each number of
+cylinders and greatest speed of them; success: the goal is reached, and the robot has had no collision, with a cylinder
+that drives into it neither. The last line is "N passed, M failed"; status 0 if nine in ten pass.
 """
 import argparse
 import concurrent.futures
@@ -24,25 +25,37 @@ LEFT, RIGHT, LOW, HIGH = -5.25, 0.75, 5.0, 11.0  # the cylinders' field; the rob
 PIECE_S = 0.5
 # What moves does not give way, so the robot keeps farther away than from a field that stands.
 SETTINGS = ["executive={replan_ms: 100}", "modules.ndd.emergency_distance_m=0.15", "modules.ndd.security_distance_m=0.5",
-            "modules.ndd.reaction_s=0.2"]
+            "modules.ndd.reaction_s=0.2", "modules.ndd.foresight_s=2"]
 
 
-def cylinder(name, random, speed_max, starts):
+def way_of(random, varied):
+    """The heading of a way, by x."""
+    slope, bend = random.uniform() - 0.5, 0.3 * (random.uniform() - 0.5)
+    middle = 0.5 * (LEFT + RIGHT)
+    if varied and random.uniform() < 0.5:
+        swing, per_m, phase = 1.2 * random.uniform(), 0.5 + 2 * random.uniform(), 6.3 * random.uniform()
+        return lambda at: math.atan(slope) + swing * math.sin(per_m * at + phase)
+    return lambda at: math.atan(slope + 2 * bend * (at - middle))
+
+
+def cylinder(name, random, speed_max, varied, starts):
     """A robot without software, and the commands of its base: v and w of each piece of its way."""
     speed = speed_max * (0.4 + 0.6 * random.uniform())
-    y, slope, bend = LOW + (HIGH - LOW) * random.uniform(), random.uniform() - 0.5, 0.3 * (random.uniform() - 0.5)
+    y = LOW + (HIGH - LOW) * random.uniform()
+    heading = way_of(random, varied)
     x = LEFT + (RIGHT - LEFT) * random.uniform()
-    while any(math.hypot(x - other[0], y - other[1]) < 0.6 for other in starts):
+    radius = 0.1 + 0.3 * random.uniform() if varied else 0.2
+    while any(math.hypot(x - other[0], y - other[1]) < radius + other[2] + 0.2 for other in starts):
         x, y = LEFT + (RIGHT - LEFT) * random.uniform(), LOW + (HIGH - LOW) * random.uniform()
-    starts.append((x, y))
-    middle = 0.5 * (LEFT + RIGHT)
-    heading = lambda at: math.atan(slope + 2 * bend * (at - middle))
-    text = (f"{{name: {name}, shape: {{radius_m: 0.2, height_m: 1}}, start: [{x:.3f}, {y:.3f}, "
+    starts.append((x, y, radius))
+    text = (f"{{name: {name}, shape: {{radius_m: {radius:.3f}, height_m: 1}}, start: [{x:.3f}, {y:.3f}, "
             f"{math.degrees(heading(x)):.2f}], base: {{kind: synchro, v_max_m_s: 2, w_max_rad_s: 3, "
             f"v_acceleration_m_s2: 20, w_acceleration_rad_s2: 40}}}}")
     commands, forward, time_s = [], random.uniform() < 0.5, 0.02
     while time_s < 60:
-        v = speed if forward else -speed
+        stands = varied and random.uniform() < 0.1
+        forward ^= varied and random.uniform() < 0.05
+        v = 0 if stands else speed if forward else -speed
         to = x + v * math.cos(heading(x)) * PIECE_S
         if not LEFT < to < RIGHT:
             forward = not forward
@@ -56,7 +69,7 @@ def cylinder(name, random, speed_max, starts):
 def run(arguments, count, speed_max, shape, seed):
     random = Random(1000 * seed + count)
     starts = []
-    cylinders = [cylinder(f"c{i}", random, speed_max, starts) for i in range(count)]
+    cylinders = [cylinder(f"c{i}", random, speed_max, arguments.varied, starts) for i in range(count)]
     commands = sorted((each for _, some in cylinders for each in some), key=lambda each: each[0])
     robots = "".join(f"  - {text}\n" for text, _ in cylinders)
     scenario = (ROOT / "tests/real/barn.yaml").read_text().replace("robots:\n", "robots:\n" + robots)
@@ -87,6 +100,7 @@ def main():
     parser.add_argument("--cylinders", default="5,10")
     parser.add_argument("--speeds", default="0.5,1")
     parser.add_argument("--shapes", default="rectangle,disc")
+    parser.add_argument("--varied", action="store_true", help="radii and ways of all kinds")
     parser.add_argument("--set", action="append", default=[], help="KEY=VALUE, as of waitpoint run")
     arguments = parser.parse_args()
     passed = failed = 0

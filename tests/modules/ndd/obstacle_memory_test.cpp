@@ -9,25 +9,10 @@
 #include "modules/ndd/progress_watch.hpp"
 #include "modules/ndd/route.hpp"
 #include "tests/modules/milliseconds.hpp"
-#include "tests/modules/ndd/closed_loop.hpp"
+#include "tests/modules/ndd/scan_from.hpp"
 
 namespace waitpoint::ndd {
 namespace {
-
-posters::Echoes scan_from(const test::Shapes& shapes, const Pose& robot, Time date) {
-  posters::Echoes echoes;
-  echoes.mount = {0.1, 0, 0};
-  echoes.scan.date = date;
-  echoes.scan.first_angle_rad = -exact::pi / 2;
-  echoes.scan.angle_step_rad = exact::pi / 360;
-  echoes.scan.range_max_m = 32;
-  const Pose device = compose(robot, echoes.mount);
-  for (int i = 0; i <= 360; ++i) {
-    const double angle = device.heading + echoes.scan.first_angle_rad + i * echoes.scan.angle_step_rad;
-    echoes.scan.range_m.push_back(static_cast<float>(shapes.range(device.position(), angle, 32)));
-  }
-  return echoes;
-}
 
 double nearest(const std::vector<Point>& points, Point p) {
   double best = 100;
@@ -111,6 +96,27 @@ TEST(Route, PassesViaPointsNearByOrWhenBeyond) {
   route.advance({4, 3.5}, 0.4);  // the last point is never passed
   EXPECT_TRUE(route.target_is_last());
   EXPECT_EQ(route.target(), via[2]);
+}
+
+TEST(Route, ACornerIsCutOnlyIfTheWayToTheNextPointIsClear) {
+  Route route;
+  const std::vector<Point> via = {{2, 0}, {2, 1}};
+  std::vector<Point> asked;
+  bool clear = false;
+  const auto is_clear = [&](Point next) {
+    asked.push_back(next);
+    return clear;
+  };
+  route.start({0, 0}, via);
+  route.advance({1.7, 0}, 0.4, is_clear);
+  EXPECT_EQ(route.target(), via[0]);
+  EXPECT_EQ(asked, std::vector<Point>({via[1]}));
+  route.advance({1.85, 0}, 0.4, is_clear);  // as near as need be
+  EXPECT_EQ(route.target(), via[1]);
+  route.start({0, 0}, via);
+  clear = true;
+  route.advance({1.7, 0}, 0.4, is_clear);
+  EXPECT_EQ(route.target(), via[1]);
 }
 
 TEST(ProgressWatch, WantsAStepInEverySpan) {
