@@ -68,7 +68,7 @@ class FreeSpace {
   /// outside the map.
   std::uint16_t clearance_square(CellIndex c) const {
     if (!map().contains(c)) return 0;
-    const std::uint16_t known = known_->clearances()[index(c)];
+    const std::uint16_t known = known_square(c);
     const std::uint16_t mapped = marked() ? std::min(known, marks_(c.x, c.y)) : known;
     return seen_ == nullptr ? mapped : std::min(mapped, seen_square(c));
   }
@@ -86,6 +86,9 @@ class FreeSpace {
 
   /// The cost of entering a passable cell, per fifth of its length; `least_cell_cost` in the open.
   std::uint32_t cell_cost(CellIndex c) const;
+  /// The same by the known map alone, without marks and what has been seen: never more.
+  bool known_passable(CellIndex c) const { return map().contains(c) && known_square(c) >= hard_square_; }
+  std::uint32_t known_cell_cost(CellIndex c) const { return cost_[std::min(known_square(c), preferred_square_)]; }
   static constexpr std::uint32_t least_cell_cost = 16, greatest_cell_cost = 80, unseen_cell_cost = 8;
 
   /// True if all cells touched by the segment between two cells' centres have at least this clearance.
@@ -109,7 +112,8 @@ class FreeSpace {
   }
   void turn_hull(const Footprint& footprint);
   void push_away(CellIndex obstacle);
-  bool explained(CellIndex c) const { return known_->clearances()[index(c)] < explained_square_; }
+  std::uint16_t known_square(CellIndex c) const { return known_->clearances()[index(c)]; }
+  bool explained(CellIndex c) const { return known_square(c) < explained_square_; }
   std::int32_t reach_cells() const;
   std::uint16_t seen_square(CellIndex c) const {
     const std::int32_t x = c.x - seen_low_.x, y = c.y - seen_low_.y;

@@ -7,8 +7,7 @@
 
 namespace waitpoint::executive {
 
-const KnownSpace::Clearances& KnownSpace::clearances() const {
-  if (!clearances_.empty()) return clearances_;
+void KnownSpace::find_clearances() const {
   const std::span<const Cell> cells = map_.cells();
   clearances_.resize(cells.size());
   DistanceTransform().run(cells, map_.width(), map_.height(), clearances_);
@@ -20,7 +19,6 @@ const KnownSpace::Clearances& KnownSpace::clearances() const {
   const Cell* const end = begin + cells.size();
   for (const Cell* cell = find_unknown(begin, end); cell != nullptr; cell = find_unknown(cell, end))
     for (; cell < end && *cell == Cell::unknown; ++cell) clearances_[static_cast<std::size_t>(cell - begin)] = 0;
-  return clearances_;
 }
 
 }  // namespace waitpoint::executive

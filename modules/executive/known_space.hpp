@@ -22,9 +22,14 @@ class KnownSpace {
   bool is_known() const { return is_known_; }
   /// For each cell, row by row: the squared distance from its centre to the nearest obstacle, in half cells; 0 for
   /// occupied or unknown cells. Computed on first use: robots without goals need only the map.
-  const Clearances& clearances() const;
+  const Clearances& clearances() const {
+    if (clearances_.empty()) find_clearances();
+    return clearances_;
+  }
 
  private:
+  void find_clearances() const;
+
   OccupancyGrid map_;
   bool is_known_;
   mutable Clearances clearances_;

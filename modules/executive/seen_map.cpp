@@ -2,16 +2,13 @@
 #include "modules/executive/seen_map.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace waitpoint::executive {
 
 SeenMap::SeenMap(const OccupancyGrid& map, double range_m_max) : map_(map), range_m_max_(range_m_max) { forget(); }
 
 void SeenMap::forget() {
-  evidence_ = {map_.width(), map_.height(), unseen};
-  echo_of_ = {map_.width(), map_.height(), 0};
-  listed_ = {map_.width(), map_.height(), 0};
+  cells_ = {map_.width(), map_.height(), {}};
   scans_ = 0;
   ever_occupied_.clear();
 }
@@ -43,9 +40,9 @@ void SeenMap::mark_echoes(const Pose& device, const posters::LaserReading& scan)
     const auto [s, c] = exact::sincos(scan.first_angle_rad + scan.angle_step_rad * static_cast<double>(i));
     const std::optional<CellIndex> cell = map_.cell_at(transform(device, {range * c, range * s}));
     if (!cell) continue;
-    std::uint32_t& number = echo_of_(cell->x, cell->y);
-    if (number == scans_) continue;
-    number = scans_;
+    Seen& seen = cells_(cell->x, cell->y);
+    if (seen.echo_of == scans_) continue;
+    seen.echo_of = scans_;
     echoes_.push_back(*cell);
   }
 }
@@ -64,23 +61,25 @@ void SeenMap::clear_beam(Point from, Point end, double short_m) {
   CellIndex last = {-1, -1};
   for (int k = 0; k <= steps; ++k) {
     const Point p = start + (step_m * k) * along;
-    const CellIndex cell = {static_cast<int>(std::floor(p.x)), static_cast<int>(std::floor(p.y))};
+    if (p.x < 0 || p.y < 0) continue;
+    const CellIndex cell = {static_cast<int>(p.x), static_cast<int>(p.y)};
     if (cell == last || !map_.contains(cell)) continue;
     last = cell;
-    if (echo_of_(cell.x, cell.y) == scans_) continue;
-    Evidence& evidence = evidence_(cell.x, cell.y);
-    evidence = evidence == unseen ? miss : std::max<Evidence>(least, static_cast<Evidence>(evidence + miss));
+    Seen& seen = cells_(cell.x, cell.y);
+    if (seen.echo_of == scans_) continue;
+    seen.evidence =
+        seen.evidence == unseen ? miss : std::max<Evidence>(least, static_cast<Evidence>(seen.evidence + miss));
   }
 }
 
 void SeenMap::raise_echoes() {
   for (const CellIndex cell : echoes_) {
-    Evidence& evidence = evidence_(cell.x, cell.y);
-    evidence = evidence == unseen ? hit : std::min<Evidence>(most, static_cast<Evidence>(evidence + hit));
-    if (evidence < occupied_from) continue;
-    std::uint8_t& listed = listed_(cell.x, cell.y);
-    if (listed == 0) ever_occupied_.push_back(cell);
-    listed = 1;
+    Seen& seen = cells_(cell.x, cell.y);
+    seen.evidence =
+        seen.evidence == unseen ? hit : std::min<Evidence>(most, static_cast<Evidence>(seen.evidence + hit));
+    if (seen.evidence < occupied_from) continue;
+    if (!seen.is_listed) ever_occupied_.push_back(cell);
+    seen.is_listed = true;
   }
 }
 

@@ -27,15 +27,20 @@ class SeenMap {
   /// Forgets all cells.
   void forget();
 
-  bool occupied(CellIndex c) const { return evidence_(c.x, c.y) >= occupied_from; }
+  bool occupied(CellIndex c) const { return cells_(c.x, c.y).evidence >= occupied_from; }
   /// True if a beam has passed through the cell or ended in it.
-  bool seen(CellIndex c) const { return evidence_(c.x, c.y) != unseen; }
+  bool seen(CellIndex c) const { return cells_(c.x, c.y).evidence != unseen; }
   /// Cells that have been occupied at some time; each once.
   const std::vector<CellIndex>& ever_occupied() const { return ever_occupied_; }
 
  private:
   using Evidence = std::int8_t;
   static constexpr Evidence unseen = -128, least = -4, most = 8, occupied_from = 3, hit = 3, miss = -1;
+  struct Seen {
+    std::uint32_t echo_of = 0;  // the number of the last scan with an echo in the cell
+    Evidence evidence = unseen;
+    bool is_listed = false;  // in ever_occupied_
+  };
 
   void mark_echoes(const Pose& device, const posters::LaserReading& scan);
   void clear_beam(Point from, Point end, double short_m);
@@ -43,9 +48,7 @@ class SeenMap {
 
   const OccupancyGrid& map_;
   double range_m_max_;
-  TiledGrid<Evidence> evidence_;
-  TiledGrid<std::uint32_t> echo_of_;  // the number of the last scan with an echo in the cell
-  TiledGrid<std::uint8_t> listed_;    // cells in ever_occupied_
+  TiledGrid<Seen> cells_;
   std::uint32_t scans_ = 0;
   std::vector<CellIndex> echoes_;  // of the present scan
   std::vector<CellIndex> ever_occupied_;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <utility>
 
 namespace waitpoint::executive {
 namespace {
@@ -38,14 +39,6 @@ bool can_step(const FreeSpace& space, CellIndex cell, CellIndex next, std::uint3
          (!space.tight(next) || space.fits(next, heading_of[k]));
 }
 
-// A consistent lower bound of the cost between two cells: a step lowers it by at most its own cost.
-std::uint32_t least_cost(CellIndex a, CellIndex b) {
-  const auto dx = static_cast<std::uint32_t>(std::abs(a.x - b.x));
-  const auto dy = static_cast<std::uint32_t>(std::abs(a.y - b.y));
-  const std::uint32_t diagonal = std::min(dx, dy), straight = std::max(dx, dy) - diagonal;
-  return FreeSpace::least_cell_cost * (ShortestPath::straight_step * straight + ShortestPath::diagonal_step * diagonal);
-}
-
 }  // namespace
 
 std::uint32_t ShortestPath::find(const FreeSpace& space, CellIndex start, CellIndex goal,
@@ -54,8 +47,15 @@ std::uint32_t ShortestPath::find(const FreeSpace& space, CellIndex start, CellIn
   static_assert(std::size_t{diagonal_step} *
                     (FreeSpace::greatest_cell_cost + FreeSpace::unseen_cell_cost + FreeSpace::least_cell_cost) <
                 bucket_count);
+  static_assert(std::size_t{diagonal_step} * (2 * FreeSpace::greatest_cell_cost + FreeSpace::unseen_cell_cost) <
+                2 * bucket_count);
   WAITPOINT_CHECK(space.passable(start) && space.passable(goal), "a way from or to a cell that is not passable");
   path.clear();
+  buckets_.resize(space.has_seen() ? 2 * bucket_count : bucket_count);
+  if (!space.has_seen())
+    costs_goal_.reset();
+  else if (costs_goal_ != goal)
+    find_costs_to(space, goal);
   for (TiledGrid<Node>& nodes : nodes_)
     nodes = {space.map().width(), space.map().height(), {unreachable, none, 0, false}};
   const std::uint32_t cost = search(space, start, goal, path);
@@ -65,29 +65,63 @@ std::uint32_t ShortestPath::find(const FreeSpace& space, CellIndex start, CellIn
   return cost;
 }
 
+// A consistent lower bound of the cost between two cells: a step lowers it by at most its own cost.
+std::uint32_t ShortestPath::least_cost(CellIndex from, CellIndex goal) const {
+  if (costs_goal_) return std::as_const(costs_to_)(from.x, from.y);
+  const auto dx = static_cast<std::uint32_t>(std::abs(from.x - goal.x));
+  const auto dy = static_cast<std::uint32_t>(std::abs(from.y - goal.y));
+  const std::uint32_t diagonal = std::min(dx, dy), straight = std::max(dx, dy) - diagonal;
+  return FreeSpace::least_cell_cost * (straight_step * straight + diagonal_step * diagonal);
+}
+
+std::optional<ShortestPath::State> ShortestPath::take_least(std::uint32_t& priority) {
+  if (opened_ == 0) return std::nullopt;
+  while (buckets_[priority % buckets_.size()].empty()) ++priority;
+  auto& bucket = buckets_[priority % buckets_.size()];
+  const State state = bucket.back();
+  bucket.pop_back();
+  --opened_;
+  return state;
+}
+
+// Backwards from the goal: a step costs what entering its end costs.
+void ShortestPath::find_costs_to(const FreeSpace& space, CellIndex goal) {
+  costs_goal_ = goal;
+  costs_to_ = {space.map().width(), space.map().height(), unreachable};
+  costs_to_(goal.x, goal.y) = 0;
+  std::uint32_t cost = 0;
+  open(cost, {goal});
+  while (const std::optional<State> state = take_least(cost)) {
+    const CellIndex cell = state->cell;
+    if (costs_to_(cell.x, cell.y) < cost) continue;
+    const std::uint32_t enter = space.known_cell_cost(cell);
+    for (const Step& step : steps) {
+      const CellIndex before = {cell.x + step.x, cell.y + step.y};
+      if (!space.known_passable(before)) continue;
+      std::uint32_t& from = costs_to_(before.x, before.y);
+      if (cost + step.length * enter >= from) continue;
+      from = cost + step.length * enter;
+      open(from, {before});
+    }
+  }
+}
+
 std::uint32_t ShortestPath::search(const FreeSpace& space, CellIndex start, CellIndex goal,
                                    std::vector<CellIndex>& path) {
-  node({start}).cost = 0;
   std::uint32_t priority = least_cost(start, goal);
+  if (priority == unreachable) return unreachable;
+  node({start}).cost = 0;
   open(priority, {start});
-  while (opened_ > 0) {
-    auto& bucket = buckets_[priority % bucket_count];
-    if (bucket.empty()) {
-      ++priority;
-      continue;
-    }
-    const State state = bucket.back();
-    bucket.pop_back();
-    --opened_;
-    Node& reached = node(state);
+  while (const std::optional<State> state = take_least(priority)) {
+    Node& reached = node(*state);
     if (reached.closed) continue;
     reached.closed = true;
-    if (state.cell == goal) {
+    if (state->cell == goal) {
       const std::uint32_t cost = reached.cost;
-      walk_back(start, state, path);
+      walk_back(start, *state, path);
       return cost;
     }
-    expand(space, state, start, goal);
+    expand(space, *state, start, goal);
   }
   return unreachable;
 }

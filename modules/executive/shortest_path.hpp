@@ -6,12 +6,17 @@
 // never decrease, and a step increases them by less than the ring's size. A search leaves no memory allocated: the
 // robots of a day's run would each come to hold that of their greatest search.
 //
+// A robot that plans again and again on what it sees goes to one goal meanwhile: its costs from all cells by the known
+// map alone are computed once, and kept. What is seen only raises them, so they are lower bounds, of which the search
+// visits little more than the path.
+//
 // In tight cells (free_space.hpp) a state of the search is a cell with a heading, that of the step into it, and the
 // robot turns there only as far as its hull sweeps free space; elsewhere it turns freely, and all headings are one
 // state.
 #pragma once
 
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "modules/executive/free_space.hpp"
@@ -39,18 +44,23 @@ class ShortestPath {
     std::uint8_t from;     // the heading of the state before
     bool closed;
   };
-  static constexpr std::size_t bucket_count = 1024;
+  static constexpr std::size_t bucket_count = 1024;  // twice as many with the costs from all cells
   static constexpr std::uint8_t none = 255;
 
-  void open(std::uint32_t priority, State state) { buckets_[priority % bucket_count].push_back(state), ++opened_; }
+  void open(std::uint32_t priority, State state) { buckets_[priority % buckets_.size()].push_back(state), ++opened_; }
+  std::optional<State> take_least(std::uint32_t& priority);
+  std::uint32_t least_cost(CellIndex from, CellIndex goal) const;
+  void find_costs_to(const FreeSpace& space, CellIndex goal);
   std::uint32_t search(const FreeSpace& space, CellIndex start, CellIndex goal, std::vector<CellIndex>& path);
   void expand(const FreeSpace& space, State state, CellIndex start, CellIndex goal);
   void walk_back(CellIndex start, State goal, std::vector<CellIndex>& path);
   Node& node(State state) { return nodes_[state.heading](state.cell.x, state.cell.y); }
 
   std::array<TiledGrid<Node>, 8> nodes_;  // by heading
-  std::array<std::vector<State>, bucket_count> buckets_;
+  std::vector<std::vector<State>> buckets_;
   std::size_t opened_ = 0;
+  TiledGrid<std::uint32_t> costs_to_;  // to costs_goal_, by the known map
+  std::optional<CellIndex> costs_goal_;
 };
 
 }  // namespace waitpoint::executive

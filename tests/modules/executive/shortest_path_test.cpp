@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <memory>
 
 #include "tests/modules/executive/drawn_map.hpp"
 
@@ -83,6 +84,43 @@ TEST(ShortestPath, EqualsBruteForceOnRandomMaps) {
   }
   EXPECT_GT(found, 100);
   EXPECT_GT(none, 10);
+}
+
+// Then the search is guided by the costs on the map without what has been seen.
+TEST(ShortestPath, EqualsBruteForceAmongWhatHasBeenSeen) {
+  PlanningParameters parameters;
+  parameters.robot_radius_m = 0.05;
+  parameters.clearance_m = 0.02;
+  parameters.preferred_clearance_m = 0.3;
+  parameters.explained_m = 0.05;
+  ShortestPath search;
+  std::vector<CellIndex> path;
+  int found = 0;
+  for (const bool is_known : {false, true}) {
+    FreeSpace space(std::make_shared<const KnownSpace>(test::random_map(40, 40, 0.02, 4), is_known), parameters);
+    SeenMap seen(space.map(), 5);
+    const RandomStream random(1, "test", "scan");
+    for (std::uint64_t scan = 0; scan < 20; ++scan) {
+      posters::LaserReading reading;
+      reading.first_angle_rad = -exact::pi;
+      reading.angle_step_rad = exact::pi / 90;
+      reading.range_max_m = 5;
+      for (std::uint64_t i = 0; i < 180; ++i)
+        reading.range_m.push_back(static_cast<float>(0.3 + 1.5 * random.uniform(180 * scan / 4 + i / 6)));
+      seen.add({1, 1, 0}, reading);
+      space.see(seen);
+      for (const CellIndex goal : {CellIndex{3, 3}, CellIndex{36, 30}}) {
+        const CellIndex start = {20, 20};
+        if (!space.passable(start) || !space.passable(goal)) continue;
+        const std::uint32_t cost = search.find(space, start, goal, path);
+        ASSERT_EQ(cost, by_force(space, start, goal)) << scan;
+        if (cost == ShortestPath::unreachable) continue;
+        ++found;
+        ASSERT_EQ(cost_of(space, path), cost);
+      }
+    }
+  }
+  EXPECT_GT(found, 20);
 }
 
 TEST(ShortestPath, SameSearchTwiceGivesTheSameWay) {
