@@ -27,6 +27,7 @@ FreeSpace::FreeSpace(std::shared_ptr<const KnownSpace> known, const PlanningPara
     hull_square_ = square_of(std::max(parameters_.clearance_m, half_diagonal));
   }
   hard_square_ = square_of(hard_m);
+  keep_square_ = square_of(footprint.inner_radius_m() - 0.5 * map().resolution_m());
   preferred_square_ = square_of(preferred_m);
   explained_square_ = square_of(parameters_.explained_m);
   cost_.resize(preferred_square_ + std::size_t{1});

@@ -78,6 +78,9 @@ class FreeSpace {
   std::uint16_t square_of(double distance_m) const;
 
   bool passable(CellIndex c) const { return clearance_square(c) >= hard_square_; }
+  /// True if a route that leads through a cell can be kept: it is passable but for half a cell, by which what is seen
+  /// changes from scan to scan.
+  bool keepable(CellIndex c) const { return clearance_square(c) >= keep_square_; }
   /// True if the robot fits there at some headings only, or at none; never, for a disc.
   bool tight(CellIndex c) const { return !hull_.empty() && clearance_square(c) < roomy_square_; }
   /// True if the hull about a cell's centre, turned by `sixteenths` of a full turn from the
@@ -126,7 +129,7 @@ class FreeSpace {
   PlanningParameters parameters_;
   std::vector<std::vector<CellIndex>> hull_;  // offsets of the hull's points by heading; empty for a disc
   std::uint16_t roomy_square_ = 0, hull_square_ = 0;
-  std::uint16_t hard_square_ = 0, preferred_square_ = 0, explained_square_ = 0;
+  std::uint16_t hard_square_ = 0, keep_square_ = 0, preferred_square_ = 0, explained_square_ = 0;
   TiledGrid<std::uint16_t> marks_;  // squared clearances from marks; empty without marks
   std::vector<std::uint8_t> cost_;  // by squared clearance, up to preferred_square_
   // What the robot has seen: squared clearances in a window about it; null: nothing.

@@ -7,6 +7,8 @@
 namespace waitpoint::executive {
 namespace {
 
+constexpr double better_by_max = 0.9;
+
 /// True if no obstacle that goes away can change it.
 bool is_final(PlanOutcome outcome) {
   return outcome == PlanOutcome::goal_outside || outcome == PlanOutcome::goal_occupied ||
@@ -60,7 +62,10 @@ const Order* Mission::replanned(Point robot) {
   planner_.plan(robot, goals_[current_].goal, other_);
   if (other_.outcome != PlanOutcome::found) return nullptr;
   const std::uint32_t rest = planner_.remaining_cost(path_, robot);
-  if (rest != ShortestPath::unreachable && other_.cost > (1 - parameters_.better_by) * rest) return nullptr;
+  const bool is_given_up = rest == ShortestPath::unreachable;
+  if (!is_given_up && other_.cost > (1 - better_by_) * rest) return nullptr;
+  if (!is_given_up && is_substitute_) better_by_ = std::max(better_by_, std::min(better_by_max, 2 * better_by_));
+  is_substitute_ = is_given_up;
   std::swap(plan_, other_);
   path_ = planner_.path();
   order_.via_points = plan_.via_points;
@@ -86,7 +91,8 @@ const Order& Mission::make_for_goal(Time now, Point robot) {
 }
 
 const Order& Mission::drive() {
-  ++goals_[current_].tries;
+  if (goals_[current_].tries++ == 0) better_by_ = parameters_.better_by;
+  is_substitute_ = false;
   path_ = planner_.path();
   order_.kind = Order::Kind::drive;
   order_.via_points = plan_.via_points;

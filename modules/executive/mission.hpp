@@ -80,7 +80,9 @@ class Mission {
   const Order& blocked(Time now, Point robot, std::span<const Point> echoes);
 
   /// In motion, on a map that changes: the order of a better route to the present goal, or null to keep the present
-  /// one. A route with a cell that is no longer passable is given up for any other.
+  /// one. A route with a cell that can no longer be kept is given up for any other. What another one must be better by
+  /// doubles when it takes the place of such a substitute: a narrow gap may seem open in one scan and closed in the
+  /// next.
   const Order* replanned(Point robot);
 
   const std::vector<GoalRecord>& goals() const { return goals_; }
@@ -103,6 +105,8 @@ class Mission {
   std::uint64_t draws_ = 0;
   Plan plan_, other_;
   std::vector<CellIndex> path_;  // of plan_
+  double better_by_ = 0;         // as of now, for the present goal
+  bool is_substitute_ = false;   // the present route, of one that was given up
   Order order_;
 };
 

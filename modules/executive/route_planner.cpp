@@ -78,7 +78,7 @@ std::uint32_t RoutePlanner::remaining_cost(std::span<const CellIndex> path, Poin
     if (from_robot(path[i]) < from_robot(path[nearest])) nearest = i;
   std::uint32_t cost = 0;
   for (std::size_t i = nearest + 1; i < path.size(); ++i) {
-    if (!space_.passable(path[i])) return ShortestPath::unreachable;
+    if (!space_.keepable(path[i])) return ShortestPath::unreachable;
     const bool is_diagonal = path[i].x != path[i - 1].x && path[i].y != path[i - 1].y;
     cost += space_.cell_cost(path[i]) * (is_diagonal ? ShortestPath::diagonal_step : ShortestPath::straight_step);
   }

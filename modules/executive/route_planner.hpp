@@ -40,7 +40,7 @@ class RoutePlanner {
   void plan(Point start, Point goal, Plan& plan);
 
   /// The cost of what remains of a path of cells, from that nearest to `robot` on, as of now; unreachable if a cell of
-  /// it is no longer passable.
+  /// it can no longer be kept.
   std::uint32_t remaining_cost(std::span<const CellIndex> path, Point robot) const;
 
   /// The state of a goal by the known map and its marks: `found` if it is valid, or one of the goal_ outcomes.

@@ -11,8 +11,7 @@ constexpr double step_s = 0.1, turning_s = 0.5;
 constexpr double margin_m = 0.05, margin_m_per_s = 0.05;  // of the discs' positions, the later the more
 constexpr double far_m = 0.5;
 constexpr double of_disc_m = 0.15;  // points this near to a disc in motion are its echoes
-constexpr double backwards_share = 0.5;
-constexpr int speeds_each_way = 4, turns_each_way = 3;
+constexpr int speeds_ahead = 4, speeds_back = 2, turns_each_way = 3;
 // Of a contact at once, of closeness, and of deviation from the wanted and from the last speeds.
 constexpr double contact_weight = 100, closeness_weight = 4, wanted_weight = 1, last_weight = 0.2;
 
@@ -26,9 +25,9 @@ Speeds Foresight::choose(const Speeds& wanted, const Speeds& measured, std::span
   if (!moving.empty()) {
     take_standing(moving, points);
     double least = cost(wanted, wanted, measured, moving);
-    for (int i = -speeds_each_way / 2; i <= speeds_each_way; ++i) {
+    for (int i = -speeds_back; i <= speeds_ahead; ++i) {
       for (int k = -turns_each_way; k <= turns_each_way; ++k) {
-        const Speeds speeds = {parameters_.v_m_s_max * i / speeds_each_way,
+        const Speeds speeds = {parameters_.v_m_s_max * i / speeds_ahead,
                                parameters_.w_rad_s_max * k / turns_each_way};
         const double other = cost(speeds, wanted, measured, moving);
         if (other >= least) continue;

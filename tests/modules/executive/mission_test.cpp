@@ -106,6 +106,20 @@ TEST_F(MissionTest, InMotionAnotherRouteIsTakenOnlyIfItIsBetterByAPart) {
   EXPECT_EQ(mission.goals()[0].tries, 1u);
 }
 
+TEST_F(MissionTest, InMotionADoorThatSeemsOpenAndClosedByTurnsIsLeftAtLast) {
+  Mission mission(planner, parameters, {{5, 2.3}}, random);
+  mission.start(seconds(0), {1, 2.3});
+  int changes = 0;
+  for (int turn = 0; turn < 20; ++turn) {
+    planner.space().mark(in_the_upper_door);
+    changes += mission.replanned({2, 2.3}) != nullptr ? 1 : 0;
+    planner.space().forget();
+    changes += mission.replanned({2, 2.3}) != nullptr ? 1 : 0;
+  }
+  EXPECT_GE(changes, 2);
+  EXPECT_LE(changes, 11);
+}
+
 // An obstacle on the way to one goal is most likely still there on the way to the next.
 TEST_F(MissionTest, MarksOutliveTheGoal) {
   Mission mission(planner, parameters, {{5, 2.3}, {1, 2.3}}, random);

@@ -15,7 +15,9 @@ namespace {
 std::uint32_t by_force(const FreeSpace& space, CellIndex start, CellIndex goal) {
   const std::int32_t width = space.map().width(), height = space.map().height();
   std::vector<std::uint32_t> cost(static_cast<std::size_t>(width * height), ShortestPath::unreachable);
-  const auto at = [&](CellIndex c) -> std::uint32_t& { return cost[static_cast<std::size_t>(c.y * width + c.x)]; };
+  const auto at = [&](CellIndex c) -> std::uint32_t& {
+    return cost[static_cast<std::size_t>(c.y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(c.x)];
+  };
   at(start) = 0;
   for (bool changed = true; changed;) {
     changed = false;
