@@ -27,8 +27,7 @@ Speeds Foresight::choose(const Speeds& wanted, const Speeds& measured, std::span
     double least = cost(wanted, wanted, measured, moving);
     for (int i = -speeds_back; i <= speeds_ahead; ++i) {
       for (int k = -turns_each_way; k <= turns_each_way; ++k) {
-        const Speeds speeds = {parameters_.v_m_s_max * i / speeds_ahead,
-                               parameters_.w_rad_s_max * k / turns_each_way};
+        const Speeds speeds = {parameters_.v_m_s_max * i / speeds_ahead, parameters_.w_rad_s_max * k / turns_each_way};
         const double other = cost(speeds, wanted, measured, moving);
         if (other >= least) continue;
         least = other;
