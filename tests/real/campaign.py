@@ -22,8 +22,9 @@ def parts(build, data, brief):
         yield "Logs of real robots", ["logs.py", build, "--data", data]
         yield "The BARN worlds", ["barn.py", "--waitpoint", waitpoint, "--seeds", "3" if brief else "20", "--brief"]
     yield "Generated fields of cylinders", ["barn.py", "--waitpoint", waitpoint, "--no-barn", "--generated",
-                                            "10" if brief else "30", "--seeds", "1", "--shapes", "rectangle", "--brief"]
-    yield "Moving cylinders", ["moving_cylinders.py", "--waitpoint", waitpoint, "--seeds", "3" if brief else "10"]
+                                            "10" if brief else "30", "--seeds", "1", "--brief"]
+    for title, varied in ("Moving cylinders", []), ("Moving cylinders, varied", ["--varied"]):
+        yield title, ["moving_cylinders.py", "--waitpoint", waitpoint, "--seeds", "3" if brief else "20", *varied]
 
 
 def main():

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Fields of cylinders by a cellular automaton, after Perille, Truong, Xiao, Stone, "Benchmarking metric ground
 navigation", SSRR 2020: cells are filled at random; in each smoothing step a cell with many filled neighbours is filled
-and one with few is emptied. A field is kept if a robot fits through. The same numbers give the same fields anywhere:
-the generator's random numbers are its own.
+and one with few is emptied. A field is kept if a disc of a given radius fits through. The same numbers give the same
+fields anywhere: the generator's random numbers are its own.
 """
 import heapq
 import math
@@ -11,7 +11,6 @@ import re
 CELL_M, RADIUS_M = 0.15, 0.075
 COLUMNS, ROWS = 30, 66           # 4.5 m across, as far as the start of the goal's side
 FILLS, SMOOTHINGS = (0.15, 0.20, 0.25, 0.30), (2, 3, 4)
-FITS_M = 0.28                    # of the cylinder-free disc that must fit through
 
 
 class Random:
@@ -67,13 +66,13 @@ def write_field(file, centres):
         out.write("</world>\n</sdf>\n")
 
 
-def write_fields(folder, count, start, goal):
+def write_fields(folder, count, start, goal, fits_m):
     files, seed = [], 0
     while len(files) < count:
         seed += 1
         fill, smoothing = FILLS[seed % len(FILLS)], SMOOTHINGS[seed // len(FILLS) % len(SMOOTHINGS)]
         centres = cylinders_of(seed, fill, smoothing)
-        if math.isinf(shortest_path_m(centres, start, goal, FITS_M)):
+        if math.isinf(shortest_path_m(centres, start, goal, fits_m)):
             continue
         files.append(folder / f"field_{seed}.world")
         write_field(files[-1], centres)

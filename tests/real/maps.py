@@ -16,8 +16,11 @@ import subprocess
 import sys
 import tempfile
 
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+import stage_maps
+
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-MAPS = ("depot", "tb3_sandbox", "warehouse", "willow-full-0.05")
+MAPS = ("depot", "tb3_sandbox", "warehouse", "willow-full-0.05", *stage_maps.PLANS)
 CLEARANCE_M = 0.26 + 0.05
 GOALS = 6
 ERROR_M = 0.1
@@ -108,6 +111,36 @@ def drive(build, file, region, world, seed, options):
         return json.loads(summary.read_text())
 
 
+def map_file(data, name, folder):
+    if name in stage_maps.PLANS:
+        return stage_maps.write_map(name, data, folder)
+    return (data / "maps" / f"{name}.yaml").resolve()
+
+
+def rounds(arguments, name, file, seeds, options):
+    """Prints a row for each seed; the numbers of rounds that passed and failed."""
+    if file.suffix != ".yaml" or not file.exists():
+        print(f"{name:18} skipped: no file {file}")
+        return 0, 0
+    world = Map(file)
+    region = world.open_region()
+    passed = failed = 0
+    for seed in seeds:
+        result = drive(arguments.build, file, region, world, seed, options)
+        if "failure" in result:
+            failed += 1
+            print(f"{name:18} {seed:4} {result['failure'][0]}", flush=True)
+            continue
+        good = (result["goals_reached"] == GOALS and result["collisions"] == 0
+                and result["position_error_max_m"] <= ERROR_M)
+        passed, failed = passed + good, failed + (not good)
+        print(f"{name:18} {seed:4} {result['goals_reached']:3} of {GOALS:1} {result['collisions']:9} "
+              f"{result['position_error_mean_m']:8.3f} {result['position_error_max_m']:7.3f} "
+              f"{result['simulated_s']:9.0f} {result['wall_s']:7.1f}"
+              f"{'' if good else '  FAILED'}", flush=True)
+    return passed, failed
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("build", type=lambda text: pathlib.Path(text).resolve())
@@ -121,26 +154,10 @@ def main():
                for module in ("segloc", "locate")]
     passed = failed = 0
     print(f"{'map':18} {'seed':>4} {'goals':>6} {'collisions':>10} {'error m':>16} {'virtual s':>9} {'wall s':>7}")
-    for name in arguments.map or MAPS:
-        file = (arguments.data / "maps" / f"{name}.yaml").resolve()
-        if not file.exists():
-            print(f"{name:18} skipped: no file {file}")
-            continue
-        world = Map(file)
-        region = world.open_region()
-        for seed in range(first, last + 1):
-            result = drive(arguments.build, file, region, world, seed, options)
-            if "failure" in result:
-                failed += 1
-                print(f"{name:18} {seed:4} {result['failure'][0]}", flush=True)
-                continue
-            good = (result["goals_reached"] == GOALS and result["collisions"] == 0
-                    and result["position_error_max_m"] <= ERROR_M)
-            passed, failed = passed + good, failed + (not good)
-            print(f"{name:18} {seed:4} {result['goals_reached']:3} of {GOALS:1} {result['collisions']:9} "
-                  f"{result['position_error_mean_m']:8.3f} {result['position_error_max_m']:7.3f} "
-                  f"{result['simulated_s']:9.0f} {result['wall_s']:7.1f}"
-                  f"{'' if good else '  FAILED'}", flush=True)
+    with tempfile.TemporaryDirectory() as folder:
+        for name in arguments.map or MAPS:
+            found = rounds(arguments, name, map_file(arguments.data, name, pathlib.Path(folder)), range(first, last + 1), options)
+            passed, failed = passed + found[0], failed + found[1]
     print(f"{passed} passed, {failed} failed")
     return failed > 0
 
