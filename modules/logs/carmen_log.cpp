@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "core/error.hpp"
@@ -11,6 +12,7 @@
 #include "core/nearest_name.hpp"
 #include "core/number_text.hpp"
 #include "core/printable_line.hpp"
+#include "modules/logs/limits.hpp"
 #include "modules/logs/stamp.hpp"
 
 namespace waitpoint::logs {
@@ -42,23 +44,27 @@ class Words {
     rest_.remove_prefix(length);
     return word;
   }
-  double number(const char* what) {
+  /// One that is not computed with.
+  double number(const char* what) { return number(what, std::numeric_limits<double>::infinity()); }
+  double number(const char* what, double magnitude_max) {
     const std::string_view text = word();
     double number = 0;
     if (!parse_number(text, number)) reject(what, text);
+    if (!(std::fabs(number) <= magnitude_max)) reject(limited_text(what, magnitude_max), text);
     return number;
   }
   Pose pose(const char* what) {
     Pose pose;
-    pose.x = number(what);
-    pose.y = number(what);
-    pose.heading = exact::wrap_angle(number(what));
+    pose.x = number(what, position_max_m);
+    pose.y = number(what, position_max_m);
+    pose.heading = exact::wrap_angle(number(what, heading_max_rad));
     return pose;
   }
   std::size_t count(const char* what) {
     const std::string_view text = word();
     std::size_t count = 0;
-    if (!parse_number(text, count) || count > beams_max) reject(what, text);
+    if (!parse_number(text, count) || count > beams_max)
+      reject(std::string(what) + " up to " + std::to_string(beams_max), text);
     return count;
   }
   Time stamp() {
@@ -67,7 +73,10 @@ class Words {
     if (!stamp) reject("a time in seconds", text);
     return *stamp;
   }
-  int line() const { return line_; }
+  void check_span(const LoggedScan& scan) const {
+    const std::string error = span_error(scan.range_m.size(), scan.angle_step_rad);
+    if (!error.empty()) throw BadInput(file_, line_, error);
+  }
   [[noreturn]] void reject(const std::string& expected, std::string_view found) const {
     const std::string shown = found.empty() ? "the end of the line" : "'" + printable_line(std::string(found)) + "'";
     throw BadInput(file_, line_, "expected " + expected + ", found " + shown);
@@ -91,9 +100,9 @@ class Parser {
   Parser(const std::string& name, const LogChoice& choice) : name_(name), choice_(choice) {
     log_.format = "CARMEN";
     if (!choice.scan.empty() && !is_scan(choice.scan))
-      throw BadInput("--scan", "expected a type of CARMEN's records with scans, found '" + choice.scan + "'" +
-                                   did_you_mean(choice.scan, scan_types));
-    if (!choice.odometry.empty()) throw BadInput("--odometry", "a log of CARMEN has no topics: expected none");
+      throw BadInput(choice.scan_place, "expected a type of CARMEN's records with scans, found '" + choice.scan + "'" +
+                                            did_you_mean(choice.scan, scan_types));
+    if (!choice.odometry.empty()) throw BadInput(choice.odometry_place, "a log of CARMEN has no topics: expected none");
   }
 
   SensorLog parse(std::string_view text) {
@@ -144,10 +153,11 @@ void Parser::take(Words& words) {
 void Parser::take_parameter(Words& words) {
   const std::string_view key = words.word();
   constexpr double degree = exact::pi / 180;
-  if (key == "robot_frontlaser_offset") declared_mount_.x = words.number("metres");
-  if (key == "robot_frontlaser_side_offset") declared_mount_.y = words.number("metres");
-  if (key == "robot_frontlaser_angular_offset") declared_mount_.heading = words.number("degrees") * degree;
-  if (key == "robot_front_laser_max") declared_range_max_m_ = words.number("metres");
+  if (key == "robot_frontlaser_offset") declared_mount_.x = words.number("metres", position_max_m);
+  if (key == "robot_frontlaser_side_offset") declared_mount_.y = words.number("metres", position_max_m);
+  if (key == "robot_frontlaser_angular_offset")
+    declared_mount_.heading = exact::wrap_angle(words.number("degrees", 1440) * degree);
+  if (key == "robot_front_laser_max") declared_range_max_m_ = words.number("metres", range_max_m);
 }
 
 void Parser::take_odometry(Words& words) {
@@ -171,7 +181,8 @@ void Parser::take_odometry(Words& words) {
 
 void Parser::read_ranges(LoggedScan& scan, std::size_t beams, Words& words) const {
   scan.range_m.reserve(beams);
-  for (std::size_t i = 0; i < beams; ++i) scan.range_m.push_back(static_cast<float>(words.number("a range in metres")));
+  for (std::size_t i = 0; i < beams; ++i)
+    scan.range_m.push_back(static_cast<float>(words.number("a range in metres", range_max_m)));
 }
 
 void Parser::take_scan(std::string_view type, Words& words) {
@@ -187,13 +198,14 @@ void Parser::take_scan(std::string_view type, Words& words) {
 void Parser::take_described_scan(Record& record, bool has_poses, Words& words) {
   LoggedScan& scan = record.scan;
   words.number("the laser's type");
-  scan.first_angle_rad = words.number("the start angle");
+  scan.first_angle_rad = words.number("the start angle", beam_angle_max_rad);
   words.number("the field of view");
-  scan.angle_step_rad = words.number("the angular resolution");
-  scan.range_max_m = words.number("the maximum range");
+  scan.angle_step_rad = words.number("the angular resolution", beam_angle_max_rad);
+  scan.range_max_m = words.number("the maximum range", range_max_m);
   words.number("the accuracy");
   words.number("the remission mode");
   read_ranges(scan, words.count("the number of ranges"), words);
+  words.check_span(scan);
   const std::size_t remissions = words.count("the number of remissions");
   for (std::size_t i = 0; i < remissions; ++i) words.number("a remission");
   if (has_poses) {
@@ -239,8 +251,8 @@ void Parser::choose_scans() {
     }
     if (!is_of_robot(record.host)) continue;
     if (!log_.scans.empty() && record.host != host)
-      throw BadInput("--robot", "expected a name, since the log has scans of several robots: '" + std::string(host) +
-                                    "', '" + std::string(record.host) + "'");
+      throw BadInput(choice_.robot_place, "expected a name, since the log has scans of several robots: '" +
+                                              std::string(host) + "', '" + std::string(record.host) + "'");
     host = record.host;
     if (record.laser) mounts_.push_back(between(*record.scan.odometry, *record.laser));
     if (!chosen.starts_with("R") && declared_range_max_m_) record.scan.range_max_m = *declared_range_max_m_;

@@ -22,8 +22,8 @@
 
 namespace waitpoint::logs {
 
-/// BadInput, with the line, for a record that is cut off or has something else in the place of a number; for a log
-/// without scans; for scans of several hosts unless `choice` names one.
+/// BadInput, with the line, for a record that is cut off or has something else in the place of a number, or one
+/// beyond its limit (limits.hpp); for a log without scans; for scans of several hosts unless `choice` names one.
 SensorLog parse_carmen_log(const std::string& name, std::string_view text, const LogChoice& choice);
 
 }  // namespace waitpoint::logs

@@ -25,7 +25,7 @@ struct ScanMessage {
   Time stamp;
   std::string frame;
   double first_angle_rad = 0, angle_step_rad = 0;
-  double range_min_m = 0, range_max_m = 0;  ///< range_max_m 0: unknown
+  double range_min_m = 0, range_max_m = 0;  ///< range_max_m 0: unknown, or none
   std::vector<float> range_m;
 };
 
@@ -41,10 +41,11 @@ struct FrameMessage {
   SpaceFrame frame;
 };
 
-/// BadInput, naming the file `name`, for messages that are cut off or malformed.
-ScanMessage parse_scan(const std::string& name, Encoding encoding, std::string_view message);
-OdometryMessage parse_odometry(const std::string& name, Encoding encoding, std::string_view message);
-std::vector<FrameMessage> parse_frames(const std::string& name, Encoding encoding, std::string_view message);
+/// BadInput, naming the message's `place`, for one that is cut off, malformed or has numbers beyond limits.hpp. Ranges
+/// beyond their limit, as those that are no numbers, are infinite: no echoes.
+ScanMessage parse_scan(const std::string& place, Encoding encoding, std::string_view message);
+OdometryMessage parse_odometry(const std::string& place, Encoding encoding, std::string_view message);
+std::vector<FrameMessage> parse_frames(const std::string& place, Encoding encoding, std::string_view message);
 
 /// The heading of a rotation: that of the x axis in the plane.
 double heading_of(double qx, double qy, double qz, double qw);

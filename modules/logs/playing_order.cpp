@@ -2,6 +2,7 @@
 #include "modules/logs/playing_order.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/error.hpp"
 
@@ -11,6 +12,8 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr Duration set_back_least = 1s, apart_most = 24h, least_step = 1us;
+// A day at 100 m/s: the base's counters hold it, in their units.
+constexpr double way_max_m = 1e7;
 
 struct Entry {
   Time stamp;  // then the date
@@ -86,6 +89,15 @@ class OdometryAt {
   std::size_t next_ = 0;
 };
 
+void check_way(const std::vector<Played>& records, const std::string& file) {
+  double way_m = 0;
+  for (std::size_t i = 1; i < records.size(); ++i)
+    way_m += length(records[i].odometry.position() - records[i - 1].odometry.position());
+  if (way_m > way_max_m)
+    throw BadInput(file, "expected odometry of at most 10000 km in all, found " +
+                             std::to_string(std::llround(way_m / 1000)) + " km");
+}
+
 }  // namespace
 
 PlayingOrder playing_order(const SensorLog& log) {
@@ -111,6 +123,7 @@ PlayingOrder playing_order(const SensorLog& log) {
     }
     order.records.push_back(played);
   }
+  check_way(order.records, log.file);
   return order;
 }
 

@@ -32,7 +32,7 @@ struct PlayingOrder {
   std::uint64_t clock_set = 0;  ///< times that the clock was set
 };
 
-/// BadInput if the log is longer than a day.
+/// BadInput if the log is longer than a day, or its odometry than 10 000 km.
 PlayingOrder playing_order(const SensorLog& log);
 
 }  // namespace waitpoint::logs

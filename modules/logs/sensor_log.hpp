@@ -45,6 +45,9 @@ struct LogChoice {
   std::string scan = {};      ///< record type or topic
   std::string odometry = {};  ///< topic
   std::string robot = {};     ///< CARMEN: the host of the records
+
+  /// Where each is said, or would be, for messages: an option, or a key of a scenario.
+  std::string scan_place = "--scan", odometry_place = "--odometry", robot_place = "--robot";
 };
 
 }  // namespace waitpoint::logs

@@ -32,14 +32,17 @@ bool is_frames(const std::string& type) {
 std::string without_slash(const std::string& frame) { return frame.starts_with('/') ? frame.substr(1) : frame; }
 
 Eigen::Isometry3d transform_of(const SpaceFrame& frame) {
-  Eigen::Quaterniond turn(frame.qw, frame.qx, frame.qy, frame.qz);
-  if (!(turn.norm() > 0)) turn = Eigen::Quaterniond::Identity();
-  return Eigen::Translation3d(frame.x, frame.y, frame.z) * turn.normalized();
+  const double length =
+      std::sqrt(exact::square(frame.qw) + exact::square(frame.qx) + exact::square(frame.qy) + exact::square(frame.qz));
+  const Eigen::Quaterniond turn =
+      length > 0 ? Eigen::Quaterniond(frame.qw / length, frame.qx / length, frame.qy / length, frame.qz / length)
+                 : Eigen::Quaterniond::Identity();
+  return Eigen::Translation3d(frame.x, frame.y, frame.z) * turn;
 }
 
 /// The topic that was chosen among those of a map, or else the only one.
 template <class Values>
-typename Values::iterator chosen(Values& topics, const std::string& choice, const char* option) {
+typename Values::iterator chosen(Values& topics, const std::string& choice, const std::string& place) {
   std::vector<std::string_view> names;
   std::string list;
   for (const auto& [topic, values] : topics) {
@@ -47,11 +50,11 @@ typename Values::iterator chosen(Values& topics, const std::string& choice, cons
     list += (list.empty() ? "'" : ", '") + printable_line(topic) + "'";
   }
   if (choice.empty() && topics.size() == 1) return topics.begin();
-  if (choice.empty()) throw BadInput(option, "expected one of the log's topics: " + list);
+  if (choice.empty()) throw BadInput(place, "expected one of the log's topics: " + list);
   const auto found = topics.find(choice);
   if (found == topics.end())
     throw BadInput(
-        option, "expected one of the log's topics: " + list + "; found '" + choice + "'" + did_you_mean(choice, names));
+        place, "expected one of the log's topics: " + list + "; found '" + choice + "'" + did_you_mean(choice, names));
   return found;
 }
 
@@ -71,14 +74,21 @@ void turn_over(LoggedScan& scan) {
 }  // namespace
 
 void TopicLog::add(const std::string& topic, const std::string& type, Encoding encoding, std::string_view message) {
-  if (is_scan(type)) return add_scan(topic, encoding, message);
-  if (is_odometry(topic, type)) return add_odometry(topic, encoding, message);
-  if (is_frames(type)) return add_frames(encoding, message);
-  ++others_[printable_line(topic)];
+  const bool is_of_scans = is_scan(type), is_of_odometry = is_odometry(topic, type), is_of_frames = is_frames(type);
+  if (!is_of_scans && !is_of_odometry && !is_of_frames) {
+    ++others_[printable_line(topic)];
+    return;
+  }
+  const std::string place =
+      name_ + ": message " + std::to_string(++messages_[topic]) + " of '" + printable_line(topic) + "'";
+  if (is_of_scans) add_scan(place, topic, encoding, message);
+  if (is_of_odometry) add_odometry(place, topic, encoding, message);
+  if (is_of_frames) add_frames(place, encoding, message);
 }
 
-void TopicLog::add_scan(const std::string& topic, Encoding encoding, std::string_view message) {
-  ScanMessage read = parse_scan(name_, encoding, message);
+void TopicLog::add_scan(const std::string& place, const std::string& topic, Encoding encoding,
+                        std::string_view message) {
+  ScanMessage read = parse_scan(place, encoding, message);
   if (read.range_m.empty()) return;
   Scans& of = scans_[topic];
   of.frame = without_slash(read.frame);
@@ -88,15 +98,16 @@ void TopicLog::add_scan(const std::string& topic, Encoding encoding, std::string
                       std::move(read.range_m), std::nullopt});
 }
 
-void TopicLog::add_odometry(const std::string& topic, Encoding encoding, std::string_view message) {
-  const OdometryMessage read = parse_odometry(name_, encoding, message);
+void TopicLog::add_odometry(const std::string& place, const std::string& topic, Encoding encoding,
+                            std::string_view message) {
+  const OdometryMessage read = parse_odometry(place, encoding, message);
   Odometry& of = odometry_[topic];
   of.child = without_slash(read.child);
   of.reports.push_back({read.stamp, places_++, read.pose});
 }
 
-void TopicLog::add_frames(Encoding encoding, std::string_view message) {
-  for (FrameMessage& read : parse_frames(name_, encoding, message)) {
+void TopicLog::add_frames(const std::string& place, Encoding encoding, std::string_view message) {
+  for (FrameMessage& read : parse_frames(place, encoding, message)) {
     read.frame.parent = without_slash(read.frame.parent);
     add_frame(read.stamp, without_slash(read.child), read.frame);
   }
@@ -132,12 +143,12 @@ void TopicLog::find_mount(const Scans& scans, const std::string& base, SensorLog
 }
 
 SensorLog TopicLog::finish(const std::string& format, const LogChoice& choice) {
-  if (!choice.robot.empty()) throw BadInput("--robot", "only a log of CARMEN has robots: expected --scan TOPIC");
+  if (!choice.robot.empty()) throw BadInput(choice.robot_place, "only a log of CARMEN has robots: expected none");
   if (scans_.empty()) throw BadInput(name_, "expected a recording with scans (LaserScan), found none");
   auto& odometries = odometry_.empty() ? odometry_of_frames_ : odometry_;
   if (odometries.empty()) throw BadInput(name_, "expected odometry (nav_msgs Odometry, or frames of odom), found none");
-  const auto scans = chosen(scans_, choice.scan, "--scan");
-  const auto odometry = chosen(odometries, choice.odometry, "--odometry");
+  const auto scans = chosen(scans_, choice.scan, choice.scan_place);
+  const auto odometry = chosen(odometries, choice.odometry, choice.odometry_place);
   SensorLog log;
   log.format = format;
   log.laser = printable_line(scans->first);

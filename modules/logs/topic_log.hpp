@@ -26,7 +26,8 @@ class TopicLog {
   /// `name` is the file's; it must outlive this.
   explicit TopicLog(const std::string& name) : name_(name) {}
 
-  /// BadInput if the message is cut off. Messages of other types are counted.
+  /// BadInput, naming topic and number of the message, if it is cut off or damaged. Messages of other types are
+  /// counted.
   void add(const std::string& topic, const std::string& type, Encoding encoding, std::string_view message);
   /// BadInput if there are no scans or no odometry, or several topics and `choice` does not name one of them.
   SensorLog finish(const std::string& format, const LogChoice& choice);
@@ -41,9 +42,9 @@ class TopicLog {
     std::vector<LoggedOdometry> reports;
   };
 
-  void add_scan(const std::string& topic, Encoding encoding, std::string_view message);
-  void add_odometry(const std::string& topic, Encoding encoding, std::string_view message);
-  void add_frames(Encoding encoding, std::string_view message);
+  void add_scan(const std::string& place, const std::string& topic, Encoding encoding, std::string_view message);
+  void add_odometry(const std::string& place, const std::string& topic, Encoding encoding, std::string_view message);
+  void add_frames(const std::string& place, Encoding encoding, std::string_view message);
   void add_frame(Time stamp, const std::string& child, const SpaceFrame& frame);
   void find_mount(const Scans& scans, const std::string& base, SensorLog& log) const;
 
@@ -52,6 +53,7 @@ class TopicLog {
   std::map<std::string, Odometry> odometry_, odometry_of_frames_;
   std::map<std::string, SpaceFrame> frames_;  // by child: the first
   std::map<std::string, std::uint64_t> others_;
+  std::map<std::string, std::uint64_t> messages_;  // by topic: their number so far
   std::uint64_t places_ = 0;
 };
 

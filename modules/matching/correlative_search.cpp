@@ -5,6 +5,8 @@
 #include <cmath>
 #include <queue>
 
+#include "modules/matching/cell_of.hpp"
+
 namespace waitpoint::matching {
 
 ScorePyramid::ScorePyramid(const SurfaceMap& map, unsigned levels)
@@ -39,7 +41,7 @@ ScorePyramid::ScorePyramid(const SurfaceMap& map, unsigned levels)
   }
 }
 
-int ScorePyramid::column(double coordinate_m) const { return static_cast<int>(std::floor(coordinate_m / cell_m_)); }
+int ScorePyramid::column(double coordinate_m) const { return cell_of(coordinate_m / cell_m_); }
 
 namespace {
 

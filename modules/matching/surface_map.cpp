@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "modules/matching/cell_of.hpp"
+
 namespace waitpoint::matching {
 
 SurfaceMap::SurfaceMap(double cell_m, double reach_m, double deviation_m)
@@ -18,7 +20,7 @@ SurfaceMap::SurfaceMap(double cell_m, double reach_m, double deviation_m)
   }
 }
 
-int SurfaceMap::column(double coordinate_m) const { return static_cast<int>(std::floor(coordinate_m * per_cell_)); }
+int SurfaceMap::column(double coordinate_m) const { return cell_of(coordinate_m * per_cell_); }
 
 void SurfaceMap::add(const Pose& frame, std::span<const SurfacePoint> points) {
   if (points.empty()) return;

@@ -71,6 +71,7 @@ double PoseGraph::cost() const {
 void PoseGraph::optimise(unsigned steps_max) {
   if (size() < 2 || measurements_.empty()) return;
   const auto variables = static_cast<Eigen::Index>(3 * (size() - 1));
+  // Its order of elimination is by approximate minimum degree, of integers alone: the same for the same graph.
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver;
   Eigen::SparseMatrix<double> matrix(variables, variables);
   std::vector<Eigen::Triplet<double>> elements;

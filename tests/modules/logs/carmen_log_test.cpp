@@ -97,11 +97,32 @@ TEST(CarmenLog, OfSeveralRobotsOneMustBeNamed) {
 TEST(CarmenLog, ADamagedLineIsNamed) {
   EXPECT_EQ(message("# log\nFLASER 3 1 2\n"), "a.log:2: expected a range in metres, found the end of the line");
   EXPECT_EQ(message("FLASER 1 2 0 0 x 0 0 0 1 h 1\n"), "a.log:1: expected a number of the laser's pose, found 'x'");
-  EXPECT_EQ(message("FLASER 999999999 1\n"), "a.log:1: expected the number of ranges, found '999999999'");
+  EXPECT_EQ(message("FLASER 999999999 1\n"), "a.log:1: expected the number of ranges up to 100000, found '999999999'");
   EXPECT_EQ(message("FLASER 1 2 0 0 0 0 0 0 never h 1\n"), "a.log:1: expected a time in seconds, found 'never'");
   EXPECT_EQ(message("hello\n"),
             "a.log: expected a log of CARMEN with scans (FLASER, ROBOTLASER1, LASER_READING), found none");
   EXPECT_EQ(message("RAWLASER1 0 0 3 0.1 8 0 0 1 2 0 5 h 5\n"), "a.log: expected odometry (ODOM), found none");
+}
+
+TEST(CarmenLog, ANumberBeyondItsLimitIsNamed) {
+  const auto described = [](const std::string& laser, const std::string& poses) {
+    return message("ROBOTLASER1 0 " + laser + " 0.01 0 3 4 5 6 0 " + poses + " 0 0 0 0 0 3 h 3\n");
+  };
+  EXPECT_EQ(described("-1.2 2.4 0.04 30", "0 0 0 0 0 0"), "");
+  EXPECT_EQ(described("1e300 2.4 0.04 30", "0 0 0 0 0 0"),
+            "a.log:1: expected the start angle within +-25, found '1e300'");
+  EXPECT_EQ(described("-1.2 2.4 4 30", "0 0 0 0 0 0"),
+            "a.log:1: expected the beams of a scan over at most a turn, found 3 beams, one every 4 rad");
+  EXPECT_EQ(described("-1.2 2.4 0.04 1e7", "0 0 0 0 0 0"),
+            "a.log:1: expected the maximum range within +-1000000, found '1e7'");
+  EXPECT_EQ(described("-1.2 2.4 0.04 30", "0 0 0 1e11 0 0"),
+            "a.log:1: expected a number of the robot's pose within +-1000000, found '1e11'");
+  EXPECT_EQ(described("-1.2 2.4 0.04 30", "0 0 0 0 0 1e300"),
+            "a.log:1: expected a number of the robot's pose within +-10000, found '1e300'");
+  EXPECT_EQ(message("FLASER 1 1e39 0 0 0 0 0 0 1 h 1\n"),
+            "a.log:1: expected a range in metres within +-1000000, found '1e39'");
+  EXPECT_EQ(message("PARAM robot_frontlaser_angular_offset 1e9\n"),
+            "a.log:1: expected degrees within +-1440, found '1e9'");
 }
 
 TEST(LogFile, ACompressedLogIsToldByItsContents) {

@@ -74,5 +74,11 @@ TEST(PlayingOrder, ALogOfMoreThanADayIsRefused) {
   EXPECT_THROW(Log().scan(0, Pose()).scan(5e4, Pose()).scan(1e5, Pose()).order(), BadInput);
 }
 
+TEST(PlayingOrder, ALogOfMoreThanTenThousandKilometresIsRefused) {
+  Log log;
+  for (int i = 0; i < 12; ++i) log.scan(i, Pose{i % 2 == 0 ? 0.0 : 1e6, 0, 0});
+  EXPECT_THROW(log.order(), BadInput);
+}
+
 }  // namespace
 }  // namespace waitpoint::logs
