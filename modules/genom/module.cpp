@@ -67,6 +67,8 @@ void Module::connect() {
     } else if (!link.poster->connect(*poster)) {
       throw BadInput(where,
                      "reads poster '" + poster->name() + "' as another type than '" + poster->writer() + "' writes");
+    } else {
+      poster->add_reader();
     }
   }
 }

@@ -55,6 +55,10 @@ class PosterBase {
     return was_read_;
   }
 
+  /// True once a module's link leads to it.
+  bool has_reader() const { return has_reader_; }
+  void add_reader() { has_reader_ = true; }
+
   /// Adds the memory that every access touches; for a large value only its beginning.
   virtual void add_to(WorkingSet& set) const = 0;
 
@@ -88,6 +92,7 @@ class PosterBase {
   Time date_;
   Duration latency_;
   mutable bool was_read_ = false;
+  bool has_reader_ = false;
 };
 
 template <HasFields T>

@@ -11,7 +11,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr Duration look_period = 1ms, patience = 10s;
+constexpr Duration look_period = 1ms;
 constexpr Duration of_speed_least = 1ms;  // of shorter times no speed follows
 constexpr const char* writer = "the log's player";
 

@@ -10,6 +10,8 @@
 // from the last one that was read.
 #pragma once
 
+#include <array>
+#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -18,14 +20,12 @@
 #include "modules/genom/name_space.hpp"
 #include "modules/logs/playing_order.hpp"
 #include "modules/logs/sensor_log.hpp"
+#include "modules/playback/log_settings.hpp"
 #include "modules/posters/base.hpp"
 #include "modules/posters/laser.hpp"
 #include "modules/rflex/dead_reckoning.hpp"
 
 namespace waitpoint::playback {
-
-/// The resolution of the base's reports, per metre and per radian.
-inline constexpr double units_per_metre = 1e7, units_per_radian = 1e7;
 
 struct DevicePosters {
   std::string base = "rflex.reading", laser = "sick.reading";
@@ -39,6 +39,9 @@ struct Counted {
 
 class LogPlayer {
  public:
+  /// Longer than the period of any module.
+  static constexpr Duration patience = std::chrono::minutes(10);
+
   /// Creates the posters. Log, order and names must outlive the player.
   LogPlayer(const logs::SensorLog& log, const logs::PlayingOrder& order, genom::NameSpace& names,
             const DevicePosters& posters);
@@ -49,8 +52,10 @@ class LogPlayer {
   std::uint64_t scans() const { return scan_.number; }
   /// The greatest time from a scan's date to its writing.
   Duration greatest_delay() const { return greatest_delay_; }
-  /// The poster that no module reads, which ended the play; empty: none.
+  /// The poster that was not read within `patience`, which ended the play; empty: none.
   const std::string& unread() const { return unread_; }
+  /// The posters that the log feeds.
+  std::array<const genom::PosterBase*, 2> posters() const { return {&base_, &laser_}; }
 
  private:
   bool wait_until_read();

@@ -9,6 +9,7 @@
 #include "core/number_text.hpp"
 #include "fibers/sync/thread.hpp"
 #include "modules/bridge/module_making.hpp"
+#include "modules/playback/log_settings.hpp"
 #include "modules/posters/corrected_trajectory.hpp"
 #include "modules/posters/navigation.hpp"
 
@@ -39,7 +40,7 @@ std::optional<Pose> pose_at(const std::vector<bridge::DatedPose>& samples, Time 
 }
 
 template <class T>
-const genom::Poster<T>* find(const genom::NameSpace& names, const char* name) {
+const genom::Poster<T>* find(const genom::NameSpace& names, const std::string& name) {
   return dynamic_cast<const genom::Poster<T>*>(names.find_poster(name));
 }
 
@@ -57,8 +58,9 @@ Playback::Playback(const logs::SensorLog& log, const scenario::RobotScenario& ro
   for (const std::string& name : robot.processors) names_.add_processor(name);
   player_.emplace(log_, order_, names_, posters);
   make_modules(types);
-  localisation_ = find<posters::Localisation>(names_, "segloc.localisation");
-  position_ = find<posters::FusedPosition>(names_, "pom.position");
+  check_readers();
+  localisation_ = find<posters::Localisation>(names_, name_of("segloc") + ".localisation");
+  position_ = find<posters::FusedPosition>(names_, name_of("pom") + ".position");
   kernel::Robot& lane = simulation_.add_robot(robot.name);
   simulation_.spawn(lane, {.name = "player", .phase = kernel::Phase::world, .service = true}, [this] {
     begin_.acquire();
@@ -83,28 +85,30 @@ void Playback::make_modules(std::span<const genom::ModuleType> types) {
 
 std::vector<Setting> Playback::settings_of(const scenario::ModuleScenario& module) const {
   std::vector<Setting> settings = module.settings;
-  const auto set = [&](const char* key, double value) {
-    std::erase_if(settings, [&](const Setting& setting) { return setting.key == key; });
-    settings.push_back({key, number_text(value), log_.file, 0});
-  };
-  if (module.type == "rflex") {
-    set("units_per_m", units_per_metre);
-    set("units_per_rad", units_per_radian);
-  }
+  set_by_log(module.type, log_, settings);
   // Of real scans, few are held by segments.
   const auto is_start = [](const Setting& setting) { return setting.key == "points.from_start"; };
   if (module.type == "segloc" && std::none_of(settings.begin(), settings.end(), is_start))
     settings.push_back({"points.from_start", "true", log_.file, 0});
-  if (module.type == "sick") {
-    set("mount_x_m", log_.mount.x);
-    set("mount_y_m", log_.mount.y);
-    set("mount_heading_deg", log_.mount.heading / (exact::pi / 180));
-  }
   return settings;
 }
 
+void Playback::check_readers() const {
+  for (const genom::PosterBase* poster : player_->posters())
+    if (!poster->has_reader())
+      throw robot_.written.bad("expected a module that reads '" + poster->name() + "', which the log feeds");
+}
+
+/// The name of the first module of that type; the type if there is none.
+std::string Playback::name_of(const char* module_type) const {
+  for (const scenario::ModuleScenario& module : robot_.modules)
+    if (module.enabled && module.type == module_type) return module.name;
+  return module_type;
+}
+
 template <class Input>
-void Playback::request(genom::Client& client, const char* module, const char* request, const Input& input) {
+void Playback::request(genom::Client& client, const char* module_type, const char* request, const Input& input) {
+  const std::string module = name_of(module_type);
   const genom::Module* const found = names_.find_module(module);
   if (found == nullptr) return;
   const genom::RequestType* const type = found->find_request(request);
@@ -137,7 +141,8 @@ RunEnd Playback::run_before(Time until) {
     observe();
   }
   if (const std::string& unread = player_->unread(); !unread.empty())
-    throw BadInput("modules", "expected one that reads '" + unread + "', which the log feeds");
+    throw robot_.written.bad("expected a module that reads '" + unread + "' at least every " +
+                             number_text(LogPlayer::patience.seconds()) + " s, which the log feeds");
   return end;
 }
 

@@ -40,14 +40,14 @@ struct StampedPose {
 
 class Playback {
  public:
-  /// Inconsistencies are BadInput. The modules' settings of the laser's pose and of the base's units are those of the
-  /// log. `log` and `robot`, whose modules run, must outlive the run.
+  /// Inconsistencies are BadInput, so are modules of which none reads what the log feeds. Settings that follow from the
+  /// log replace those of the modules (log_settings.hpp). `log` and `robot`, whose modules run, must outlive the run.
   Playback(const logs::SensorLog& log, const scenario::RobotScenario& robot, std::span<const genom::ModuleType> types,
            const SimulationOptions& options);
   ~Playback();
 
-  /// Runs all events before `until`; may be called again with a later time. BadInput if no module takes the log's
-  /// records.
+  /// Runs all events before `until`; may be called again with a later time. BadInput if the modules do not
+  /// take the log's records.
   RunEnd run_before(Time until);
 
   const logs::PlayingOrder& order() const { return order_; }
@@ -69,9 +69,11 @@ class Playback {
  private:
   void make_modules(std::span<const genom::ModuleType> types);
   std::vector<Setting> settings_of(const scenario::ModuleScenario& module) const;
+  void check_readers() const;
+  std::string name_of(const char* module_type) const;
   void run_modules();
   template <class Input>
-  void request(genom::Client& client, const char* module, const char* request, const Input& input);
+  void request(genom::Client& client, const char* module_type, const char* request, const Input& input);
   void observe();
   std::vector<bridge::DatedPose> corrected() const;
 

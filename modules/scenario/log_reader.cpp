@@ -30,11 +30,21 @@ std::filesystem::path read_file(const YamlNode& node) {
   return file;
 }
 
+/// What a key of the log chooses among its records; `place`, for messages, is the key's, or the log's.
+void read_choice(const YamlNode& log, const char* key, std::string& name, std::string& place) {
+  const YamlNode* const value = log.find(key);
+  place = (value != nullptr ? *value : log).written.text() + ": " + key;
+  if (value != nullptr) name = read_text(*value, key);
+}
+
 }  // namespace
 
 LogFile read_log(const YamlNode& node) {
   LogFile log;
   log.written = node.written;
+  read_choice(node, "scan", log.choice.scan, log.choice.scan_place);
+  read_choice(node, "odometry", log.choice.odometry, log.choice.odometry_place);
+  read_choice(node, "robot", log.choice.robot, log.choice.robot_place);
   if (node.kind == YamlNode::Kind::scalar) {
     log.file = read_file(node);
     return log;
@@ -42,12 +52,17 @@ LogFile read_log(const YamlNode& node) {
   const YamlMap map(node, "the log",
                     {"file", "scan", "odometry", "robot", "field_of_view_deg", "mount", "range_max_m"});
   log.file = read_file(map.require("file"));
-  log.choice = {map.text("scan", ""), map.text("odometry", ""), map.text("robot", "")};
   if (map.has("field_of_view_deg"))
     log.laser.field_of_view_rad = radians(map.number("field_of_view_deg", {0.1, 360, "an angle from 0.1 to 360"}));
   if (const YamlNode* mount = map.find("mount")) log.laser.mount = read_pose(*mount, "mount");
   if (map.has("range_max_m")) log.laser.range_max_m = map.number("range_max_m", length_number);
   return log;
+}
+
+void check_log_is_named(const YamlMap& scenario) {
+  for (const YamlEntry& entry : scenario.node().entries)
+    if (entry.key == "log" && entry.value.is_null() && !scenario.has("world"))
+      throw entry.written.bad("expected the name of a log, found nothing");
 }
 
 void check_beside_log(const YamlMap& scenario) {

@@ -13,6 +13,9 @@ namespace waitpoint::scenario {
 /// Does not open the log. Throws BadInput with the line for values out of range.
 LogFile read_log(const YamlNode& node);
 
+/// Throws BadInput if a scenario without a world has the key `log` with nothing behind it.
+void check_log_is_named(const YamlMap& scenario);
+
 /// Throws BadInput for the first key of a scenario with a log that needs a world.
 void check_beside_log(const YamlMap& scenario);
 

@@ -176,6 +176,7 @@ Scenario read_scenario(const std::filesystem::path& file, const std::vector<std:
   if (const YamlNode* description = map.find("description"))
     scenario.description = read_lines(*description, "description");
   if (const YamlNode* expect = map.find("expect")) scenario.expect = read_expectation(*expect);
+  check_log_is_named(map);
   if (const YamlNode* log = map.find("log")) {
     check_beside_log(map);
     scenario.log = read_log(*log);

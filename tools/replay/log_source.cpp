@@ -5,6 +5,7 @@
 
 #include "core/error.hpp"
 #include "modules/logs/log_file.hpp"
+#include "modules/playback/log_settings.hpp"
 #include "modules/scenario/scenario_reader.hpp"
 #include "tools/command/option_values.hpp"
 
@@ -36,6 +37,12 @@ void choose_modules(scenario::RobotScenario& robot, const std::vector<std::strin
       robot.modules.push_back({.name = name, .type = name, .settings = {}, .written = {"--modules", 0}});
 }
 
+/// A setting that is given for this log is not one that follows from it.
+void check_not_of_log(const ModuleScenario& module, const Setting& setting) {
+  const std::string said = playback::said_by_log(module.type, setting.key);
+  if (!said.empty()) throw setting.bad("expected no " + setting.key + " of '" + module.name + "': " + said);
+}
+
 void assign(scenario::RobotScenario& robot, const std::string& assignment) {
   const std::size_t dot = assignment.find('.'), equals = assignment.find('=');
   if (dot == assignment.npos || equals == assignment.npos || equals < dot)
@@ -45,6 +52,7 @@ void assign(scenario::RobotScenario& robot, const std::string& assignment) {
   if (module == nullptr) refuse("--set", "the name of a module that runs, and a key of it", assignment);
   std::erase_if(module->settings, [&](const Setting& setting) { return setting.key == key; });
   module->settings.push_back({key, assignment.substr(equals + 1), "--set " + assignment, 0});
+  check_not_of_log(*module, module->settings.back());
 }
 
 /// Those of `names` that the robot does not switch off.
@@ -58,12 +66,14 @@ std::vector<std::string> not_disabled(scenario::RobotScenario& robot, std::vecto
 
 /// Replaces what is chosen in `choice`.
 void choose(logs::LogChoice& choice, const logs::LogChoice& other) {
-  const auto replace = [](std::string& name, const std::string& by) {
-    if (!by.empty()) name = by;
+  const auto replace = [](std::string& name, std::string& place, const std::string& by, const std::string& by_place) {
+    if (by.empty()) return;
+    name = by;
+    place = by_place;
   };
-  replace(choice.scan, other.scan);
-  replace(choice.odometry, other.odometry);
-  replace(choice.robot, other.robot);
+  replace(choice.scan, choice.scan_place, other.scan, other.scan_place);
+  replace(choice.odometry, choice.odometry_place, other.odometry, other.odometry_place);
+  replace(choice.robot, choice.robot_place, other.robot, other.robot_place);
 }
 
 }  // namespace
@@ -75,6 +85,9 @@ LogSource log_source(const scenario::Scenario& scenario) {
                    .laser = scenario.log->laser,
                    .until = {},
                    .robot = scenario.robots.front()};
+  for (const ModuleScenario& module : source.robot.modules)
+    for (const Setting& setting : module.settings)
+      if (setting.line == 0 || setting.file == scenario.file) check_not_of_log(module, setting);
   if (scenario.until != Time::max().since_start()) source.until = scenario.until;
   if (source.robot.modules.empty()) choose_modules(source.robot, localising);
   return source;
@@ -83,6 +96,7 @@ LogSource log_source(const scenario::Scenario& scenario) {
 LogSource log_source(const LogOptions& options) {
   LogSource source;
   source.robot.name = "robot";
+  source.robot.written = {"--modules", 0};
   std::optional<scenario::Scenario> scenario;
   if (options.scenario) scenario = scenario::read_scenario(*options.scenario);
   const bool has_log = scenario && scenario->log;
@@ -92,10 +106,12 @@ LogSource log_source(const LogOptions& options) {
     source.robot = first_robot(*scenario);
   source.file = options.log;
   choose(source.choice, options.choice);
-  if (!options.modules.empty())
+  if (!options.modules.empty()) {
     choose_modules(source.robot, options.modules);
-  else if (!has_log)
+    source.robot.written = {"--modules", 0};
+  } else if (!has_log) {
     choose_modules(source.robot, not_disabled(source.robot, localising));
+  }
   for (const std::string& assignment : options.assignments) assign(source.robot, assignment);
   return source;
 }

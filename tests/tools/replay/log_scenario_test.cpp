@@ -131,8 +131,34 @@ TEST_F(LogScenario, WhatNeedsAWorldIsRefusedInOneLine) {
             "waitpoint: the scenario's log: 'run.log' is the file that --events writes\n");
   EXPECT_EQ(waitpoint({"explore", "s.yaml"}).errors,
             "waitpoint: s.yaml:2: expected a world: a log is played by 'waitpoint run' and 'waitpoint replay' only\n");
+  write("{file: run.log, scan: RLASSER}");
+  EXPECT_EQ(refused({}),
+            "waitpoint: s.yaml:2: scan: expected a type of CARMEN's records with scans, found 'RLASSER', did "
+            "you mean 'RLASER'?\n");
+  EXPECT_EQ(
+      waitpoint({"replay", "run.log", "--scenario", "s.yaml", "--scan", "LASSER"}).errors,
+      "waitpoint: --scan: expected a type of CARMEN's records with scans, found 'LASSER', did you mean 'LASER'?\n");
+  write("");
+  EXPECT_EQ(refused({}), "waitpoint: s.yaml:2: expected the name of a log, found nothing\n");
   write("none.log");
   EXPECT_EQ(refused({}), "waitpoint: none.log: cannot be read: No such file or directory\n");
+}
+
+TEST_F(LogScenario, ACheckRefusesWhatARunRefuses) {
+  const auto refused = [&](const std::string& modules) {
+    write("run.log", "name: r, modules: [" + modules + "]");
+    const runs::Outcome check = waitpoint({"check", "s.yaml"}), run = waitpoint({"run", "s.yaml"});
+    EXPECT_EQ(check.status, 2);
+    EXPECT_EQ(run.status, 2);
+    EXPECT_EQ(check.errors, run.errors);
+    return check.errors;
+  };
+  EXPECT_EQ(refused("{name: rflex}"),
+            "waitpoint: s.yaml:4: expected a module that reads 'sick.reading', which the log feeds\n");
+  EXPECT_EQ(
+      refused("{name: rflex}, {name: sick, mount_x_m: 0.2}"),
+      "waitpoint: s.yaml:4: expected no mount_x_m of 'sick': the laser's mount is the log's, or 'log: {mount: [x, "
+      "y, degrees]}' of a scenario\n");
 }
 
 }  // namespace

@@ -149,6 +149,26 @@ TEST(Playback, LocalisationHasAPoseForEveryScanNearThatOfTheRoom) {
   EXPECT_GE(playback.trajectory(PoseSource::pom).size(), log.scans.size() - 2);
 }
 
+TEST(Playback, ALocalisationOfAnotherNameIsStartedAndRead) {
+  const logs::SensorLog log = log_of_room();
+  scenario::RobotScenario robot = robot_with({"rflex", "sick", "segloc"});
+  robot.modules.back().name = "slam";
+  Playback playback(log, robot, types(), {});
+  playback.run_before(Time::max());
+  EXPECT_TRUE(playback.has(PoseSource::segloc));
+  EXPECT_EQ(playback.trajectory(PoseSource::segloc).size(), log.scans.size());
+}
+
+TEST(Playback, ALaserModuleThatIsSlowGetsItsScansAllTheSame) {
+  logs::SensorLog log = log_of_room();
+  log.scans.resize(3);
+  scenario::RobotScenario robot = robot_with({"rflex", "sick"});
+  robot.modules.back().settings = {{"tasks.scanning.period_ms", "15000", "", 0}};
+  Playback playback(log, robot, types(), {});
+  EXPECT_EQ(playback.run_before(Time::max()), RunEnd::ended);
+  EXPECT_EQ(playback.player().scans(), 3u);
+}
+
 TEST(Playback, WithSegmentsTheMapHasTheWallsOfTheRoom) {
   const logs::SensorLog log = log_of_room();
   scenario::RobotScenario robot = robot_with({"rflex", "sick", "segloc"});
@@ -169,13 +189,13 @@ TEST(Playback, ARunInPartsIsTheSameRun) {
 
 TEST(Playback, ModulesThatDoNotReadTheLogAreNamed) {
   const logs::SensorLog log = log_of_room();
-  const scenario::RobotScenario robot = robot_with({"rflex"});
-  Playback playback(log, robot, types(), {});
+  scenario::RobotScenario robot = robot_with({"rflex"});
+  robot.written = {"l.yaml", 4};
   try {
-    playback.run_before(Time::max());
+    const Playback playback(log, robot, types(), {});
     FAIL() << "expected BadInput";
   } catch (const BadInput& error) {
-    EXPECT_STREQ(error.what(), "modules: expected one that reads 'sick.reading', which the log feeds");
+    EXPECT_STREQ(error.what(), "l.yaml:4: expected a module that reads 'sick.reading', which the log feeds");
   }
 }
 
