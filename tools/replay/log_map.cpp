@@ -4,10 +4,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <memory>
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/occupancy_grid.hpp"
 #include "tools/replay/spread_scans.hpp"
 
 namespace waitpoint::tools {
@@ -18,7 +21,6 @@ using playback::StampedPose;
 constexpr double map_cell_m = 0.05;
 constexpr double used_range_m = 25;   // beyond it, an error of heading displaces an echo by cells
 constexpr double scans_apart = 0.05;  // metres, or radians
-constexpr std::size_t cells_max = std::size_t{1} << 28;
 constexpr std::uint32_t wall_echoes_least = 2;
 constexpr double occupied_least = 0.25;  // share of a cell's beams that end in it
 constexpr char occupied = 0, unknown = static_cast<char>(205), free_space = static_cast<char>(254);
@@ -40,6 +42,7 @@ void for_each_beam(const logs::SensorLog& log, std::span<const StampedPose> traj
   }
 }
 
+/// Echoes and passing beams by cell, in tiles that exist where beams were: a long way crosses few of its rectangle's.
 class Grid {
  public:
   Grid(const logs::SensorLog& log, std::span<const StampedPose> trajectory) {
@@ -50,12 +53,23 @@ class Grid {
   Point low() const { return low_; }
   std::string image() const {
     std::string text = fmt::format("P5\n{} {}\n255\n", width_, height_);
+    text.reserve(text.size() + width_ * height_);
     for (std::size_t row = height_; row-- > 0;)
-      for (std::size_t column = 0; column < width_; ++column) text += grey(row * width_ + column);
+      for (std::size_t column = 0; column < width_; ++column) text += grey({column, row});
     return text;
   }
 
  private:
+  static constexpr std::size_t tile_side = 64;
+  struct Cell {
+    std::size_t column, row;  // rows from below
+    bool operator==(const Cell&) const = default;
+  };
+  struct Counts {
+    std::uint32_t echoes = 0, passes = 0;
+  };
+  using Tile = std::array<Counts, tile_side * tile_side>;
+
   void find_extent(const logs::SensorLog& log, std::span<const StampedPose> trajectory) {
     Point high;
     bool is_empty = true;
@@ -66,40 +80,52 @@ class Grid {
         is_empty = false;
       }
     });
-    if (is_empty) throw BadInput("--map", "expected a log with echoes and poses, found none");
+    if (is_empty) throw BadInput(log.file, "no map: expected echoes at poses that are known, found none");
     low_ = {map_cell_m * std::floor(low_.x / map_cell_m), map_cell_m * std::floor(low_.y / map_cell_m)};
     width_ = static_cast<std::size_t>((high.x - low_.x) / map_cell_m) + 1;
     height_ = static_cast<std::size_t>((high.y - low_.y) / map_cell_m) + 1;
-    if (width_ > cells_max / height_) throw BadInput("--map", "expected a trajectory within some kilometres");
-    echoes_.resize(width_ * height_);
-    passes_.resize(width_ * height_);
+    if (width_ > static_cast<std::size_t>(OccupancyGrid::cells_max) / height_)
+      throw BadInput(log.file, fmt::format("no map: expected at most {} cells of {} m, found {:.0f} x {:.0f} m",
+                                           OccupancyGrid::cells_max, map_cell_m, high.x - low_.x, high.y - low_.y));
+    tiles_a_row_ = width_ / tile_side + 1;
+    tiles_.resize(tiles_a_row_ * (height_ / tile_side + 1));
   }
-  std::size_t cell(Point p) const {
-    const auto x = static_cast<std::size_t>((p.x - low_.x) / map_cell_m),
-               y = static_cast<std::size_t>((p.y - low_.y) / map_cell_m);
-    return std::min(y, height_ - 1) * width_ + std::min(x, width_ - 1);
+  std::size_t tile(Cell at) const { return at.row / tile_side * tiles_a_row_ + at.column / tile_side; }
+  static std::size_t within_tile(Cell at) { return at.row % tile_side * tile_side + at.column % tile_side; }
+  Counts& counts(Cell at) {
+    std::unique_ptr<Tile>& of_cell = tiles_[tile(at)];
+    if (of_cell == nullptr) of_cell = std::make_unique<Tile>();
+    return (*of_cell)[within_tile(at)];
+  }
+  Cell cell(Point p) const {
+    const auto column = static_cast<std::size_t>((p.x - low_.x) / map_cell_m),
+               row = static_cast<std::size_t>((p.y - low_.y) / map_cell_m);
+    return {std::min(column, width_ - 1), std::min(row, height_ - 1)};
   }
   // Samples a cell apart along the beam; the last cell is the echo's.
   void add(Point from, Point to, bool is_echo) {
     const double length_m = length(to - from);
     const auto steps = static_cast<int>(length_m / map_cell_m);
-    const std::size_t last = cell(to);
+    const Cell last = cell(to);
     for (int i = 0; i < steps; ++i) {
-      const std::size_t passed = cell(from + (i * map_cell_m / length_m) * (to - from));
-      if (passed != last) ++passes_[passed];
+      const Cell passed = cell(from + (i * map_cell_m / length_m) * (to - from));
+      if (passed != last) ++counts(passed).passes;
     }
-    if (is_echo) ++echoes_[last];
+    if (is_echo) ++counts(last).echoes;
   }
-  char grey(std::size_t cell) const {
-    const double all = static_cast<double>(echoes_[cell]) + static_cast<double>(passes_[cell]);
-    if (echoes_[cell] >= wall_echoes_least && static_cast<double>(echoes_[cell]) >= occupied_least * all)
-      return occupied;
-    return passes_[cell] > 0 ? free_space : unknown;
+  char grey(Cell at) const {
+    const std::unique_ptr<Tile>& of_cell = tiles_[tile(at)];
+    if (of_cell == nullptr) return unknown;
+    const auto [echoes, passes] = (*of_cell)[within_tile(at)];
+    const double all = static_cast<double>(echoes) + static_cast<double>(passes);
+    if (echoes >= wall_echoes_least && static_cast<double>(echoes) >= occupied_least * all) return occupied;
+    return passes > 0 ? free_space : unknown;
   }
 
   Point low_;
   std::size_t width_ = 0, height_ = 0;
-  std::vector<std::uint32_t> echoes_, passes_;  // by cell, rows from below
+  std::size_t tiles_a_row_ = 0;
+  std::vector<std::unique_ptr<Tile>> tiles_;  // null: no beam was there
 };
 
 }  // namespace

@@ -17,7 +17,8 @@ struct LogMap {
   std::string yaml;   ///< which names the image's file
 };
 
-/// `file` is that of the YAML; the image is to be beside it as image_of(file).
+/// `file` is that of the YAML; the image is to be beside it as image_of(file). BadInput, naming
+/// the log, if it has no echoes at poses of the trajectory, or if the map would have more cells than a world may.
 LogMap log_map(const std::filesystem::path& file, const logs::SensorLog& log,
                std::span<const playback::StampedPose> trajectory);
 

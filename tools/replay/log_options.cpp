@@ -15,7 +15,9 @@ std::vector<std::string> names_of(const std::string& list) {
   for (std::size_t begin = 0; begin < list.size();) {
     const std::size_t end = std::min(list.find(',', begin), list.size());
     if (end == begin) refuse("--modules", "names with commas between them", list);
-    names.push_back(list.substr(begin, end - begin));
+    const std::string name = list.substr(begin, end - begin);
+    if (std::find(names.begin(), names.end(), name) != names.end()) refuse("--modules", "each name once", list);
+    names.push_back(name);
     begin = end + 1;
   }
   return names;
@@ -30,7 +32,7 @@ void LogArguments::add(Command& command) {
   command.option("--scenario", scenario_, "FILE",
                  "the modules' parameters are those of the first robot of this scenario\n(default: the modules' own)");
   command.repeated("--set", assignments_, "MODULE.KEY=VALUE",
-                   "override a parameter of a module; may be repeated. For example:\n  segloc.chi2_match=6");
+                   "override a parameter of a module; may be repeated. For example:\n  segloc.points.key_travel_m=0.2");
   command.option("--scan", scan_, "NAME", "take the scans of this type of record or topic");
   command.option("--odometry", odometry_, "TOPIC", "take the odometry of this topic");
   command.option("--robot", robot_, "NAME", "take the records of this robot or host: a log of CARMEN may have several");

@@ -17,7 +17,7 @@ struct LogOptions {
   logs::LogChoice choice;
   std::optional<std::filesystem::path> scenario;  ///< whose first robot has the modules; none: the default ones
   std::vector<std::string> modules;               ///< by name; empty: those that localise
-  std::vector<std::string> assignments;           ///< of --set, in their order: "segloc.chi2_match=6"
+  std::vector<std::string> assignments;           ///< of --set, in their order: "segloc.points.key_travel_m=0.2"
 };
 
 class LogArguments {

@@ -76,6 +76,9 @@ Relation read_relation(const std::string& file, int number, std::istringstream& 
     words >> word;
     if (!parse_number(word, value)) throw bad("a number of the relation's x y z roll pitch yaw", word);
   }
+  word.clear();
+  words >> word;
+  if (!word.empty()) throw bad("the end of the line after a relation's eight numbers", word);
   return {stamps[0], stamps[1], {values[0], values[1], exact::wrap_angle(values[5])}};
 }
 
@@ -83,9 +86,12 @@ nlohmann::ordered_json json(const RelationErrors& errors) {
   nlohmann::ordered_json object;
   object["relations"] = errors.used;
   object["relations_given"] = errors.given;
+  const auto of_used = [&](double value) {
+    return errors.used > 0 ? nlohmann::ordered_json(value) : nlohmann::ordered_json();
+  };
   const auto add = [&](const char* name, const char* unit, const Moments& of) {
-    object[std::string(name) + "_mean_" + unit] = of.mean;
-    object[std::string(name) + "_deviation_" + unit] = of.deviation;
+    object[std::string(name) + "_mean_" + unit] = of_used(of.mean);
+    object[std::string(name) + "_deviation_" + unit] = of_used(of.deviation);
   };
   add("translation", "m", errors.translation_m);
   add("rotation", "rad", errors.rotation_rad);

@@ -43,7 +43,7 @@ std::vector<Relation> read_relations(const std::filesystem::path& file);
 RelationErrors relation_errors(std::span<const Relation> relations, std::vector<playback::StampedPose> trajectory,
                                Duration span = Duration::max());
 
-/// One JSON object of all relations, with those within 20 s in `within_20_s`.
+/// One JSON object of all relations, with those within 20 s in `within_20_s`. Errors are null if no relation was used.
 std::string relations_json(std::span<const Relation> relations, const std::vector<playback::StampedPose>& trajectory);
 
 }  // namespace waitpoint::tools

@@ -7,7 +7,10 @@
 #include <cstdio>
 #include <optional>
 #include <string_view>
+#include <utility>
+#include <vector>
 
+#include "core/printable_line.hpp"
 #include "modules/playback/playback.hpp"
 #include "tools/command/interruption.hpp"
 #include "tools/output/output_file.hpp"
@@ -81,27 +84,39 @@ ReplayResult result_of(const PlayOptions& options, playback::Playback& playback,
   return result;
 }
 
-void write_files(const PlayOptions& options, const logs::SensorLog& log, const playback::Playback& playback,
-                 const ReplayResult& result, Files& files) {
-  const auto write = [](std::optional<OutputFile>& file, const std::string& text) {
-    file->write(text);
-    file->commit();
+struct Content {
+  OutputFile& file;
+  std::string text;
+};
+
+/// BadInput for what cannot be drawn.
+std::vector<Content> contents(const PlayOptions& options, const logs::SensorLog& log,
+                              const playback::Playback& playback, const ReplayResult& result, Files& files) {
+  std::vector<Content> contents;
+  const auto add = [&](std::optional<OutputFile>& file, std::string text) {
+    contents.push_back({*file, std::move(text)});
   };
   const std::vector<playback::StampedPose> odometry = playback.trajectory(PoseSource::odometry);
-  if (files.summary) write(files.summary, replay_json(log, playback, result));
-  if (files.trajectory) write(files.trajectory, trajectory_text(*options.trajectory, log, result.trajectory, odometry));
+  if (files.summary) add(files.summary, replay_json(log, playback, result));
+  if (files.trajectory) add(files.trajectory, trajectory_text(*options.trajectory, log, result.trajectory, odometry));
   if (files.picture) {
     const std::string line =
         fmt::format("{} · {} after {:.1f} s · {} scans · {}", result.pose_source, result.outcome,
                     result.simulated.seconds(), playback.player().scans(), to_string(result.digest));
-    write(files.picture, replay_picture_svg(std::filesystem::path(log.file).filename().string(), line, log,
-                                            result.trajectory, odometry, playback.segments()));
+    add(files.picture, replay_picture_svg(printable_line(std::filesystem::path(log.file).filename().string()), line,
+                                          log, result.trajectory, odometry, playback.segments()));
   }
   if (files.map) {
-    const LogMap drawn = log_map(*options.map, log, result.trajectory);
-    write(files.image, drawn.image);
-    write(files.map, drawn.yaml);
+    LogMap drawn = log_map(*options.map, log, result.trajectory);
+    add(files.image, std::move(drawn.image));
+    add(files.map, std::move(drawn.yaml));
   }
+  return contents;
+}
+
+void write_files(const std::vector<Content>& contents, Files& files) {
+  for (const Content& content : contents) content.file.write(content.text);
+  for (const Content& content : contents) content.file.commit();
   if (files.digests) files.digests->finish();
   if (files.events) files.events->finish();
 }
@@ -126,12 +141,13 @@ int play_log(const LogSource& source, const PlayOptions& options, std::span<cons
   result.outcome = text_of(run.end, run.interrupted);
   result.simulated = std::min(run.reached, playback.last()).since_start();
 
+  const std::vector<Content> made = contents(options, log, playback, result, files);  // before anything is written
   const std::string text = replay_text(log, playback, result);
   if (options.summary && is_standard_output(*options.summary))
     std::fputs(text.c_str(), stderr);
   else
     write_standard_output(text);
-  write_files(options, log, playback, result, files);
+  write_files(made, files);
   if (const std::string& trouble = playback.simulation().trouble(); !trouble.empty())
     std::fprintf(stderr, "waitpoint: %s\n", trouble.c_str());
   if (run.interrupted) return interrupted_status;

@@ -3,10 +3,15 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <span>
+#include <utility>
 
 #include "core/exact_math.hpp"
 #include "core/number_text.hpp"
+#include "core/printable_line.hpp"
 
 namespace waitpoint::tools {
 namespace {
@@ -22,9 +27,23 @@ std::string line(const char* name, const std::string& text) { return fmt::format
 
 std::string errors_text(const RelationErrors& errors) {
   constexpr double degree = exact::pi / 180;
+  if (errors.used == 0)
+    return fmt::format("0 of {}: -{}", errors.given, errors.given > 0 ? " (none has poses at both of its stamps)" : "");
   return fmt::format("{} of {}: {:.3f} m +- {:.3f}, {:.2f} deg +- {:.2f}", errors.used, errors.given,
                      errors.translation_m.mean, errors.translation_m.deviation, errors.rotation_rad.mean / degree,
                      errors.rotation_rad.deviation / degree);
+}
+
+/// The most frequent types or topics, and how many others there are.
+std::string left_out_text(const std::map<std::string, std::uint64_t>& left_out) {
+  constexpr std::size_t named_max = 8;
+  std::vector<std::pair<std::string, std::uint64_t>> kinds(left_out.begin(), left_out.end());
+  std::stable_sort(kinds.begin(), kinds.end(), [](const auto& a, const auto& b) { return a.second > b.second; });
+  std::vector<std::string> parts;
+  for (const auto& [kind, count] : std::span(kinds).first(std::min(named_max, kinds.size())))
+    parts.push_back(fmt::format("{} {}", count, kind));
+  if (kinds.size() > named_max) parts.push_back(counted(kinds.size() - named_max, "other kind"));
+  return fmt::format("{}", fmt::join(parts, ", "));
 }
 
 std::string stamps_text(const logs::PlayingOrder& order) {
@@ -38,15 +57,12 @@ std::string stamps_text(const logs::PlayingOrder& order) {
 }  // namespace
 
 std::string replay_text(const logs::SensorLog& log, const playback::Playback& playback, const ReplayResult& result) {
-  std::string text =
-      fmt::format("{}: {} after {:.1f} s of the log\n\n", log.file, result.outcome, result.simulated.seconds());
+  std::string text = fmt::format("{}: {} after {:.1f} s of the log\n\n", printable_line(log.file), result.outcome,
+                                 result.simulated.seconds());
   text += line("scans", fmt::format("{} of {} ({}), at most {:.3f} s after their dates", playback.player().scans(),
                                     log.scans.size(), log.laser, playback.player().greatest_delay().seconds()));
   if (const std::string stamps = stamps_text(playback.order()); !stamps.empty()) text += line("stamps", stamps);
-  std::string left_out;
-  for (const auto& [type, count] : log.left_out)
-    left_out += fmt::format("{}{} {}", left_out.empty() ? "" : ", ", count, type);
-  if (!left_out.empty()) text += line("left out", left_out);
+  if (!log.left_out.empty()) text += line("left out", left_out_text(log.left_out));
   text += line("trajectory", fmt::format("{} poses of {}, {:.1f} m", result.trajectory.size(), result.pose_source,
                                          length_m(result.trajectory)));
   if (!result.relations.empty()) {
@@ -82,7 +98,8 @@ std::string replay_json(const logs::SensorLog& log, const playback::Playback& pl
   object["events"] = result.events;
   object["wall_s"] = result.wall_s;
   object["digest"] = to_string(result.digest);
-  return object.dump(2) + "\n";
+  // Of a file's name, bytes that are no UTF-8 are replaced.
+  return object.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace waitpoint::tools

@@ -60,6 +60,15 @@ TEST(Relations, ShortOnesAreAlsoCountedByThemselves) {
   EXPECT_NEAR(json["within_20_s"]["translation_mean_m"], 1, 1e-9);
 }
 
+TEST(Relations, WithoutOneThatIsUsedThereAreNoErrors) {
+  const std::vector<Relation> relations = {{at(100), at(110), {10, 0, 0}}};
+  const nlohmann::json json = nlohmann::json::parse(relations_json(relations, straight()));
+  EXPECT_EQ(json["relations"], 0);
+  EXPECT_EQ(json["relations_given"], 1);
+  EXPECT_TRUE(json["translation_mean_m"].is_null());
+  EXPECT_TRUE(json["within_20_s"]["squared_rotation_deviation_rad2"].is_null());
+}
+
 TEST(Relations, AFileHasALineForEachAndAMalformedOneIsNamed) {
   const Folder folder;
   folder.write("good", "# comment\n\n976052857.25 976052858.5 1 2 3 0 0 0.5\n");
@@ -79,6 +88,8 @@ TEST(Relations, AFileHasALineForEachAndAMalformedOneIsNamed) {
   EXPECT_EQ(message("\n1 2 3 4 5 6 7\n"),
             ":2: expected a number of the relation's x y z roll pitch yaw, found the end of the line");
   EXPECT_EQ(message("now 2\n"), ":1: expected a relation: stamp1 stamp2 x y z roll pitch yaw, found 'now'");
+  EXPECT_EQ(message("1 2 3 4 5 6 7 8\n1 2 3 4 5 6 7 8 9\n"),
+            ":2: expected the end of the line after a relation's eight numbers, found '9'");
   EXPECT_EQ(message("#\n"), ": expected relations: stamp1 stamp2 x y z roll pitch yaw");
 }
 

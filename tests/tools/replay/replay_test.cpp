@@ -2,6 +2,7 @@
 // `waitpoint replay` as a user calls it: on a recording of a simulated run, whose truth is known, and on real logs.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <map>
@@ -112,6 +113,67 @@ TEST(Replay, TheMapOfARecordedRunIsAWorldForRobots) {
   EXPECT_EQ(again.status, 0) << again.output << again.errors;
 }
 
+TEST(Replay, AMapThatCannotBeDrawnLeavesNoFiles) {
+  const Folder folder;
+  const auto told = [&](const std::string& scans) {
+    folder.write("a.log", scans);
+    const runs::Outcome outcome =
+        replay({(folder / "a.log").string(), "--modules", "rflex,sick", "--map", (folder / "m.yaml").string(),
+                "--trajectory", (folder / "a.tum").string(), "--summary", (folder / "a.json").string()});
+    EXPECT_EQ(outcome.status, 2);
+    EXPECT_EQ(outcome.output, "");
+    EXPECT_EQ(folder.count(), 1u);
+    return outcome.errors.substr(outcome.errors.find("a.log"));
+  };
+  EXPECT_EQ(told("FLASER 1 90 0 0 0 0 0 0 1 h 1\n"),
+            "a.log: no map: expected echoes at poses that are known, found none\n");
+  EXPECT_EQ(told("FLASER 1 2 0 0 0 0 0 0 1 h 1\nFLASER 1 2 9e4 9e4 0 9e4 9e4 0 2 h 2\n"),
+            "a.log: no map: expected at most 268435456 cells of 0.05 m, found 90000 x 90002 m\n");
+}
+
+TEST(Replay, AMapOfALongWayIsThatOfTheRoomsAtItsEnds) {
+  const Folder folder;
+  folder.write("a.log", "FLASER 1 2 0 0 0 0 0 0 1 h 1\nFLASER 1 2 100 100 0 100 100 0 2 h 2\n");
+  ASSERT_EQ(
+      replay({(folder / "a.log").string(), "--modules", "rflex,sick", "--map", (folder / "m.yaml").string()}).status,
+      0);
+  const std::string image = folder.read("m.pgm");
+  EXPECT_EQ(image.substr(0, 17), "P5\n2001 2041\n255\n");
+  const auto free_cells = std::count(image.begin() + 17, image.end(), static_cast<char>(254));
+  EXPECT_GT(free_cells, 40);
+  EXPECT_LE(free_cells, 2 * 40);
+}
+
+TEST(Replay, TheTextNamesTheMostFrequentOfManyKindsOfOtherRecords) {
+  const Folder folder;
+  std::string text = "FLASER 1 2 0 0 0 0 0 0 1 h 1\nTWICE 1\nTWICE 1\n";
+  for (int i = 0; i < 50; ++i) text += "KIND" + std::to_string(100 + i) + " 1\n";
+  folder.write("a.log", text);
+  EXPECT_NE(replay({(folder / "a.log").string(), "--modules", "rflex,sick"})
+                .output.find("left out          2 TWICE, 1 KIND100, 1 KIND101, 1 KIND102, 1 KIND103, 1 KIND104, "
+                             "1 KIND105, 1 KIND106, 43 other kinds\n"),
+            std::string::npos);
+}
+
+TEST(Replay, ANameThatIsNoUtf8IsPrintedWithOthersInItsPlace) {
+  const Folder folder;
+  folder.write("a\xff.log", "FLASER 1 2 0 0 0 0 0 0 1 h 1\n");
+  const runs::Outcome outcome = replay({(folder / "a\xff.log").string(), "--modules", "rflex,sick", "--summary", "-"});
+  EXPECT_EQ(outcome.status, 0);
+  EXPECT_TRUE(nlohmann::json::parse(outcome.output)["log"].get<std::string>().ends_with("a\uFFFD.log"));
+  EXPECT_NE(outcome.errors.find("a?.log: finished"), std::string::npos);
+}
+
+TEST(Replay, RelationsOfWhichNoneIsUsedHaveNoErrors) {
+  const Folder folder;
+  folder.write("a.log", "FLASER 1 2 0 0 0 0 0 0 1 h 1\n");
+  folder.write("relations", "5 9 0 0 0 0 0 0\n");
+  EXPECT_NE(
+      replay({(folder / "a.log").string(), "--modules", "rflex,sick", "--relations", (folder / "relations").string()})
+          .output.find("relations         0 of 1: - (none has poses at both of its stamps)\n"),
+      std::string::npos);
+}
+
 TEST(Replay, WhatIsWrongIsToldInOneLine) {
   const Folder folder;
   folder.write("a.log", "FLASER 1 2 0 0 0 0 0 0 1 h 1\n");
@@ -128,6 +190,16 @@ TEST(Replay, WhatIsWrongIsToldInOneLine) {
             "waitpoint: --pose: expected poses of a module that runs, found 'pom'\n");
   EXPECT_EQ(error({log, "--modules", "rflex,siick"}),
             "waitpoint: --modules: unknown module type 'siick', did you mean 'sick'?\n");
+  EXPECT_EQ(error({log, "--set", "sick.mount_x_m=0.2"}),
+            "waitpoint: --set sick.mount_x_m=0.2: expected no mount_x_m of 'sick': the laser's mount is the log's, or "
+            "'log: {mount: [x, y, degrees]}' of a scenario\n");
+  EXPECT_EQ(error({log, "--set", "rflex.units_per_m=1000"}),
+            "waitpoint: --set rflex.units_per_m=1000: expected no units_per_m of 'rflex': the base's reports are made "
+            "of the log, in units of their own\n");
+  EXPECT_EQ(error({log, "--modules", "rflex,sick,rflex"}),
+            "waitpoint: --modules: expected each name once, found 'rflex,sick,rflex'\n");
+  EXPECT_EQ(error({log, "--modules", "rflex"}),
+            "waitpoint: --modules: expected a module that reads 'sick.reading', which the log feeds\n");
   EXPECT_EQ(message({"replay", "a.log", "--pose", "gps"}), "--pose: expected segloc, pom or odometry, found 'gps'");
 }
 
