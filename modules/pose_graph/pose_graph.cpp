@@ -126,7 +126,8 @@ void PoseGraph::optimise(unsigned steps_max) {
                    exact::wrap_angle(poses_[i].heading + change[at + 2])};
     }
     const double after = cost();
-    if (after > before) {
+    // A nearly singular matrix gives steps that are no numbers.
+    if (!std::isfinite(after) || after > before) {
       poses_ = old;
       damping = damping > 0 ? 10 * damping : 1;
       if (damping > 1e8) return;

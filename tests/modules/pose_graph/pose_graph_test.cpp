@@ -70,6 +70,16 @@ TEST(PoseGraph, HeadingsAreComparedRoundTheCircle) {
 }
 
 // A long trajectory within a task, whose stack is small.
+TEST(PoseGraph, AStepThatIsNoNumberIsTakenBack) {
+  PoseGraph graph;
+  graph.add({});
+  graph.add({1, 2, 0.5});
+  constexpr Matrix3 beyond = {1e200, 0, 0, 0, 1e200, 0, 0, 0, 1e200};
+  graph.measure({0, 1, {1e200, 0, 0}, beyond, false});
+  graph.optimise(30);
+  EXPECT_EQ(graph[1], (Pose{1, 2, 0.5}));
+}
+
 TEST(PoseGraph, IsOptimisedOnTheStackOfATask) {
   PoseGraph graph;
   graph.add({});
