@@ -43,6 +43,7 @@ std::vector<std::size_t> steps_of(std::span<const Pose> measured) {
 double bound_of(const std::vector<double>& residuals) {
   const double centre = median(residuals);
   std::vector<double> off;
+  off.reserve(residuals.size());
   for (const double residual : residuals) off.push_back(std::fabs(residual - centre));
   return deviations_max * robust * median(off) + std::fabs(centre);
 }
