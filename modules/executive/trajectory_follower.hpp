@@ -34,6 +34,7 @@ class TrajectoryFollower : public RobotExecutive {
 
   /// One: the trajectory's end.
   const std::vector<GoalRecord>& goals() const override { return goals_; }
+  std::size_t current_goal() const override { return goals_.front().state == GoalState::ahead ? 0 : 1; }
 
  private:
   void follow();

@@ -171,7 +171,8 @@ void Viewer::answer(ClientNumber client, const Json& request, History::Reply rep
   }
   if (what == "journal") return answer_journal(client, request, reply);
   if (is_one_of("seek", "step", "tasks", "modules")) return history_.ask_cursor(client, request, std::move(reply));
-  if (is_one_of("events", "plot", "stack", "digests", "counts")) return history_.ask_once(request, std::move(reply));
+  if (is_one_of("events", "plot", "stack", "digests", "counts"))
+    return history_.ask_once(client, request, std::move(reply));
   if (!is_one_of("branch", "pause", "speed")) throw BadInput("the view", "there is no request '" + what + "'");
   if (!options_.is_controlled) throw BadInput("the view", "expected waitpoint run --serve-control for '" + what + "'");
   if (what == "branch") return history_.branch(request, std::move(reply));

@@ -8,7 +8,9 @@
 namespace waitpoint::tools::view {
 namespace {
 
-constexpr std::size_t snapshots_max = 48, lines_max = 32, cursors_max = 24;
+constexpr std::size_t snapshots_max = 48, lines_max = 32, cursors_max = 24, questions_max = 64;
+// Each takes a processor.
+constexpr int at_once = 2;
 
 std::string error_text(const std::string& text) { return text_of(Json{{"error", text}}); }
 
@@ -17,8 +19,6 @@ std::string text_of_reply(Channel::Message* message) {
   return message != nullptr ? std::move(message->text)
                             : error_text("the run dies on the way there: see what it wrote when it was run");
 }
-
-Time time_of(const Json& request, const char* key) { return Time::from_ns(request.at(key).get<std::int64_t>()); }
 
 std::string without_view_members(Json request, const char* what) {
   request["do"] = what;
@@ -135,7 +135,7 @@ void History::ask_cursor(Owner owner, const Json& request, Reply reply) {
   const CursorKey key(owner, static_cast<int>(&line - lines_.data()));
   const auto present = cursors_.find(key);
   const bool is_seek = what == "seek";
-  const Time time = is_seek                     ? std::max(time_of(request, "time"), Time())
+  const Time time = is_seek                     ? std::max(time_in(request, "time"), Time())
                     : present != cursors_.end() ? present->second->time
                                                 : line.reached;
   Cursor& cursor = cursor_at(key, line, time);
@@ -153,20 +153,45 @@ void History::ask_cursor(Owner owner, const Json& request, Reply reply) {
   ask(cursor, without_view_members(request, is_seek ? "to" : what.c_str()), std::move(reply));
 }
 
-void History::ask_once(const Json& request, Reply reply) {
+void History::ask_once(Owner owner, const Json& request, Reply reply) {
+  if (questions_.size() >= questions_max) throw BadInput("the view", "there are too many questions at once");
+  questions_.push_back({owner, request, std::move(reply)});
+  ask_next();
+}
+
+void History::ask_next() {
+  while (under_way_ < at_once && !questions_.empty()) {
+    const Question next = std::move(questions_.front());
+    questions_.pop_front();
+    try {
+      ask_now(next);
+    } catch (const std::exception& refusal) {
+      next.reply(error_text(refusal.what()));
+    }
+  }
+}
+
+void History::ask_now(const Question& question) {
+  const Json& request = question.request;
   const std::string what = request.at("ask");
   const Line& line = line_of(request);
   const auto is_early = [&](const Snapshot& snapshot) {
     if (what == "stack") return snapshot.events < request.at("event").get<std::uint64_t>();
-    return what == "counts" || snapshot.time <= time_of(request, "from");
+    return what == "counts" || snapshot.time <= time_in(request, "from");
   };
   const Snapshot& snapshot = last_snapshot(line, is_early);
-  const std::string text = without_view_members(request, what.c_str());
-  copy(snapshot, [this, text, reply](const std::shared_ptr<Peer>& peer) {
-    if (!peer) return reply(error_text("a copy of the run cannot be made"));
-    peer->ask(text, [this, peer, reply](Channel::Message* message) {
-      reply(text_of_reply(message));
+  const auto end = [this, reply = question.reply](const std::string& text) {
+    --under_way_;
+    reply(text);
+    ask_next();
+  };
+  ++under_way_;
+  copy(snapshot, [this, end, text = without_view_members(request, what.c_str())](const std::shared_ptr<Peer>& peer) {
+    if (!peer) return end(error_text("a copy of the run cannot be made"));
+    peer->ask(text, [this, peer, end](Channel::Message* message) {
+      const std::string reply = text_of_reply(message);
       leave(peer);
+      end(reply);
     });
   });
 }
@@ -174,7 +199,7 @@ void History::ask_once(const Json& request, Reply reply) {
 void History::branch(const Json& request, Reply reply) {
   if (lines_.size() >= lines_max) throw BadInput("the view", "there are too many lines of time");
   const Line& parent = line_of(request);
-  const Time time = std::max(time_of(request, "time"), Time());
+  const Time time = std::max(time_in(request, "time"), Time());
   Line line{.name = "branch " + std::to_string(lines_.size()),
             .parent = static_cast<int>(&parent - lines_.data()),
             .from = time,
@@ -211,6 +236,7 @@ void History::add_line(std::shared_ptr<Peer> peer, Line line, const Reply& reply
 }
 
 void History::forget(Owner owner) {
+  questions_.remove_if([owner](const Question& question) { return question.owner == owner; });
   for (auto cursor = cursors_.begin(); cursor != cursors_.end();) {
     if (cursor->first.first != owner) {
       ++cursor;

@@ -49,10 +49,11 @@ class History {
   /// Requests of run_copy.hpp at the owner's cursor of that line: "seek" {line, time}, and step, tasks, modules,
   /// journal where the last one has left it.
   void ask_cursor(Owner owner, const Json& request, Reply reply);
-  /// events, plot, stack, digests, counts of a line: in a copy of their own.
-  void ask_once(const Json& request, Reply reply);
+  /// events, plot, stack, digests, counts of a line: in a copy of their own, few at a time, in the order of asking.
+  void ask_once(Owner owner, const Json& request, Reply reply);
   /// {line, time, interventions}: a new line.
   void branch(const Json& request, Reply reply);
+  /// The owner has gone: its cursors, and what it still waits for.
   void forget(Owner owner);
 
   /// For the status: [{"line", "from", "to", "parent", "name"}].
@@ -78,6 +79,12 @@ class History {
   };
   using CursorKey = std::pair<Owner, int>;  // with the line
 
+  struct Question {
+    Owner owner;
+    Json request;
+    Reply reply;
+  };
+
   Line& line_of(const Json& request);
   const Snapshot& last_snapshot(const Line& line, const std::function<bool(const Snapshot&)>& is_early) const;
   const Snapshot& snapshot_before(const Line& line, Time time) const;
@@ -87,12 +94,16 @@ class History {
   void copy(const Snapshot& from, std::function<void(std::shared_ptr<Peer>)> use);
   Cursor& cursor_at(const CursorKey& key, const Line& line, Time time);
   void ask(Cursor& cursor, std::string request, Reply reply);
+  void ask_next();
+  void ask_now(const Question& question);
   void add_line(std::shared_ptr<Peer> peer, Line line, const Reply& reply);
   void intervene(std::shared_ptr<Peer> peer, std::vector<std::string> texts, Line line, Reply reply);
 
   Loop loop_;
   std::vector<Line> lines_;
   std::map<CursorKey, std::shared_ptr<Cursor>> cursors_;
+  std::list<Question> questions_;  // that wait for others
+  int under_way_ = 0;              // of those in copies of their own
 };
 
 }  // namespace waitpoint::tools::view

@@ -26,8 +26,6 @@ namespace {
 constexpr Duration window = std::chrono::seconds(1);
 constexpr std::size_t frames_of_stack = 64, points_max = 100'000, events_max = 1'000'000;
 
-Time time_of(const Json& request, const char* key) { return Time::from_ns(request.at(key).get<std::int64_t>()); }
-
 /// "function at file:line" in its parts.
 Json frame_of_stack(const std::string& line) {
   const std::size_t at = line.rfind(" at "), colon = line.rfind(':');
@@ -86,7 +84,7 @@ std::string RunCopy::answer(const Json& request) {
   const std::string what = request.at("do");
   line_ = request.value("line", 0);
   if (what == "to") {
-    go_to(time_of(request, "time") + Duration::from_ns(1));
+    go_to(time_in(request, "time") + Duration::from_ns(1));
     return floor();
   }
   if (what == "look") return floor();
@@ -153,7 +151,7 @@ std::string RunCopy::step(const Json& request) {
 }
 
 std::string RunCopy::events(const Json& request) {
-  const Time from = time_of(request, "from"), to = time_of(request, "to");
+  const Time from = time_in(request, "from"), to = time_in(request, "to");
   const std::size_t most = std::min(request.value("most", events_max), events_max);
   go_to(from);
   const EventTrace trace(experiment_.simulation().scheduler(), most);
@@ -173,7 +171,7 @@ std::string RunCopy::plot(const Json& request) {
   const genom::PosterBase* const poster = experiment_.robots()[robot]->names().find_poster(name);
   if (poster == nullptr || !poster->has_number(field))
     throw BadInput("the view", "there is no number '" + field + "' of a poster '" + name + "'");
-  const Time from = time_of(request, "from"), to = time_of(request, "to");
+  const Time from = time_in(request, "from"), to = time_in(request, "to");
   const auto points = static_cast<std::int64_t>(std::clamp<std::size_t>(request.value("points", 1000), 1, points_max));
   const Duration step = std::max(Duration::from_ns(1), (to - from) / points);
   std::string times, values;
