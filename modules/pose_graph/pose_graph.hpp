@@ -13,6 +13,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "core/error.hpp"
 #include "core/pose.hpp"
 
 namespace waitpoint::pose_graph {
@@ -36,7 +37,10 @@ class PoseGraph {
   void place(std::size_t pose, const Pose& guess) { poses_[pose] = guess; }
 
   std::size_t size() const { return poses_.size(); }
-  const Pose& operator[](std::size_t pose) const { return poses_[pose]; }
+  const Pose& operator[](std::size_t pose) const {
+    WAITPOINT_CHECK(pose < size(), "a pose that is not in the graph");
+    return poses_[pose];
+  }
   const std::vector<Measurement>& measurements() const { return measurements_; }
 
   /// Half the weighted sum of squares of what the measurements miss.

@@ -40,10 +40,12 @@ std::vector<PointMap::Candidate> PointMap::old_ones_nearby() const {
   const std::size_t key = keys_.size() - 1, half = parameters_.submap_keys / 2;
   const std::size_t age = adrift_since_ ? key - *adrift_since_ + 1 : std::size_t{2} * parameters_.submap_keys;
   std::vector<Candidate> candidates;
-  for (std::size_t k = 0; k + age <= key; ++k) {
+  if (age > key) return candidates;
+  const std::size_t last = key - age;  // the newest old one: the middle of a sub-map is old, too
+  for (std::size_t k = 0; k <= last; ++k) {
     const double distance = length(graph_[k].position() - graph_[key].position());
     if (distance > near_m + search_m(k)) continue;
-    const std::size_t submap = (k + half / 2) / half;
+    const std::size_t submap = std::min((k + half / 2) / half, last / half);
     const auto same =
         std::find_if(candidates.begin(), candidates.end(), [&](const auto& c) { return c.submap == submap; });
     if (same == candidates.end()) {

@@ -138,6 +138,21 @@ TEST(PointMap, TellsThatItIsLostAndFindsARobotThatWasCarriedAway) {
   EXPECT_LT(drive.error_m(), 0.15);
 }
 
+// The newest sub-map from before the loss may have fewer key scans than half of it.
+TEST(PointMap, LooksForALostRobotAmongAllNumbersOfKeyScans) {
+  const Room room = round_corridor();
+  for (double before_m = 4; before_m < 8; before_m += 0.6) {
+    Drive drive(room, {1.2, 1.2, 0});
+    drive.ahead(before_m);
+    drive.cover_laser(true);
+    drive.ahead(0.6);
+    drive.carry_to({1.2, 1.2, 0});
+    drive.cover_laser(false);
+    drive.ahead(5);
+    EXPECT_LT(drive.error_m(), before_m + 1) << before_m;
+  }
+}
+
 // A corridor with the same things every two metres, out and back: what is seen on the way back fits at many places.
 TEST(PointMap, KeepsItsPlaceWherePlacesLookAlike) {
   Room room;
