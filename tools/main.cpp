@@ -34,7 +34,7 @@
 #include "tools/run/run.hpp"
 #include "tools/run/run_watchdog.hpp"
 #include "tools/tcl_library.hpp"
-#include "tools/version.hpp"
+#include "tools/command/version.hpp"
 
 namespace waitpoint {
 namespace {

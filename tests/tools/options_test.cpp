@@ -8,7 +8,7 @@
 
 #include "tests/tools/command_line.hpp"
 #include "tests/tools/folder.hpp"
-#include "tools/version.hpp"
+#include "tools/command/version.hpp"
 
 namespace waitpoint::tools {
 namespace {

@@ -140,6 +140,16 @@ RunArguments::RunArguments(CommandLine& line)
                   "write the interventions of the prompt, shell and outside with their virtual times");
   command_.option("--replay-journal", replay_journal_, "FILE",
                   "repeat the interventions of a journal and verify that the run ends with its\ndigest");
+  add_outputs();
+  command_.flag("--check", check_,
+                "run twice in this process and once in a perturbed one (addresses,\n"
+                "memory, environment, clocks, directories) and compare event by event:\n"
+                "report the first difference, with status 1, or none\n"
+                "(docs/determinism.md)");
+  scenario_.add_set(command_);
+}
+
+void RunArguments::add_outputs() {
   command_.option("--summary", summary_, "FILE.json",
                   "write the summary as JSON; -: to standard output, in place of the text");
   command_.option("--picture", picture_, "FILE.svg", "draw the floor and the paths");
@@ -162,12 +172,6 @@ RunArguments::RunArguments(CommandLine& line)
   command_.option(
       "--replay-durations", replay_durations_, "FILE",
       "take these durations from a record of the same scenario and seed; the run and\nits digest are the same");
-  command_.flag("--check", check_,
-                "run twice in this process and once in a perturbed one (addresses,\n"
-                "memory, environment, clocks, directories) and compare event by event:\n"
-                "report the first difference, with status 1, or none\n"
-                "(docs/determinism.md)");
-  scenario_.add_set(command_);
 }
 
 /// Options that concern a single run are not allowed for many runs.

@@ -82,6 +82,7 @@ class RunArguments {
   RunOptions options() const;
 
  private:
+  void add_outputs();
   void check_of_many(const char* option) const;
   void check_writes_nothing() const;
   void check_alone() const;

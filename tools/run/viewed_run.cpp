@@ -11,8 +11,8 @@
 
 #include "core/number_text.hpp"
 #include "tools/command/interruption.hpp"
-#include "tools/version.hpp"
-#include "tools/view/viewer.hpp"
+#include "tools/command/version.hpp"
+#include "tools/view/server/viewer.hpp"
 
 namespace waitpoint::tools {
 namespace {

@@ -14,7 +14,7 @@
 #include "core/field_text.hpp"
 #include "core/pose.hpp"
 #include "core/time.hpp"
-#include "world/description.hpp"
+#include "modules/bridge/run_result.hpp"
 
 namespace waitpoint::tools::view {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/view/viewer.hpp"
+#include "tools/view/server/viewer.hpp"
 
 #include <fmt/format.h>
 #include <sys/random.h>

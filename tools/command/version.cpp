@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/version.hpp"
+#include "tools/command/version.hpp"
 
 #include <fmt/format.h>
 
