@@ -22,12 +22,20 @@ class Beside {
     parts.plan.title = on ? name(session.line) : "";
     if (on) this.plan.title = name(session.compared.line);
     if (this.host) this.host.hidden = !on;
-    const difference = session.compared?.difference,
-      mark = difference && difference.event ? difference.time : null;
-    for (const timeline of [parts.timeline, this.timeline]) if (timeline) timeline.mark = mark;
+    parts.timeline.marks = this.marksOf(session.line);
+    if (on) this.timeline.marks = this.marksOf(session.compared.line);
     if (on && this.shown !== session.compared.line) this.timeline.data.forget();
     this.shown = session.compared?.line;
     this.repaint();
+  }
+
+  marksOf(line) {
+    const {compared, source} = this.session,
+      found = compared?.difference;
+    return [
+      ...(source.marks?.(line) ?? []),
+      ...(found?.event ? [{time: found.time, text: "the first event that differs"}] : [])
+    ];
   }
 
   make() {

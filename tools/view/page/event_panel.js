@@ -67,10 +67,6 @@ class EventPanel {
     this.update();
     const {event, source, line} = this.session;
     if (!event) return;
-    if (source.kind === "recorded")
-      return this.stack.replaceChildren(
-        element("li", {class: "note"}, "Not recorded: waitpoint run --serve tells it.")
-      );
     this.stack.replaceChildren(element("li", {class: "note"}, "…"));
     const answer = await source.stack(event.line ?? line, event.number).catch((error) => ({error: error.message}));
     if (event !== this.session.event) return;

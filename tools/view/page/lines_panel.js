@@ -2,8 +2,8 @@
 // Lines of time: the run and its branches, which of them is shown, which one beside it, and where the two begin to differ.
 
 class LinesPanel {
-  constructor(panel, session, clock) {
-    Object.assign(this, {session, clock});
+  constructor(panel, session, clock, axis) {
+    Object.assign(this, {session, clock, axis});
     this.list = element("ul", {class: "lines"});
     this.difference = element("div", {class: "difference"});
     this.journal = element("div");
@@ -82,37 +82,44 @@ class LinesPanel {
   }
 
   showDifference() {
-    const {compared, line} = this.session,
-      found = compared?.difference;
-    const event = (name, text) => [element("dt", {}, `line ${name}`), element("dd", {}, text || "no event")];
+    const {compared} = this.session;
     this.difference.replaceChildren(
-      ...(!compared
-        ? []
-        : [
-            element("h2", {}, "First event that differs"),
-            !found
-              ? element("p", {class: "note"}, "…")
-              : found.error
-                ? element("p", {class: "note"}, found.error)
-                : found.event === null
-                  ? element("p", {class: "note"}, "None so far.")
-                  : element(
-                      "div",
-                      {},
-                      element(
-                        "p",
-                        {},
-                        `Event ${countText(found.event)} at ${instantText(found.time)} `,
-                        element(
-                          "button",
-                          {onclick: () => this.clock.goTo({time: found.time, number: found.event})},
-                          "Go there"
-                        )
-                      ),
-                      element("dl", {class: "facts"}, event(line, found.a), event(compared.line, found.b))
-                    )
-          ])
+      ...this.marked(),
+      ...(compared ? [element("h2", {}, "First event that differs"), this.found(compared)] : [])
     );
+  }
+
+  found({line, difference}) {
+    if (!difference?.event) {
+      const text = !difference ? "…" : (difference.error ?? "None so far.");
+      return element("p", {class: "note"}, text);
+    }
+    const {event, time, a, b} = difference,
+      fact = (name, text) => [element("dt", {}, `line ${name}`), element("dd", {}, text || "no event")],
+      go = element("button", {onclick: () => this.clock.goTo({time, number: event})}, "Go there");
+    return element(
+      "div",
+      {},
+      element("p", {}, `Event ${countText(event)} at ${instantText(time)} `, go),
+      element("dl", {class: "facts"}, fact(this.session.line, a), fact(line, b))
+    );
+  }
+
+  /** A finding's events of interest, in all lines. */
+  marked() {
+    const {session} = this,
+      {source} = session,
+      marks = source.status.lines.flatMap(({line}) => source.marks?.(line) ?? []);
+    if (marks.length === 0) return [];
+    const row = (mark) => {
+      const choose = () => {
+        this.axis.reveal(mark.time);
+        session.selectEvent(mark);
+      };
+      const text = `line ${mark.line}, ${mark.task} ${mark.operation} ${mark.object}: ${mark.text}`;
+      return element("li", {}, element("button", {class: "link", onclick: choose}, text));
+    };
+    return [element("h2", {}, "Events whose order matters"), element("ul", {class: "lines"}, marks.map(row))];
   }
 
   async showJournal(line) {

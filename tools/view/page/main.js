@@ -41,15 +41,28 @@ async function start() {
   const source = await openSource(),
     session = new Session(source),
     clock = new Clock(session, report);
-  document.title = `${source.header.scenario} – waitpoint`;
-  setText(byId("scenario"), source.header.scenario);
+  const {header} = source;
+  document.title = `${header.scenario} – waitpoint`;
+  setText(byId("scenario"), header.scenario);
   const parts = buildParts(session, clock);
   connectParts(session, clock, parts);
   await clock.seek(0);
   parts.axis.showAll();
   if (source.kind === "live") clock.setLive(true);
+  else if (source.lines.length > 1) await showFinding(source, parts);
+  // Programs without robots have no floor.
+  byId("plan").hidden = byId("split-side").hidden = header.robots.length + header.obstacles.length === 0;
   window.waitpoint = testHook(session, clock, parts);
   document.documentElement.dataset.ready = "true";
+}
+
+/** A finding begins with its lines side by side, about the events whose order matters. */
+async function showFinding(source, parts) {
+  parts.tabs.choose("lines");
+  await parts.panels.get("lines").compare(1);
+  const times = source.lines.flatMap((_, line) => source.marks(line).map(({time}) => time)),
+    margin = Math.max(extent(times), MILLISECOND);
+  if (times.length) parts.axis.set(Math.min(...times) - margin, Math.max(...times) + margin);
 }
 
 function showFacts(session) {

@@ -42,7 +42,7 @@ function buildParts(session, clock) {
   panel("modules", "Modules", (at) => new ModulesPanel(at, session, (wanted) => parts.plots.add(wanted)));
   panel("event", "Event", (at) => new EventPanel(at, session, clock, () => parts.timelineGestures));
   panel("log", "Log", (at) => new LogPanel(at, session, clock));
-  panel("lines", "Lines", (at) => new LinesPanel(at, session, clock));
+  panel("lines", "Lines", (at) => new LinesPanel(at, session, clock, axis));
   panel("run", "Run", (at) => new RunPanel(at, session, report, () => parts.timeline.data.counts));
   parts.beside = new Beside(session, clock, parts);
   parts.plots = new PlotsView(session, axis, clock);

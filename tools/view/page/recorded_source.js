@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A finished run that is in the document itself. It has the methods of LiveSource, and answers at once.
+// A finished run that is in the document itself. It has the methods of LiveSource, and answers at once. A finding has other lines
+// beside the run: the nearest schedule without the failure.
 
 class RecordedSource {
   /** text: the run as base64 of gzip of JSON. */
@@ -14,90 +15,47 @@ class RecordedSource {
     this.kind = "recorded";
     this.header = run.header;
     this.control = false;
-    this.frames = run.frames;
-    if (this.frames.length === 0) this.frames.push({kind: "frame", line: 0, time: 0, events: 0, robots: []});
-    this.store = new EventStore(
-      run.events ?? {t: [], k: [], o: [], x: [], tasks: [], objects: [], from: 0, to: 0, first: 1, complete: true},
-      run.header.operations
-    );
-    this.until = Math.max(this.frames.at(-1).time, this.store.count ? this.store.time.at(-1) : 0);
+    this.lines = [run, ...(run.others ?? [])].map((one) => new RecordedLine(one, run.header));
     this.log = run.log ?? [];
+    const summary = run.summary ?? "",
+      found = (expression) => expression.exec(summary)?.[1] ?? "";
     this.status = {
-      time: this.until,
-      events: this.frames.at(-1).events,
+      time: this.lines[0].to,
+      events: this.lines[0].frames.at(-1).events,
       over: true,
-      outcome: run.outcome ?? (/: (.+?) after/.exec(run.summary ?? "") ?? ["", ""])[1],
-      summary: run.summary ?? "",
-      digest: run.digest ?? (/wp1:[0-9a-f]+/.exec(run.summary ?? "") ?? [""])[0],
-      speed: 0,
-      paused: false,
-      lines: [{line: 0, from: 0, parent: null, name: "run", to: this.until}]
+      outcome: run.outcome ?? found(/: (.+?) after/),
+      summary,
+      digest: run.digest ?? found(/(wp1:[0-9a-f]+)/),
+      lines: this.lines.map(({to, run: {name}}, line) => ({line, from: 0, parent: null, name: name ?? "run", to}))
     };
-    this.complete();
   }
 
   on() {}
 
-  /** Scans, routes and the like are in a frame only when they are new: here each frame gets those that are still valid. */
-  complete() {
-    let obstacles = this.header.obstacles;
-    const kept = this.header.robots.map(() => ({}));
-    for (const frame of this.frames) {
-      obstacles = frame.obstacles ?? obstacles;
-      frame.obstacles = obstacles;
-      frame.robots.forEach((robot, index) => robot && carryOver(kept[index], robot));
-    }
-  }
-
   async frame(line, time) {
-    return this.frameAt(Math.max(0, Math.min(time, this.until)), null);
+    const shown = this.lines[line];
+    return shown.frameAt(Math.max(0, Math.min(time, shown.to)), null);
   }
 
-  /** Poses between two frames are interpolated, so that a run plays smoothly; the rest is the earlier frame's. */
-  frameAt(time, executed) {
-    const next = firstWhere(this.frames.length, (i) => this.frames[i].time > time);
-    const frame = this.frames[Math.max(0, next - 1)],
-      after = this.frames[next];
-    const events = executed ?? (this.store.count ? this.store.first - 1 + this.store.at(time + 1) : frame.events);
-    if (!after || time === frame.time) return {...frame, time, events};
-    const part = (time - frame.time) / (after.time - frame.time);
-    const robots = frame.robots.map((robot, index) =>
-      robot && after.robots[index] ? between(robot, after.robots[index], part) : robot
-    );
-    return {...frame, time, events, robots};
-  }
-
-  /** The frame after `count` more events (fewer, if negative), of the task of that number if one is given. */
   async step(line, count, task, from) {
-    const store = this.store,
-      executed = from.events - (store.first - 1);
-    const lane = task === null ? null : store.lanes[store.tasks.findIndex((one) => one.number === task)];
-    const done = lane ? firstWhere(lane.length, (i) => lane[i] >= executed) : executed;
-    const target = Math.max(0, Math.min(done + count, lane ? lane.length : store.count));
-    if (target === 0) return {...this.frameAt(0, store.first - 1), event: null};
-    const index = lane ? lane[target - 1] : target - 1;
-    const event = store.describe(index);
-    return {...this.frameAt(event.time, event.number), event};
+    return this.lines[line].step(count, task, from);
   }
 
-  async events() {
-    return this.store;
+  async events(line) {
+    return this.lines[line].store;
   }
 
-  async counts() {
-    return this.run.counts ?? null;
+  async counts(line) {
+    return this.lines[line].run.counts ?? null;
   }
 
   async tasks(line, frame) {
-    const executed = frame.events - (this.store.first - 1);
-    return this.store.tasks.length
-      ? this.store.tasks.map((task, index) => taskAt(this.store, index, executed, frame.time))
-      : (this.run.tasks?.tasks ?? []);
+    return this.lines[line].tasks(frame);
   }
 
   /** Modules are recorded at the end only; `time` says so. */
   async modules(line, robot) {
-    return this.run.modules?.find((modules) => modules.robot === robot) ?? null;
+    return this.lines[line].run.modules?.find((modules) => modules.robot === robot) ?? null;
   }
 
   plottable() {
@@ -105,45 +63,31 @@ class RecordedSource {
   }
 
   async plot(line, wanted) {
-    const found = (this.run.plots ?? []).find(
-      (plot) => plot.robot === wanted.robot && plot.poster === wanted.poster && plot.field === wanted.field
-    );
-    return found ? {t: found.t ?? this.run.plot_times, v: found.v} : {t: [], v: []};
+    const {plots, plot_times: times} = this.lines[line].run;
+    const found = (plots ?? []).find((plot) => ["robot", "poster", "field"].every((key) => plot[key] === wanted[key]));
+    return found ? {t: found.t ?? times, v: found.v} : {t: [], v: []};
   }
 
-  /** The robot's true places up to `time`, of frames no older than `span`. */
   trail(line, robot, time, span) {
-    const end = firstWhere(this.frames.length, (i) => this.frames[i].time > time);
-    const begin = firstWhere(end, (i) => this.frames[i].time >= time - span);
-    return this.frames
-      .slice(begin, end)
-      .map((frame) => frame.robots[robot]?.truth)
-      .filter(Boolean);
+    return this.lines[line].trail(robot, time, span);
   }
 
-  async stack() {
-    return null;
+  /** Of a finding's marked events only. */
+  async stack(line, event) {
+    const mark = this.marks(line).find((one) => one.number === event);
+    if (mark?.frames) return mark;
+    throw new Error("Not recorded: waitpoint run --serve tells it.");
   }
-}
 
-/** Gives a robot's frame what it leaves out as unchanged. A scan keeps the pose at which it was taken. */
-function carryOver(kept, robot) {
-  if (robot.scans) robot.scans.forEach((scan) => (scan.pose ??= robot.truth));
-  for (const name of ["scans", "sonars", "route", "segments"]) {
-    if (robot[name] === undefined) robot[name] = kept[name];
-    else kept[name] = robot[name];
+  /** Events of interest, with a text and a call stack. */
+  marks(line) {
+    const {store} = this.lines[line];
+    return (this.run.marks ?? [])
+      .filter((mark) => mark.line === line)
+      .map((mark) => ({...store.describe(mark.event - store.first), ...mark}));
   }
-}
 
-function between(robot, after, part) {
-  const pose = (a, b) =>
-    !a || !b
-      ? a
-      : a.map((value, i) => (i === 2 ? value + wrapped(b[i] - value) * part : value + (b[i] - value) * part));
-  return {
-    ...robot,
-    truth: pose(robot.truth, after.truth),
-    estimate: pose(robot.estimate, after.estimate),
-    odometry: pose(robot.odometry, after.odometry)
-  };
+  async compare() {
+    return this.run.difference ?? {event: null};
+  }
 }

@@ -95,13 +95,15 @@ def runs(kept):
 
 
 def squeeze_code(part):
-    """Without the parentheses about a function's only parameter, and what need not be before the end of a block or list.
+    """Shorter words for the same: no parentheses about a function's only parameter, nothing needless before the end of a block.
 
-    Constants become variables: that nothing assigns to them has been seen by then, by the tests on the sources.
+    Constants become variables: that nothing assigns to them has been seen by then, by the tests on the sources. Sources end
+    statements with semicolons, so that after a brace a line need not end; the begins of functions still begin lines.
     """
     text = re.sub(r"(?<![\w$)\]])\((\w+)\)=>", r"\1=>", "".join(part))
     text = re.sub(r"(?<![.\w$])const(?=[\s\[{])", "let", text)
-    return re.sub(r";+(?=})|,(?=[}\])])", "", text).replace("}\n}", "}}")
+    text = re.sub(r"(?<![.\w$])(true|false)(?![\w$])", lambda word: "!0" if word[1] == "true" else "!1", text)
+    return re.sub(r"}\n(?!class |function |async )", "}", re.sub(r";+(?=})|,(?=[}\])])", "", text))
 
 
 def squeeze_style(text):

@@ -10,7 +10,7 @@ class TimelineView {
     this.rows = new TimelineRows(session);
     this.data = new TimelineData(session, axis, line, () => this.refresh());
     this.places = null;
-    this.mark = null; // an instant of interest: the first event that differs from another line
+    this.marks = []; // instants of interest: {time, text}
     this.hovered = null; // {x, y} of the pointer
     this.canvas = element("canvas", {
       tabindex: 0,
@@ -103,7 +103,7 @@ class TimelineView {
       for (const row of visible)
         if (row.tasks.length > 1 ? row.closed : true)
           if (!few) drawMissed(pen, counts, row.tasks, axis, y(row), row.height);
-    if (this.mark !== null) this.paintMark(pen, height);
+    for (const mark of this.marks) this.paintMark(pen, height, mark);
     pen.restore();
     this.moveCursor();
   }
@@ -181,15 +181,18 @@ class TimelineView {
     for (const {row, numbers} of lanes) drawDensity(pen, this.axis, numbers, y(row), row.height, greatest);
   }
 
-  paintMark(pen, height) {
-    const x = Math.round(this.axis.x(this.mark));
+  paintMark(pen, height, {time, text}) {
+    const x = Math.round(this.axis.x(time));
     pen.strokeStyle = theme.colours.late;
     pen.lineWidth = 2;
     pen.setLineDash([6, 3]);
     pen.beginPath();
-    (pen.moveTo(x, RULER), pen.lineTo(x, height));
+    pen.moveTo(x, RULER);
+    pen.lineTo(x, height);
     pen.stroke();
     pen.setLineDash([]);
+    pen.textAlign = "left";
+    haloText(pen, text, x + 5, RULER + 10);
   }
 
   /** The cursor is behind the last event that has been executed, where events of its instant are set apart. */
