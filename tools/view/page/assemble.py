@@ -10,8 +10,6 @@ import pathlib
 import re
 import sys
 
-from squeeze import squeeze_page, squeeze_script, squeeze_style
-
 LICENCE = re.compile(r"^(//|/\*) SPDX-License-Identifier: .*\n", re.MULTILINE)
 
 
@@ -27,12 +25,11 @@ def put(document, marker, text):
 
 
 def assemble(page, style, scripts):
-    code = "".join(map(squeeze_script, scripts))
-    style = squeeze_style(style)
+    code = "".join(scripts)
     # Either would end its element early.
     if "</script" in code.lower() or "</style" in style.lower():
         sys.exit("assemble.py: the end of an element within a script or style sheet")
-    document = put(squeeze_page(page), "<!--style-->", f"<style>\n{style}</style>")
+    document = put(page, "<!--style-->", f"<style>\n{style}</style>")
     return put(document, "<!--script-->", f'<script>\n(() => {{"use strict";\n{code}}})();\n</script>')
 
 
