@@ -16,7 +16,7 @@ class Clock {
   }
 
   get end() {
-    return this.session.source.status?.lines.find((one) => one.line === this.session.line)?.to ?? 0;
+    return this.session.end;
   }
 
   changed() {
@@ -89,8 +89,8 @@ class Clock {
   /** The line beside this one is shown at the same time, as far as it goes. */
   async followCompared(time) {
     const {compared, source} = this.session;
-    const end = source.status.lines.find((one) => one.line === compared.line)?.to ?? 0;
-    compared.frame = await source.frame(compared.line, Math.min(time, end));
+    const {parent, to} = source.status.lines.find((one) => one.line === compared.line) ?? {to: 0, parent: null};
+    compared.frame = await source.frame(compared.line, parent === null ? Math.min(time, to) : time);
     this.session.changed("compare");
   }
 

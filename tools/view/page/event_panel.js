@@ -24,7 +24,11 @@ class EventPanel {
       element("h2", {}, "Source"),
       this.stack
     );
-    session.on("event", () => this.load());
+    const load = seldom(150, () => this.load());
+    session.on("event", () => {
+      this.update();
+      load();
+    });
   }
 
   update() {
@@ -64,7 +68,6 @@ class EventPanel {
 
   /** The call stack at the event, if the source can tell it: the run is repeated up to there for that. */
   async load() {
-    this.update();
     const {event, source, line} = this.session;
     if (!event) return;
     this.stack.replaceChildren(element("li", {class: "note"}, "…"));

@@ -7,12 +7,13 @@ function connectSource(session, clock, parts) {
   if (source.kind !== "live") return;
   const growing = seldom(700, () => {
     if (axis.whole) axis.showAll();
-    timeline.data.need();
+    return timeline.data.need();
   });
-  const counting = seldom(2500, () => {
-    timeline.data.loadCounts();
+  const counting = seldom(2500, async () => {
+    await timeline.data.loadCounts();
     parts.transport.overview.invalidate();
   });
+  let known = 0;
   source.on("frame", (frame) => {
     if (clock.live && frame.line === session.line) session.show(frame);
   });
@@ -22,6 +23,9 @@ function connectSource(session, clock, parts) {
       clock.seek(clock.end);
     }
     session.changed("run");
+    const far = axis.end;
+    if (far === known) return;
+    known = far;
     growing();
     counting();
   });

@@ -18,24 +18,6 @@ function report(text) {
   report.timer = setTimeout(() => setText(byId("message"), ""), 8000);
 }
 
-/** Calls a function at most once in a while, and once after the last wish. */
-function seldom(milliseconds, action) {
-  let waiting = false,
-    last = -Infinity;
-  return () => {
-    if (waiting) return;
-    waiting = true;
-    setTimeout(
-      () => {
-        waiting = false;
-        last = performance.now();
-        action();
-      },
-      Math.max(0, last + milliseconds - performance.now())
-    );
-  };
-}
-
 async function start() {
   theme.choose("auto");
   const source = await openSource(),

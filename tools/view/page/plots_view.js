@@ -6,7 +6,7 @@ class PlotsView {
     Object.assign(this, {session, axis, clock});
     this.plots = [];
     this.host = byId("plot-list");
-    this.load = seldom(120, () => this.plots.forEach((plot) => this.loadOne(plot)));
+    this.load = seldom(120, () => Promise.all(this.plots.map((plot) => this.loadOne(plot))));
     this.fields = byId("plot-field");
     byId("plot-add").addEventListener("click", () => this.fields.value && this.add(JSON.parse(this.fields.value)));
     axis.listeners.push(() => {
@@ -20,8 +20,9 @@ class PlotsView {
     this.begin();
   }
 
-  /** A run begins with the selected robot's speed, if that is there. */
+  /** A recorded run begins with the selected robot's speed, if that is there. A live one would have to be repeated for it. */
   begin() {
+    if (this.session.source.kind !== "recorded") return;
     const speed = this.session.source
       .plottable()
       .find((one) => one.robot === this.session.robot && /(^|\.)v_m_s$/.test(one.field));

@@ -26,6 +26,14 @@ class Session {
     return this.frame ? this.frame.time : 0;
   }
 
+  /** How far the line of time goes. A branch goes on when it is asked: at least as far as the run has come. */
+  get end() {
+    const {lines} = this.source.status,
+      own = lines.find((line) => line.line === this.line);
+    if (!own) return 0;
+    return own.parent === null ? own.to : Math.max(own.to, lines[0].to);
+  }
+
   get robotName() {
     return this.header.robots[this.robot]?.name ?? "";
   }

@@ -15,8 +15,7 @@ class TimeAxis {
   }
 
   get end() {
-    const line = this.session.source.status?.lines.find((one) => one.line === this.session.line);
-    return Math.max(line?.to ?? 0, MILLISECOND);
+    return Math.max(this.session.end, MILLISECOND);
   }
 
   get span() {

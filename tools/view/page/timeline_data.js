@@ -18,6 +18,7 @@ class TimelineData {
       counts.byKey = new Map(counts.tasks.map(([number, name, robot], i) => [`${robot}/${name}/${number}`, i]));
     this.counts = counts;
     this.changed();
+    this.need();
   }
 
   forget() {
@@ -48,6 +49,8 @@ class TimelineData {
   async need() {
     const {source} = this.session,
       {from, to, span} = this.axis;
+    // Without the counts of a live run it is not known whether they would be too many.
+    if (source.kind === "live" && !this.counts) return;
     if (this.covers(from, to) || this.asked || this.tooMany(from, to)) return;
     const wanted = {from: Math.max(0, Math.floor(from - span / 2)), to: Math.ceil(to + span / 2)};
     this.asked = wanted;
