@@ -57,9 +57,7 @@ class EventStore {
   }
 
   objectText(object) {
-    if (object < 0) return "";
-    const {kind, number, label} = this.objects[object];
-    return `${kind}#${number}${label ? ` "${label}"` : ""}`;
+    return object < 0 ? "" : objectText(this.objects[object]);
   }
 
   describe(index) {
@@ -90,6 +88,9 @@ class EventStore {
     return -1;
   }
 }
+
+/** 'mutex#44 "mailbox"', as reports have it. */
+const objectText = ({kind, number, label}) => `${kind}#${number}${label ? ` "${label}"` : ""}`;
 
 /** Operations that can end another task's wait. */
 const WAKING = new Set([

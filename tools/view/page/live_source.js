@@ -151,10 +151,13 @@ class LiveSource {
     return this.connection.ask("plot", {line, robot, poster, field, from, to, points});
   }
 
+  /** The places before `time` as far as they are known without a gap: after a seek there are few. */
   trail(line, robot, time, span) {
-    const places = this.places.get(line)?.[robot] ?? [];
-    const end = firstWhere(places.length, (i) => places[i].time > time),
-      begin = firstWhere(end, (i) => places[i].time >= time - span);
+    const places = this.places.get(line)?.[robot] ?? [],
+      end = firstWhere(places.length, (i) => places[i].time > time);
+    let begin = Math.max(0, end - 1);
+    while (begin > 0 && places[begin].time - places[begin - 1].time < SECOND && places[begin - 1].time >= time - span)
+      --begin;
     return places.slice(begin, end).map((place) => place.truth);
   }
 

@@ -26,12 +26,16 @@ class Session {
     return this.frame ? this.frame.time : 0;
   }
 
+  get lineState() {
+    const {lines} = this.source.status;
+    // A branch just made may be here before the status that has it.
+    return lines.find((line) => line.line === this.line) ?? {from: 0, to: 0, parent: 0};
+  }
+
   /** How far the line of time goes. A branch goes on when it is asked: at least as far as the run has come. */
   get end() {
-    const {lines} = this.source.status,
-      own = lines.find((line) => line.line === this.line);
-    if (!own) return 0;
-    return own.parent === null ? own.to : Math.max(own.to, lines[0].to);
+    const {to, parent} = this.lineState;
+    return parent === null ? to : Math.max(to, this.source.status.lines[0].to);
   }
 
   get robotName() {

@@ -45,10 +45,7 @@ class TasksPanel {
 function doingText(task) {
   const {object} = task,
     parts = [];
-  if (object)
-    parts.push(
-      `${task.operation} ${object.kind}#${object.number}${object.label ? ` "${object.label}"` : ""}${object.owner ? `, held by ${object.owner}` : ""}`
-    );
+  if (object) parts.push(`${task.operation} ${objectText(object)}${object.owner ? `, held by ${object.owner}` : ""}`);
   else if (task.operation) parts.push(task.operation);
   if (task.work) parts.push(task.work);
   if (task.deadline !== null && task.deadline !== undefined) parts.push(`until ${shortInstantText(task.deadline)}`);

@@ -8,6 +8,7 @@ class TimelineData {
     Object.assign(this, {session, axis, line, changed});
     this.store = null;
     this.counts = null;
+    this.states = null; // of tasks, by key
     this.asked = null; // the view of a question under way
     this.state = "";
   }
@@ -62,6 +63,7 @@ class TimelineData {
           ? store
           : await source.events(this.line(), Math.max(0, Math.floor(from)), Math.ceil(to), MOST_EVENTS);
       this.state = "";
+      if (source.kind === "live") await this.loadStates();
     } catch (error) {
       this.state = error.message;
     }
@@ -69,6 +71,15 @@ class TimelineData {
     this.changed();
     // The view may have moved meanwhile; an answer that did not cover it is not asked for again and again.
     if (this.store && (this.axis.from !== from || this.axis.to !== to)) this.need();
+  }
+
+  /** The states at the cursor, for tasks that have no event in the store: they are in the same state all the time. */
+  async loadStates() {
+    const {session, store} = this,
+      {time} = session;
+    if (this.line() !== session.line || time < store.from || time > store.to) return (this.states = null);
+    const tasks = await session.source.tasks(session.line);
+    this.states = new Map(tasks.map((task) => [`${task.robot}/${task.name}/${task.number}`, task]));
   }
 
   tooMany(from, to) {

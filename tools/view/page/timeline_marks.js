@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What is drawn in the timeline's lanes: states and events if they are few, their density if they are many.
 
-const MOST_APART = 400; // events in view, up to which those of an instant are set apart
+const MOST_APART = 160; // events in view, up to which those of an instant are set apart
 
 /**
  * Places of events on the axis. Events of one instant have one time; where there is room before the next instant, they are set
@@ -56,18 +56,11 @@ function drawLane(pen, store, places, axis, task, period, top, height, thin) {
     // Waits shorter than a pixel are left out. Work is not, however short: a pixel has some or none.
     if (!state || (small && (waits || before < 0 || store.time[after] === store.time[before] || x0 < workedTo))) return;
     if (!waits) workedTo = Math.max(x1, x0 + 1.5);
-    if (state === "idle") {
-      pen.fillStyle = theme.colours.idle;
-      pen.fillRect(x0, middle - 0.75, x1 - x0, 1.5);
-      return;
-    }
+    if (waits) return drawWait(pen, state, thin ? "" : store.objectText(object), x0, x1, middle, body * 0.5);
     pen.fillStyle = stateFill(pen, state);
-    const size = state === "blocked" ? body * 0.5 : body;
-    pen.fillRect(x0, middle - size / 2, Math.max(1.5, x1 - x0), size);
-    if (state === "blocked" && x1 - x0 > 80 && !thin)
-      laneText(pen, object >= 0 ? store.objectText(object) : "waits", x0 + 6, middle, x1 - x0 - 12);
+    pen.fillRect(x0, middle - body / 2, Math.max(1.5, x1 - x0), body);
     const end = after >= 0 ? store.time[after] : axis.to;
-    if (period > 0 && activation !== null && state !== "blocked" && end > activation + period) {
+    if (period > 0 && activation !== null && end > activation + period) {
       const late = Math.max(x0, Math.min(axis.x(activation + period), x1));
       pen.fillStyle = stateFill(pen, "late");
       pen.fillRect(late, middle - body / 2, Math.max(2, x1 - late), body);
@@ -82,6 +75,26 @@ function drawLane(pen, store, places, axis, task, period, top, height, thin) {
     draw(event, after, places.of(event), after >= 0 ? places.of(after) : axis.x(store.to));
     if (store.time[event] > axis.to) break;
   }
+}
+
+/** A span in which a task is idle, or blocked on what the text tells. */
+function drawWait(pen, state, text, x0, x1, middle, size) {
+  if (state === "idle") {
+    pen.fillStyle = theme.colours.idle;
+    pen.fillRect(x0, middle - 0.75, x1 - x0, 1.5);
+    return;
+  }
+  pen.fillStyle = stateFill(pen, "blocked");
+  pen.fillRect(x0, middle - size / 2, x1 - x0, size);
+  if (text && x1 - x0 > 80) laneText(pen, text, x0 + 6, middle, x1 - x0 - 12);
+}
+
+/** The whole lane of a task without events, by its state at the cursor. */
+function drawQuietLane(pen, axis, task, top, height) {
+  const asleep = /^(sleep|timer_wait)$/.test(task.operation);
+  if (task.state !== "blocked" && !asleep) return;
+  const text = task.object ? objectText(task.object) : task.operation;
+  drawWait(pen, asleep ? "idle" : "blocked", text, axis.left, axis.left + axis.width, top + height / 2, height * 0.31);
 }
 
 /** A text on the ground of the lane, which interrupts what is below it; none if there is no room. */
@@ -181,4 +194,18 @@ function drawArrow(pen, x0, y0, x1, y1, strong) {
   (pen.moveTo(x1, y1), pen.lineTo(x1 - 3, y1 - direction * 6), pen.lineTo(x1 + 3, y1 - direction * 6));
   pen.fill();
   pen.globalAlpha = 1;
+}
+
+/** An instant of interest over all lanes. */
+function drawMark(pen, x, height, text) {
+  pen.strokeStyle = theme.colours.late;
+  pen.lineWidth = 2;
+  pen.setLineDash([6, 3]);
+  pen.beginPath();
+  pen.moveTo(Math.round(x), RULER);
+  pen.lineTo(Math.round(x), height);
+  pen.stroke();
+  pen.setLineDash([]);
+  pen.textAlign = "left";
+  haloText(pen, text, x + 5, RULER + 10);
 }

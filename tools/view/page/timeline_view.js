@@ -103,7 +103,7 @@ class TimelineView {
       for (const row of visible)
         if (row.tasks.length > 1 ? row.closed : true)
           if (!few) drawMissed(pen, counts, row.tasks, axis, y(row), row.height);
-    for (const mark of this.marks) this.paintMark(pen, height, mark);
+    for (const mark of this.marks) drawMark(pen, axis.x(mark.time), height, mark.text);
     pen.restore();
     this.moveCursor();
   }
@@ -122,7 +122,9 @@ class TimelineView {
     for (const row of visible) {
       if (row.kind === "robot" && !row.closed) continue;
       for (const task of row.tasks) {
-        const index = store.byKey.get(task.key);
+        const index = store.byKey.get(task.key),
+          known = this.data.states?.get(task.key);
+        if (index === undefined && known) drawQuietLane(pen, axis, known, y(row), row.height);
         if (index === undefined) continue;
         drawLane(pen, store, places, axis, index, this.periodOf(task), y(row), row.height, row.tasks.length > 1);
         if (count < 3000) drawTicks(pen, store, places, axis, index, y(row), row.height);
@@ -179,20 +181,6 @@ class TimelineView {
       1
     );
     for (const {row, numbers} of lanes) drawDensity(pen, this.axis, numbers, y(row), row.height, greatest);
-  }
-
-  paintMark(pen, height, {time, text}) {
-    const x = Math.round(this.axis.x(time));
-    pen.strokeStyle = theme.colours.late;
-    pen.lineWidth = 2;
-    pen.setLineDash([6, 3]);
-    pen.beginPath();
-    pen.moveTo(x, RULER);
-    pen.lineTo(x, height);
-    pen.stroke();
-    pen.setLineDash([]);
-    pen.textAlign = "left";
-    haloText(pen, text, x + 5, RULER + 10);
   }
 
   /** The cursor is behind the last event that has been executed, where events of its instant are set apart. */
