@@ -201,3 +201,20 @@ test('of many robots only those in view are asked for', async () => {
   assert.equal(scans, false);
   assert.ok(area < 40, `${view}`);
 });
+
+test('a slow program is not asked again before it has answered', async () => {
+  await open();
+  program.slow = {plot: 900, events: 600, counts: 600, tasks: 500, modules: 500, stack: 700};
+  await page.evaluate(() => window.waitpoint.parts.plots.add({robot: 0, poster: 'pom.position', field: 'pose.x'}));
+  await page.click('#tab-tasks');
+  for (let i = 0; i < 20; ++i) {
+    program.advance((5 + i / 10) * SECOND);
+    await page.evaluate((at) => window.waitpoint.parts.axis.set(at, at + 5e6), (1 + i / 100) * SECOND);
+    await new Promise((resolve) => setTimeout(resolve, 80));
+  }
+  await page.evaluate(() => window.waitpoint.clock.seek(2e9));
+  await new Promise((resolve) => setTimeout(resolve, 1500));
+  for (const ask of ['plot', 'events', 'counts', 'tasks'])
+    assert.ok(program.most[ask] <= 1, `${ask}: ${program.most[ask]} at once`);
+  assert.ok(program.asked.filter(({ask}) => ask === 'plot').length <= 5);
+});

@@ -15,6 +15,9 @@ export class LiveProgram {
     this.over = false;
     this.lines = [{line: 0, from: 0, parent: null, name: 'run', to: this.now}];
     this.asked = []; // all questions
+    this.slow = {}; // milliseconds that answers take, by question
+    this.under = {}; // questions under way
+    this.most = {}; // and the most at once
     this.cursor = {time: 0, events: 0};
     this.times = [];
     this.run.events.t.reduce((time, step) => (this.times.push(time + step), time + step), 0);
@@ -87,6 +90,13 @@ export class LiveProgram {
 
   answer(socket, {id, ask, ...fields}) {
     this.asked.push({ask, ...fields});
+    const slow = this.slow[ask] ?? 0;
+    this.most[ask] = Math.max(this.most[ask] ?? 0, (this.under[ask] = (this.under[ask] ?? 0) + 1));
+    setTimeout(() => this.reply(socket, id, ask, fields), slow);
+  }
+
+  reply(socket, id, ask, fields) {
+    --this.under[ask];
     const reply = this.replies[ask]?.call(this, fields, socket) ?? {error: `unknown question ${ask}`};
     socket.send(JSON.stringify({...reply, id}));
   }

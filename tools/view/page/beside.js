@@ -22,6 +22,9 @@ class Beside {
     parts.plan.title = on ? name(session.line) : "";
     if (on) this.plan.title = name(session.compared.line);
     if (this.host) this.host.hidden = !on;
+    // Two timelines share the height of one.
+    const part = byId("timeline");
+    if (on && part.offsetHeight < 400) part.style.height = "400px";
     parts.timeline.marks = this.marksOf(session.line);
     if (on) this.timeline.marks = this.marksOf(session.compared.line);
     if (on && this.shown !== session.compared.line) this.timeline.data.forget();

@@ -6,15 +6,14 @@ class PlotsView {
     Object.assign(this, {session, axis, clock});
     this.plots = [];
     this.host = byId("plot-list");
-    this.load = seldom(120, () => Promise.all(this.plots.map((plot) => this.loadOne(plot))));
     this.fields = byId("plot-field");
     byId("plot-add").addEventListener("click", () => this.fields.value && this.add(JSON.parse(this.fields.value)));
     axis.listeners.push(() => {
-      this.load();
+      this.loadAll();
       this.repaint();
     });
     session.on("time", () => this.moveCursors());
-    session.on("line", () => this.load());
+    session.on("line", () => this.loadAll());
     session.on("robot", () => this.showFields());
     this.showFields();
     this.begin();
@@ -83,8 +82,13 @@ class PlotsView {
     this.plots.push(plot);
     plot.surface = new Surface(canvas, (pen, width, height) => this.paint(plot, pen, width, height));
     this.listen(plot, canvas);
-    this.loadOne(plot);
+    plot.load = seldom(120, () => this.loadOne(plot));
+    plot.load();
     this.moveCursors();
+  }
+
+  loadAll() {
+    for (const plot of this.plots) plot.load();
   }
 
   freeColour() {
