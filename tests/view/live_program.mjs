@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A program with a live run, as far as the page can tell: the protocol's answers, from the sample. Tests break its connections
-// and let its run go on.
+// A program with a live run, as far as the page can tell: the protocol's answers, from the sample. Tests break its
+// connections and let its run go on.
 
 import http from 'node:http';
 import {WebSocketServer} from 'ws';

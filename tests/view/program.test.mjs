@@ -47,7 +47,10 @@ after(async () => {
 
 const digestIn = (text) => /wp1:[0-9a-f]+/.exec(text)[0];
 
-/** The robot in the table is where the trajectory has it; places of the trajectory between two instants are interpolated. */
+/**
+ * The robot in the table is where the trajectory has it; places of the trajectory between two instants are
+ * interpolated.
+ */
 async function isAt(page, seconds) {
   // Close by, where the robot is larger than what is drawn about it.
   await page.evaluate(() => {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Events of thirteen tasks: the world's, the bridge's, the executive's, and the control and execution tasks of five modules. At
-// 2 s pom.fusing waits for a mutex that ndd.motion holds; at 3 s segloc.slam is late by 8 ms.
+// Events of thirteen tasks: the world's, the bridge's, the executive's, and the control and execution tasks of five
+// modules. At 2 s pom.fusing waits for a mutex that ndd.motion holds; at 3 s segloc.slam is late by 8 ms.
 
 const MS = 1e6;
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A run for the tests, in the form that `waitpoint run --page` writes: a robot on rounds through two rooms, or many robots. All
-// of it is computed from the time, so that a test knows where everything is.
+// A run for the tests, in the form that `waitpoint run --page` writes: a robot on rounds through two rooms, or many
+// robots. All of it is computed from the time, so that a test knows where everything is.
 
 import {sampleEvents} from './sample_events.mjs';
 

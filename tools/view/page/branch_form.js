@@ -122,7 +122,10 @@ class BranchForm {
     this.fields.replaceChildren(...inputs);
   }
 
-  /** A request of one of the robot's modules, with an input for each of its fields; those left empty keep their defaults. */
+  /**
+   * A request of one of the robot's modules, with an input for each of its fields; those left empty keep their
+   * defaults.
+   */
   requestFields(robot, choice, text) {
     const modules = robot?.modules ?? [],
       inputs = element("span", {class: "row"});

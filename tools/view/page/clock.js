@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The cursor in time: seeking, stepping, playing. Questions to the source are put one at a time; while one is under way, the
-// latest wish waits, and a wish for steps adds to one that waits.
+// The cursor in time: seeking, stepping, playing. Questions to the source are put one at a time; while one is under
+// way, the latest wish waits, and a wish for steps adds to one that waits.
 
 class Clock {
   constructor(session, report) {
@@ -119,7 +119,8 @@ class Clock {
 
   tick(now) {
     if (!this.playing) return;
-    // Before the next tick is asked for, so that each picture shows what came of the tick before it: else every other one would.
+    // Before the next tick is asked for, so that each picture shows what came of the tick before it: else every other
+    // one would.
     askPicture();
     const passed = Math.min(now - this.last, 250) * MILLISECOND;
     this.last = now;

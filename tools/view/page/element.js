@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Elements of the document. Texts of a run reach it as text nodes and attributes only, never as markup.
 
-/** element("button", {class: "flat", "aria-label": "Play", onclick: f}, "text", child, ...); null properties and children are left out. */
+/**
+ * element("button", {class: "flat", "aria-label": "Play", onclick: f}, "text", child, ...); null properties and
+ * children are left out.
+ */
 function element(tag, properties = {}, ...children) {
   const made = document.createElement(tag);
   setProperties(made, properties);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Events of a run in columns, with an index for each task. An event is known here by its index, in the order of execution.
+// Events of a run in columns, with an index for each task. An event is known here by its index, in the order of
+// execution.
 
 class EventStore {
   /** columns: as the protocol's "events". period_of(robot, task): the task's period or 0. */
@@ -74,7 +75,10 @@ class EventStore {
     };
   }
 
-  /** The event that woke the task of event `index`, if that is a resumption: at the same instant, on the same object; or -1. */
+  /**
+   * The event that woke the task of event `index`, if that is a resumption: at the same instant, on the same object; or
+   * -1.
+   */
   waker(index) {
     if (this.operationName(index) !== "resume" || this.object[index] < 0) return -1;
     for (let i = index - 1; i >= 0 && this.time[i] === this.time[index]; --i) {

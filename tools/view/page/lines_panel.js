@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Lines of time: the run and its branches, which of them is shown, which one beside it, and where the two begin to differ.
+// Lines of time: the run and its branches, which of them is shown, which one beside it, and where the two begin to
+// differ.
 
 class LinesPanel {
   constructor(panel, session, clock, axis) {

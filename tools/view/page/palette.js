@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Colours of the canvases: the palette of Okabe and Ito, which people with any of the usual kinds of colour vision can tell
-// apart, in a light and a dark set. States of tasks differ in pattern, too.
+// Colours of the canvases: the palette of Okabe and Ito, which people with any of the usual kinds of colour vision can
+// tell apart, in a light and a dark set. States of tasks differ in pattern, too.
 
 const LIGHT = {
   floor: "#ffffff",

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Pointers, wheel and keys on a plan: drag pans, with the right button or in the oblique view with Shift it turns; two fingers
-// zoom; a click selects a robot; while measuring, a drag measures.
+// Pointers, wheel and keys on a plan: drag pans, with the right button or in the oblique view with Shift it turns; two
+// fingers zoom; a click selects a robot; while measuring, a drag measures.
 
 class PlanGestures {
   /** repaint: for all plans that share the camera; status: shows what is under the pointer, in words. */

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What robots measure, believe and intend, on the plan: lasers, sonars, the estimate with its covariance, maps, routes, goals.
+// What robots measure, believe and intend, on the plan: lasers, sonars, the estimate with its covariance, maps, routes,
+// goals.
 
 /** Each laser's scan as a fan, with a dot for each echo: beams that met nothing have none. */
 function drawScans(pen, camera, robot, state, index) {

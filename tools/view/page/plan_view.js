@@ -2,7 +2,9 @@
 // The plan: floor, obstacles and robots at the cursor of a line of time.
 
 class PlanView {
-  /** frame_of: the frame to show, which is another line's beside the first one. camera: shared by plans side by side. */
+  /**
+   * frame_of: the frame to show, which is another line's beside the first one. camera: shared by plans side by side.
+   */
   constructor(canvas, session, camera, frameOf, line) {
     this.session = session;
     this.camera = camera;

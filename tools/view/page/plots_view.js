@@ -19,7 +19,10 @@ class PlotsView {
     this.begin();
   }
 
-  /** A recorded run begins with the selected robot's speed, if that is there. A live one would have to be repeated for it. */
+  /**
+   * A recorded run begins with the selected robot's speed, if that is there. A live one would have to be repeated for
+   * it.
+   */
   begin() {
     if (this.session.source.kind !== "recorded") return;
     const speed = this.session.source

@@ -13,7 +13,9 @@ class RecordedLine {
     this.complete(header);
   }
 
-  /** Scans, routes and the like are in a frame only when they are new: here each frame gets those that are still valid. */
+  /**
+   * Scans, routes and the like are in a frame only when they are new: here each frame gets those that are still valid.
+   */
   complete(header) {
     let obstacles = header.obstacles;
     const kept = header.robots.map(() => ({}));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A finished run that is in the document itself. It has the methods of LiveSource, and answers at once. A finding has other lines
-// beside the run: the nearest schedule without the failure.
+// A finished run that is in the document itself. It has the methods of LiveSource, and answers at once. A finding has
+// other lines beside the run: the nearest schedule without the failure.
 
 class RecordedSource {
   /** text: the run as base64 of gzip of JSON. */

@@ -80,7 +80,7 @@ class Session {
   }
 }
 
-/** What the plan can show. Each has a letter of its own behind "l" in no menu: the keys are in the menu of layers. */
+/** What the plan can show, and what of it is shown at first. */
 const LAYERS = [
   {key: "grid", name: "Grid", on: true},
   {key: "furniture", name: "Furniture", on: true},

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a task does between two successive events of its own: events are the ends of its waits and the uses of primitives, and
-// the time between them is spent computing, waiting for an object, or asleep.
+// What a task does between two successive events of its own: events are the ends of its waits and the uses of
+// primitives, and the time between them is spent computing, waiting for an object, or asleep.
 
 const STATES = {
   running: {name: "running", pattern: null},
@@ -58,7 +58,8 @@ function activationFrom(store, lane, place) {
 
 /** The begin of the activation under way just before a lane's place; null if none is. */
 function activationBefore(store, lane, place) {
-  // An activation has tens of events; a task that does not wait for its timer for thousands has no period in this sense.
+  // An activation has tens of events; a task that does not wait for its timer for thousands has no period in this
+  // sense.
   for (let i = place - 1, end = Math.max(0, place - 2000); i >= end; --i) {
     const activation = activationFrom(store, lane, i);
     if (activation !== undefined) return activation;
@@ -66,7 +67,10 @@ function activationBefore(store, lane, place) {
   return null;
 }
 
-/** Where a task waits at the cursor: after `executed` events of the store, at `time`. The fields of the protocol's "tasks". */
+/**
+ * Where a task waits at the cursor: after `executed` events of the store, at `time`. The fields of the protocol's
+ * "tasks".
+ */
 function taskAt(store, task, executed, time) {
   const lane = store.lanes[task];
   const next = firstWhere(lane.length, (i) => lane[i] >= executed);

@@ -55,7 +55,10 @@ class TimeAxis {
     this.set(this.from + shift, this.to + shift);
   }
 
-  /** Brings an instant into view: at its edge the view goes on by most of its width, so that it stands still for a while. */
+  /**
+   * Brings an instant into view: at its edge the view goes on by most of its width, so that it stands still for a
+   * while.
+   */
   reveal(time) {
     if (time >= this.from && time <= this.to - 0.04 * this.span) return;
     const from = time - (time < this.from ? 0.7 : 0.12) * this.span;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The events that the timeline needs for its view: those of a recorded run are all there, those of a live one are asked for.
+// The events that the timeline needs for its view: those of a recorded run are all there, those of a live one are asked
+// for.
 
 const MOST_EVENTS = 30000; // beyond it, lanes show densities
 

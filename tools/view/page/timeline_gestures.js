@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Pointers, wheel and keys on a timeline: the ruler moves the cursor, a drag pans, the wheel zooms about the pointer, a click
-// selects an event and a double click goes to it.
+// Pointers, wheel and keys on a timeline: the ruler moves the cursor, a drag pans, the wheel zooms about the pointer, a
+// click selects an event and a double click goes to it.
 
 class TimelineGestures {
   /** tip: the element that tells what is under the pointer. */

@@ -8,7 +8,9 @@ class TimelineLabels {
     this.shown = "";
   }
 
-  /** Labels of the rows in view only: a thousand robots have many. Rows are made anew if they are others than before. */
+  /**
+   * Labels of the rows in view only: a thousand robots have many. Rows are made anew if they are others than before.
+   */
   update() {
     const {view} = this,
       {rows, session} = view,

@@ -134,7 +134,9 @@ function drawDensity(pen, axis, numbers, top, height, greatest) {
   pen.globalAlpha = 1;
 }
 
-/** The numbers for drawDensity of some tasks: of the store if it has all events in view, else of the counts by period. */
+/**
+ * The numbers for drawDensity of some tasks: of the store if it has all events in view, else of the counts by period.
+ */
 function densityOf(tasks, store, counts, axis) {
   const numbers = [],
     step = 2;

@@ -81,7 +81,9 @@ class TimelineRows {
   }
 }
 
-/** Tasks "module.task" by module; a module that is closed has one row for all its tasks. Others are rows of their own. */
+/**
+ * Tasks "module.task" by module; a module that is closed has one row for all its tasks. Others are rows of their own.
+ */
 function moduleRows(robot, tasks, closed) {
   const modules = new Map();
   for (const task of tasks) {

@@ -11,7 +11,6 @@ class TimelineView {
     this.data = new TimelineData(session, axis, line, () => this.refresh());
     this.places = null;
     this.marks = []; // instants of interest: {time, text}
-    this.hovered = null; // {x, y} of the pointer
     this.canvas = element("canvas", {
       tabindex: 0,
       role: "application",
