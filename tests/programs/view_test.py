@@ -126,6 +126,12 @@ class View(unittest.TestCase):
                 self.assertEqual((frame["time"], frame["events"]), (second * SECOND, before))
                 step = client.ask("step", line=0, count=1)
                 self.assertEqual((step["events"], step["event"]["text"]), (before + 1, lines[before]))
+            back = client.ask("step", line=0, count=-3)
+            self.assertEqual(back["events"], before - 2)
+            executive = next(task["number"] for task in client.ask("tasks", line=0)["tasks"] if task["name"] == "rflex.motion")
+            there = client.ask("step", line=0, count=-1, task=executive)["events"]
+            own = [i for i, line in enumerate(lines[:back["events"]], 1) if " rflex.motion " in line]
+            self.assertEqual(there, own[-2])
             events = client.ask("events", line=0, **{"from": 9 * SECOND, "to": 10 * SECOND})
             self.assertEqual(list(self.event_lines(header, events)),
                              [line for line in lines if 9 <= float(line.split()[0]) < 10])
@@ -148,6 +154,15 @@ class View(unittest.TestCase):
             self.assertEqual((moved["line"], kept["line"]), (1, 0))
             self.assertNotEqual(moved["robots"][0]["truth"], kept["robots"][0]["truth"])
             journal = client.ask("journal", line=1)
+            different = client.ask("compare", line=0, **{"with": 1})
+            self.assertTrue(5 * SECOND < different["time"] < 5.1 * SECOND, different)
+            stopped = client.ask("branch", line=0, time=6 * SECOND, interventions=["request rackham ndd Stop"])["line"]
+            client.ask("seek", line=stopped, time=8 * SECOND)
+            different = client.ask("compare", line=0, **{"with": stopped})
+            self.assertEqual((different["time"], different["b"]), (6_010_000_000, "operator of rackham: start"))
+            same = client.ask("branch", line=0, time=5 * SECOND, interventions=[])["line"]
+            client.ask("seek", line=same, time=12 * SECOND)
+            self.assertEqual(client.ask("compare", line=0, **{"with": same}), {"id": client.asked, "event": None})
             self.assertIn("--replay-journal", journal["command"])
             refused = client.ask("branch", line=0, time=5 * SECOND, interventions=["move nobody 20 6 90"])
             self.assertIn("nobody", refused["error"])
@@ -253,8 +268,10 @@ class View(unittest.TestCase):
             os.kill(int(children.split()[0]), signal.SIGKILL)
             viewed.wait_for_end_of_run()
             self.assertEqual(client.ask("seek", line=0, time=0)["time"], 0)
-            while not status.get("over"):
+            pushed = [each for each in client.pushed if each.get("over")]
+            while not (pushed or status.get("over")):
                 status = client.receive()
+            status = (pushed or [status])[0]
             self.assertEqual(status["outcome"], "crashed")
             self.assertEqual(viewed.end(), 128 + signal.SIGKILL)
 

@@ -102,15 +102,19 @@ History::Cursor& History::cursor_at(const CursorKey& key, const Line& line, Time
   if (old != cursors_.end() && old->second->time <= time && old->second->time >= snapshot.time &&
       (!old->second->is_made || old->second->peer->is_open()))
     return *old->second;
-  if (old != cursors_.end()) {
+  return new_cursor(key, snapshot);
+}
+
+History::Cursor& History::new_cursor(const CursorKey& key, const Snapshot& from) {
+  if (const auto old = cursors_.find(key); old != cursors_.end()) {
     if (old->second->peer) leave(old->second->peer);
     cursors_.erase(old);
   }
   if (cursors_.size() >= cursors_max) throw BadInput("the view", "there are too many viewers of the past");
   const auto cursor = std::make_shared<Cursor>();
-  cursor->time = snapshot.time;
+  cursor->time = from.time;
   cursors_[key] = cursor;
-  copy(snapshot, [this, cursor](const std::shared_ptr<Peer>& peer) {
+  copy(from, [this, cursor](const std::shared_ptr<Peer>& peer) {
     cursor->peer = peer;
     cursor->is_made = true;
     for (auto& [request, reply] : std::exchange(cursor->waiting, {}))
@@ -142,15 +146,54 @@ void History::ask_cursor(Owner owner, const Json& request, Reply reply) {
   cursor.time = std::max(cursor.time, time);
   if (&line != &lines_.front()) line.reached = std::max(line.reached, time);
   if (!is_seek && present == cursors_.end()) ask(cursor, text_of(Json{{"do", "to"}, {"time", time.ns()}}), [](auto) {});
-  // Where steps lead is known from their reply.
+  // Where the cursor is then is known from the reply.
   const auto moved = [this, key, reply](const std::string& text) {
-    const auto now = cursors_.find(key);
-    if (const auto at = text.find("\"time\":"); now != cursors_.end() && at != std::string::npos)
-      now->second->time = std::max(now->second->time, Time::from_ns(std::atoll(text.c_str() + at + 7)));
+    if (const auto now = cursors_.find(key); now != cursors_.end()) now->second->note(text);
     reply(text);
   };
-  if (what == "step") return ask(cursor, without_view_members(request, "step"), moved);
-  ask(cursor, without_view_members(request, is_seek ? "to" : what.c_str()), std::move(reply));
+  if (what == "step") {
+    const auto count = request.value("count", std::int64_t{1});
+    if (count < 0) return step_back(owner, request, cursor.events, std::move(reply));
+  }
+  ask(cursor, without_view_members(request, is_seek ? "to" : what.c_str()), is_seek || what == "step" ? moved : reply);
+}
+
+// Members of a frame.
+void History::Cursor::note(const std::string& frame) {
+  const auto number_after = [&frame](std::string_view name) -> std::int64_t {
+    const std::size_t at = frame.find(name);
+    return at != std::string::npos ? std::atoll(frame.c_str() + at + name.size()) : 0;
+  };
+  time = std::max(time, Time::from_ns(number_after("\"time\":")));
+  events = static_cast<std::uint64_t>(number_after("\"events\":"));
+}
+
+// To the state after so many events fewer, or after so many fewer of one task, whose numbers a copy finds out.
+void History::step_back(Owner owner, const Json& request, std::uint64_t events, Reply reply) {
+  const Line& line = line_of(request);
+  const auto back = static_cast<std::uint64_t>(-request.at("count").get<std::int64_t>());
+  const auto go_to = [this, owner, request, &line, reply](std::uint64_t target) {
+    const CursorKey key(owner, static_cast<int>(&line - lines_.data()));
+    const Snapshot& from =
+        last_snapshot(line, [target](const Snapshot& snapshot) { return snapshot.events <= target; });
+    Cursor& cursor = new_cursor(key, from);
+    ask(cursor, text_of(Json{{"do", "to_event"}, {"event", target}, {"line", key.second}}),
+        [this, key, reply](const std::string& text) {
+          if (const auto now = cursors_.find(key); now != cursors_.end()) now->second->note(text);
+          reply(text);
+        });
+  };
+  if (!request.contains("task") || request["task"].is_null()) return go_to(events > back ? events - back : 0);
+  const Json find = {{"do", "event_before"}, {"event", events}, {"task", request["task"]}, {"count", back}};
+  const Snapshot& from = line.snapshots.front();
+  copy(from, [this, find, go_to, reply](const std::shared_ptr<Peer>& peer) {
+    if (!peer) return reply(error_text("a copy of the run cannot be made"));
+    peer->ask(text_of(find), [this, peer, go_to, reply](Channel::Message* message) {
+      const Json found = Json::parse(text_of_reply(message));
+      leave(peer);
+      found.contains("error") ? reply(text_of(found)) : go_to(found.at("event").get<std::uint64_t>());
+    });
+  });
 }
 
 void History::ask_once(Owner owner, const Json& request, Reply reply) {
@@ -245,6 +288,18 @@ void History::forget(Owner owner) {
     if (cursor->second->peer) leave(cursor->second->peer);
     cursor = cursors_.erase(cursor);
   }
+}
+
+History::Span History::apart(std::size_t line, std::size_t other) const {
+  const auto [first, second] = std::minmax(line, other);
+  if (second >= lines_.size()) throw BadInput("the view", "there is no line of time of this number");
+  // Branches come after the line that they leave; the way up from the second may have several.
+  for (int up = static_cast<int>(second); up >= 0; up = lines_[static_cast<std::size_t>(up)].parent) {
+    const Line& branch = lines_[static_cast<std::size_t>(up)];
+    if (branch.parent != static_cast<int>(first)) continue;
+    return {lines_[second].from, std::min(lines_[first].reached, lines_[second].reached)};
+  }
+  throw BadInput("the view", "expected a line and a branch of it");
 }
 
 Json History::lines() const {

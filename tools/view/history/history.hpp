@@ -48,6 +48,7 @@ class History {
 
   /// Requests of run_copy.hpp at the owner's cursor of that line: "seek" {line, time}, and step, tasks, modules,
   /// journal where the last one has left it.
+  /// A negative count of steps is back.
   void ask_cursor(Owner owner, const Json& request, Reply reply);
   /// events, plot, stack, digests, counts of a line: in a copy of their own, few at a time, in the order of asking.
   void ask_once(Owner owner, const Json& request, Reply reply);
@@ -56,6 +57,12 @@ class History {
   /// The owner has gone: its cursors, and what it still waits for.
   void forget(Owner owner);
 
+  struct Span {
+    Time from, to;
+  };
+  /// Where two lines may differ: from the one's leaving the other to where both have come. BadInput if neither is a
+  /// branch of the other.
+  Span apart(std::size_t line, std::size_t other) const;
   /// For the status: [{"line", "from", "to", "parent", "name"}].
   Json lines() const;
 
@@ -74,8 +81,11 @@ class History {
   struct Cursor {
     std::shared_ptr<Peer> peer;  // null: it is being made
     Time time;                   // that it was last sent to
+    std::uint64_t events = 0;    // as its last reply has it
     bool is_made = false;
     std::vector<std::pair<std::string, Reply>> waiting;
+
+    void note(const std::string& frame);
   };
   using CursorKey = std::pair<Owner, int>;  // with the line
 
@@ -93,6 +103,8 @@ class History {
   void leave(const std::shared_ptr<Peer>& peer);
   void copy(const Snapshot& from, std::function<void(std::shared_ptr<Peer>)> use);
   Cursor& cursor_at(const CursorKey& key, const Line& line, Time time);
+  Cursor& new_cursor(const CursorKey& key, const Snapshot& from);
+  void step_back(Owner owner, const Json& request, std::uint64_t events, Reply reply);
   void ask(Cursor& cursor, std::string request, Reply reply);
   void ask_next();
   void ask_now(const Question& question);

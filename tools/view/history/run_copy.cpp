@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <csignal>
+#include <deque>
 #include <system_error>
 
 #include "fibers/kernel/call_stack.hpp"
@@ -88,6 +89,8 @@ std::string RunCopy::answer(const Json& request) {
     return floor();
   }
   if (what == "look") return floor();
+  if (what == "to_event") return to_event(request.at("event"));
+  if (what == "event_before") return event_before(request);
   if (what == "events_so_far") return text_of({{"events", experiment_.events()}});
   if (what == "step") return step(request);
   if (what == "tasks") return text_of(task_states(experiment_));
@@ -148,6 +151,29 @@ std::string RunCopy::step(const Json& request) {
   };
   while (event.is_null() && !is_over_ && channel_->is_wanted()) go_on(reached_ + window, enough);
   return floor({{"event", event}});
+}
+
+std::string RunCopy::to_event(std::uint64_t event) {
+  std::uint64_t seen = experiment_.events();
+  while (seen < event && !is_over_ && channel_->is_wanted())
+    go_on(reached_ + window, [&](const kernel::EventRecord&) { return ++seen == event; });
+  return floor();
+}
+
+// 0: there is none.
+std::string RunCopy::event_before(const Json& request) {
+  const std::uint64_t last = request.at("event"), count = request.at("count");
+  const std::uint32_t task = request.at("task");
+  std::uint64_t seen = experiment_.events();
+  std::deque<std::uint64_t> numbers;
+  while (seen < last && !is_over_ && channel_->is_wanted())
+    go_on(reached_ + window, [&](const kernel::EventRecord& record) {
+      ++seen;
+      if (record.task->number == task) numbers.push_back(seen);
+      if (numbers.size() > count + 1) numbers.pop_front();
+      return seen == last;
+    });
+  return text_of({{"event", numbers.size() > count ? numbers.front() : 0}});
 }
 
 std::string RunCopy::events(const Json& request) {

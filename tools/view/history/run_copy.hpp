@@ -8,6 +8,8 @@
 //   fork                       a copy of the copy: its channel comes as the reply's descriptor
 //   to {time}                  goes on to that time, everything at it included, and shows the floor
 //   step {count, task}         goes on by so many events, of one task if its number is given
+//   to_event {event}           goes on to the state after the event of this number
+//   event_before {event, task, count}    the number of the task's event that is so many before the last up to `event`
 //   look                       the floor
 //   events_so_far              their number
 //   tasks; modules {robot}     run_states.hpp
@@ -52,6 +54,8 @@ class RunCopy {
   void go_to(Time time);
   RunEnd go_on(Time time, const std::function<bool(const kernel::EventRecord&)>& enough = nullptr);
   std::string step(const Json& request);
+  std::string to_event(std::uint64_t event);
+  std::string event_before(const Json& request);
   std::string events(const Json& request);
   std::string plot(const Json& request);
   std::string stack(const Json& request);

@@ -9,6 +9,7 @@
 #include <ctime>
 
 #include "core/error.hpp"
+#include "tools/view/history/comparison.hpp"
 #include "tools/view/page.hpp"
 
 namespace waitpoint::tools::view {
@@ -136,7 +137,10 @@ void Viewer::send_frame(const std::string& text) {
 void Viewer::send_status() {
   if (status_.empty()) return;
   status_["lines"] = history_.lines();
-  send_to_all(text_of(status_));
+  std::string text = text_of(status_);
+  if (text == told_) return;
+  send_to_all(text);
+  told_ = std::move(text);
 }
 
 void Viewer::send_to_all(const std::string& text) {
@@ -163,6 +167,7 @@ void Viewer::answer(ClientNumber client, const Json& request, History::Reply rep
     if (scene_.empty()) throw BadInput("the view", "the run has not begun");
     reply(scene_);
     server_.send(client, "{\"kind\":\"log\",\"lines\":[" + log_ + "]}");
+    told_.clear();
     return send_status();
   }
   if (what == "follow") {
@@ -173,10 +178,16 @@ void Viewer::answer(ClientNumber client, const Json& request, History::Reply rep
   if (is_one_of("seek", "step", "tasks", "modules")) return history_.ask_cursor(client, request, std::move(reply));
   if (is_one_of("events", "plot", "stack", "digests", "counts"))
     return history_.ask_once(client, request, std::move(reply));
+  if (what == "compare") return compare(client, request, std::move(reply));
   if (!is_one_of("branch", "pause", "speed")) throw BadInput("the view", "there is no request '" + what + "'");
   if (!options_.is_controlled) throw BadInput("the view", "expected waitpoint run --serve-control for '" + what + "'");
   if (what == "branch") return history_.branch(request, std::move(reply));
   control(request, reply);
+}
+
+void Viewer::compare(ClientNumber client, const Json& request, History::Reply reply) {
+  const std::size_t line = request.at("line"), other = request.at("with");
+  std::make_shared<Comparison>(history_, client, line, other)->begin(std::move(reply));
 }
 
 // With the command that repeats it.

@@ -45,6 +45,7 @@ class Viewer {
   void received(ClientNumber client, const std::string& text);
   void answer(ClientNumber client, const Json& request, History::Reply reply);
   void answer_journal(ClientNumber client, const Json& request, const History::Reply& reply);
+  void compare(ClientNumber client, const Json& request, History::Reply reply);
   void follow(Client& client, const Json& request);
   void control(const Json& request, const History::Reply& reply);
   void send_frame(const std::string& text);
@@ -58,6 +59,7 @@ class Viewer {
   std::map<ClientNumber, Client> clients_;
   std::string scene_, log_;  // as the run sent them
   Json status_ = Json::object();
+  std::string told_;  // the last status that clients got
   std::size_t log_lines_ = 0;
   bool frame_is_due_ = false, run_is_over_ = false;
 };
