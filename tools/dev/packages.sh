@@ -10,6 +10,7 @@ declare -A debian=(
   [test]='libgtest-dev liboctomap-dev clang gdb libz3-dev python3-rosbag zstd xz-utils pigz pbzip2 perl libtbb-dev
          libuv1-dev cmake libopenmpi-dev openmpi-bin tcl8.6-dev'
   [ros]='python3-rosmaster libroscpp-dev libstd-msgs-dev'
+  [view]="chromium $(command -v node >/dev/null && command -v npm >/dev/null || echo nodejs npm)"
   [builds]='clang libc++-dev libc++abi-dev'
   [wraps]=''
   [valgrind]='valgrind'
@@ -28,6 +29,7 @@ declare -A upstream=(
          rosbag_storage and its messages'
   [test]='GoogleTest, OctoMap, g++ and clang++, gdb, Z3; if available: zstd, xz, pigz, pbzip2, Perl, TBB, libuv, CMake, Open MPI 4, Tcl 8.6'
   [ros]='the master of ROS 1, roscpp and std_msgs'
+  [view]='Chromium, Node.js 18, npm'
   [builds]='clang++ with libc++; Debian'"'"'s source packages'
   [wraps]='Debian'"'"'s source packages'
   [valgrind]='valgrind'
@@ -39,7 +41,7 @@ declare -A upstream=(
 )
 # Required for every build; all libraries except Google Benchmark and its peers come from subprojects/ if missing.
 declare -A tools=(
-  [run]='meson ninja c++ pkg-config python3' [test]='' [ros]='rosmaster' [builds]='clang++ apt-get' [wraps]='apt-get' [valgrind]='valgrind'
+  [run]='meson ninja c++ pkg-config python3' [test]='' [ros]='rosmaster' [view]='chromium node npm' [builds]='clang++ apt-get' [wraps]='apt-get' [valgrind]='valgrind'
   [bench]='' [peers]='' [check]='' [format]='clang-format'
 )
 
