@@ -45,6 +45,7 @@ std::vector<double> jitter_of(const std::vector<double>& times_s) {
 }
 
 nlohmann::ordered_json json_of(const Described& sample) {
+  if (sample.number == 0) return {{"number", 0}, {"median", nullptr}, {"deviation", nullptr}};
   return {{"number", sample.number}, {"median", sample.median}, {"deviation", sample.deviation}};
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/fit/fit.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <string_view>
@@ -58,6 +60,19 @@ void find_speeds(const logs::PlayingOrder& order, RobotFit& fit) {
   fit.w_max_rad_s = greatest(w);
 }
 
+/// Errors of this size are not a base's: the localisation has followed something else.
+void check_plausible(const OdometryFit& of, const std::string& log) {
+  constexpr double scale_most = 3, drift_most_rad_per_m = 1;
+  const auto is_scale = [](double scale) { return scale > 1 / scale_most && scale < scale_most; };
+  if (is_scale(of.travel_scale) && is_scale(of.turn_scale) && std::fabs(of.drift_rad_per_m) < drift_most_rad_per_m)
+    return;
+  throw BadInput(log,
+                 fmt::format("expected odometry that is right within a factor of {:g} and {:g} rad/m, found a travel "
+                             "scale of {:.4g}, a turn scale of {:.4g} and a drift of {:.4g} rad/m: was the "
+                             "localisation lost? (replay --picture)",
+                             scale_most, drift_most_rad_per_m, of.travel_scale, of.turn_scale, of.drift_rad_per_m));
+}
+
 }  // namespace
 
 FitArguments::FitArguments(CommandLine& line)
@@ -94,6 +109,7 @@ int fit(const FitOptions& options, std::span<const genom::ModuleType> types) {
   fitted.log = options.source.log.filename().string();
   fitted.mount = replayed->log.mount;
   fitted.odometry = fit_odometry(replayed->measured, replayed->localised, replayed->log.file);
+  check_plausible(fitted.odometry, replayed->log.file);
   fitted.laser = fit_laser(replayed->log);
   find_speeds(replayed->order, fitted);
   file.write(robot_type_text(fitted));
