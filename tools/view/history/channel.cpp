@@ -81,7 +81,7 @@ bool Channel::send(std::string_view text, int descriptor) {
   return is_open_;
 }
 
-void Channel::queue(std::string text) {
+void Channel::queue(std::string_view text) {
   outgoing_.push_back(framed(text, false));
   queued_ += outgoing_.back().size();
   flush();

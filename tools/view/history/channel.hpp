@@ -51,7 +51,7 @@ class Channel {
   // Without waiting, for one process that has many channels.
 
   /// Sends it now or by later calls of flush().
-  void queue(std::string text);
+  void queue(std::string_view text);
   /// Sends what there is room for; true if nothing is left.
   bool flush();
   /// Bytes that are queued.

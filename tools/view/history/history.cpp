@@ -37,7 +37,7 @@ History::~History() {
 }
 
 std::shared_ptr<Peer> History::join(Channel channel) {
-  const auto peer = std::make_shared<Peer>(std::move(channel));
+  auto peer = std::make_shared<Peer>(std::move(channel));
   loop_.watch(peer->number(), [this, peer] {
     peer->take_replies();
     if (!peer->is_open()) loop_.forget(peer->number());
@@ -117,23 +117,21 @@ History::Cursor& History::new_cursor(const CursorKey& key, const Snapshot& from)
   copy(from, [this, cursor](const std::shared_ptr<Peer>& peer) {
     cursor->peer = peer;
     cursor->is_made = true;
-    for (auto& [request, reply] : std::exchange(cursor->waiting, {}))
-      ask(*cursor, std::move(request), std::move(reply));
+    for (auto& [request, reply] : std::exchange(cursor->waiting, {})) ask(*cursor, std::move(request), reply);
   });
   return *cursor;
 }
 
-void History::ask(Cursor& cursor, std::string request, Reply reply) {
+void History::ask(Cursor& cursor, std::string request, const Reply& reply) {
   if (!cursor.is_made) {
-    cursor.waiting.emplace_back(std::move(request), std::move(reply));
+    cursor.waiting.emplace_back(std::move(request), reply);
     return;
   }
   if (!cursor.peer) return reply(error_text("a copy of the run cannot be made"));
-  cursor.peer->ask(std::move(request),
-                   [reply = std::move(reply)](Channel::Message* message) { reply(text_of_reply(message)); });
+  cursor.peer->ask(std::move(request), [reply = reply](Channel::Message* message) { reply(text_of_reply(message)); });
 }
 
-void History::ask_cursor(Owner owner, const Json& request, Reply reply) {
+void History::ask_cursor(Owner owner, const Json& request, const Reply& reply) {
   Line& line = line_of(request);
   const std::string what = request.at("ask");
   const CursorKey key(owner, static_cast<int>(&line - lines_.data()));
@@ -153,7 +151,7 @@ void History::ask_cursor(Owner owner, const Json& request, Reply reply) {
   };
   if (what == "step") {
     const auto count = request.value("count", std::int64_t{1});
-    if (count < 0) return step_back(owner, request, cursor.events, std::move(reply));
+    if (count < 0) return step_back(owner, request, cursor.events, reply);
   }
   ask(cursor, without_view_members(request, is_seek ? "to" : what.c_str()), is_seek || what == "step" ? moved : reply);
 }
@@ -169,7 +167,7 @@ void History::Cursor::note(const std::string& frame) {
 }
 
 // To the state after so many events fewer, or after so many fewer of one task, whose numbers a copy finds out.
-void History::step_back(Owner owner, const Json& request, std::uint64_t events, Reply reply) {
+void History::step_back(Owner owner, const Json& request, std::uint64_t events, const Reply& reply) {
   const Line& line = line_of(request);
   const auto back = static_cast<std::uint64_t>(-request.at("count").get<std::int64_t>());
   const auto go_to = [this, owner, request, &line, reply](std::uint64_t target) {
@@ -196,9 +194,9 @@ void History::step_back(Owner owner, const Json& request, std::uint64_t events, 
   });
 }
 
-void History::ask_once(Owner owner, const Json& request, Reply reply) {
+void History::ask_once(Owner owner, const Json& request, const Reply& reply) {
   if (questions_.size() >= questions_max) throw BadInput("the view", "there are too many questions at once");
-  questions_.push_back({owner, request, std::move(reply)});
+  questions_.push_back({owner, request, reply});
   ask_next();
 }
 
@@ -239,7 +237,7 @@ void History::ask_now(const Question& question) {
   });
 }
 
-void History::branch(const Json& request, Reply reply) {
+void History::branch(const Json& request, const Reply& reply) {
   if (lines_.size() >= lines_max) throw BadInput("the view", "there are too many lines of time");
   const Line& parent = line_of(request);
   const Time time = std::max(time_in(request, "time"), Time());
@@ -258,7 +256,8 @@ void History::branch(const Json& request, Reply reply) {
 }
 
 // One after the other; the first that is refused ends the attempt.
-void History::intervene(std::shared_ptr<Peer> peer, std::vector<std::string> texts, Line line, Reply reply) {
+void History::intervene(const std::shared_ptr<Peer>& peer, std::vector<std::string> texts, const Line& line,
+                        const Reply& reply) {
   if (texts.empty()) return add_line(peer, line, reply);
   const std::string next = texts.front();
   texts.erase(texts.begin());
@@ -269,7 +268,7 @@ void History::intervene(std::shared_ptr<Peer> peer, std::vector<std::string> tex
   });
 }
 
-void History::add_line(std::shared_ptr<Peer> peer, Line line, const Reply& reply) {
+void History::add_line(const std::shared_ptr<Peer>& peer, Line line, const Reply& reply) {
   peer->ask(R"({"do":"events_so_far"})", [=, this](Channel::Message* message) mutable {
     if (message == nullptr) return reply(text_of_reply(message));
     line.snapshots.push_back({line.from, Json::parse(message->text).at("events").get<std::uint64_t>(), peer});

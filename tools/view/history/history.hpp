@@ -49,11 +49,11 @@ class History {
   /// Requests of run_copy.hpp at the owner's cursor of that line: "seek" {line, time}, and step, tasks, modules,
   /// journal where the last one has left it.
   /// A negative count of steps is back.
-  void ask_cursor(Owner owner, const Json& request, Reply reply);
+  void ask_cursor(Owner owner, const Json& request, const Reply& reply);
   /// events, plot, stack, digests, counts of a line: in a copy of their own, few at a time, in the order of asking.
-  void ask_once(Owner owner, const Json& request, Reply reply);
+  void ask_once(Owner owner, const Json& request, const Reply& reply);
   /// {line, time, interventions}: a new line.
-  void branch(const Json& request, Reply reply);
+  void branch(const Json& request, const Reply& reply);
   /// The owner has gone: its cursors, and what it still waits for.
   void forget(Owner owner);
 
@@ -104,12 +104,13 @@ class History {
   void copy(const Snapshot& from, std::function<void(std::shared_ptr<Peer>)> use);
   Cursor& cursor_at(const CursorKey& key, const Line& line, Time time);
   Cursor& new_cursor(const CursorKey& key, const Snapshot& from);
-  void step_back(Owner owner, const Json& request, std::uint64_t events, Reply reply);
-  void ask(Cursor& cursor, std::string request, Reply reply);
+  void step_back(Owner owner, const Json& request, std::uint64_t events, const Reply& reply);
+  void ask(Cursor& cursor, std::string request, const Reply& reply);
   void ask_next();
   void ask_now(const Question& question);
-  void add_line(std::shared_ptr<Peer> peer, Line line, const Reply& reply);
-  void intervene(std::shared_ptr<Peer> peer, std::vector<std::string> texts, Line line, Reply reply);
+  void add_line(const std::shared_ptr<Peer>& peer, Line line, const Reply& reply);
+  void intervene(const std::shared_ptr<Peer>& peer, std::vector<std::string> texts, const Line& line,
+                 const Reply& reply);
 
   Loop loop_;
   std::vector<Line> lines_;

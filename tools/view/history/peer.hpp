@@ -21,9 +21,9 @@ class Peer {
   bool is_open() const { return channel_.is_open(); }
   bool is_idle() const { return replies_.empty(); }
 
-  void ask(std::string request, Reply reply) {
+  void ask(std::string_view request, Reply reply) {
     replies_.push_back(std::move(reply));
-    channel_.queue(std::move(request));
+    channel_.queue(request);
   }
 
   /// Call when the channel has something to read: hands over replies. They may ask again, but not destroy the peer.

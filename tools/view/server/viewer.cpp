@@ -160,7 +160,7 @@ void Viewer::received(ClientNumber client, const std::string& text) {
   }
 }
 
-void Viewer::answer(ClientNumber client, const Json& request, History::Reply reply) {
+void Viewer::answer(ClientNumber client, const Json& request, const History::Reply& reply) {
   const std::string what = request.at("ask");
   const auto is_one_of = [&what](auto... names) { return ((what == names) || ...); };
   if (what == "header") {
@@ -175,19 +175,18 @@ void Viewer::answer(ClientNumber client, const Json& request, History::Reply rep
     return reply("{}");
   }
   if (what == "journal") return answer_journal(client, request, reply);
-  if (is_one_of("seek", "step", "tasks", "modules")) return history_.ask_cursor(client, request, std::move(reply));
-  if (is_one_of("events", "plot", "stack", "digests", "counts"))
-    return history_.ask_once(client, request, std::move(reply));
-  if (what == "compare") return compare(client, request, std::move(reply));
+  if (is_one_of("seek", "step", "tasks", "modules")) return history_.ask_cursor(client, request, reply);
+  if (is_one_of("events", "plot", "stack", "digests", "counts")) return history_.ask_once(client, request, reply);
+  if (what == "compare") return compare(client, request, reply);
   if (!is_one_of("branch", "pause", "speed")) throw BadInput("the view", "there is no request '" + what + "'");
   if (!options_.is_controlled) throw BadInput("the view", "expected waitpoint run --serve-control for '" + what + "'");
-  if (what == "branch") return history_.branch(request, std::move(reply));
+  if (what == "branch") return history_.branch(request, reply);
   control(request, reply);
 }
 
-void Viewer::compare(ClientNumber client, const Json& request, History::Reply reply) {
+void Viewer::compare(ClientNumber client, const Json& request, const History::Reply& reply) {
   const std::size_t line = request.at("line"), other = request.at("with");
-  std::make_shared<Comparison>(history_, client, line, other)->begin(std::move(reply));
+  std::make_shared<Comparison>(history_, client, line, other)->begin(reply);
 }
 
 // With the command that repeats it.

@@ -43,9 +43,9 @@ class Viewer {
   void take(Channel::Message& message);
   void ask_for_frame();
   void received(ClientNumber client, const std::string& text);
-  void answer(ClientNumber client, const Json& request, History::Reply reply);
+  void answer(ClientNumber client, const Json& request, const History::Reply& reply);
   void answer_journal(ClientNumber client, const Json& request, const History::Reply& reply);
-  void compare(ClientNumber client, const Json& request, History::Reply reply);
+  void compare(ClientNumber client, const Json& request, const History::Reply& reply);
   void follow(Client& client, const Json& request);
   void control(const Json& request, const History::Reply& reply);
   void send_frame(const std::string& text);
