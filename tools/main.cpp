@@ -18,6 +18,7 @@
 #include "tools/check/self_check.hpp"
 #include "tools/command/interruption.hpp"
 #include "tools/command/program_layer.hpp"
+#include "tools/command/version.hpp"
 #include "tools/exec/exec.hpp"
 #include "tools/exec/program_process.hpp"
 #include "tools/explore/explore.hpp"
@@ -34,7 +35,6 @@
 #include "tools/run/run.hpp"
 #include "tools/run/run_watchdog.hpp"
 #include "tools/tcl_library.hpp"
-#include "tools/command/version.hpp"
 
 namespace waitpoint {
 namespace {

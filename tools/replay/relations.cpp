@@ -20,6 +20,7 @@ namespace {
 using namespace std::chrono_literals;
 using playback::StampedPose;
 
+constexpr double value_most = 1e6;  // metres and radians
 constexpr Duration apart_most = 1s, off_most = 100ms;
 
 Duration apart(Time a, Time b) { return a < b ? b - a : a - b; }
@@ -74,7 +75,8 @@ Relation read_relation(const std::string& file, int number, std::istringstream& 
   for (double& value : values) {
     word.clear();
     words >> word;
-    if (!parse_number(word, value)) throw bad("a number of the relation's x y z roll pitch yaw", word);
+    if (!parse_number(word, value) || !(std::fabs(value) <= value_most))
+      throw bad("a number of the relation's x y z roll pitch yaw, at most 1000000", word);
   }
   word.clear();
   words >> word;

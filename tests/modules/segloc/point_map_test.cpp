@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <vector>
 
@@ -25,7 +26,7 @@ class Drive {
 
   /// By steps of 0.2 m; the odometry's heading drifts by 0.01 rad per metre, and its distances are 2 % too long.
   void ahead(double metres) {
-    for (int steps = static_cast<int>(metres / 0.2 + 0.5); steps-- > 0;) move({0.2, 0, 0}, {0.204, 0, 0.002});
+    for (auto steps = std::lround(metres / 0.2); steps-- > 0;) move({0.2, 0, 0}, {0.204, 0, 0.002});
   }
   void turn(double angle_rad) {
     for (int i = 0; i < 8; ++i) move({0, 0, angle_rad / 8}, {0, 0, 1.02 * angle_rad / 8});

@@ -86,7 +86,7 @@ TEST(Relations, AFileHasALineForEachAndAMalformedOneIsNamed) {
     return "";
   };
   EXPECT_EQ(message("\n1 2 3 4 5 6 7\n"),
-            ":2: expected a number of the relation's x y z roll pitch yaw, found the end of the line");
+            ":2: expected a number of the relation's x y z roll pitch yaw, at most 1000000, found the end of the line");
   EXPECT_EQ(message("now 2\n"), ":1: expected a relation: stamp1 stamp2 x y z roll pitch yaw, found 'now'");
   EXPECT_EQ(message("1 2 3 4 5 6 7 8\n1 2 3 4 5 6 7 8 9\n"),
             ":2: expected the end of the line after a relation's eight numbers, found '9'");

@@ -28,6 +28,7 @@ def text_files(root):
             for name in folders
             if (not name.startswith(".") or name == ".ci")
             and not (here == pathlib.Path() and name.startswith("build"))
+            and name != "node_modules"
             and not (here == pathlib.Path("subprojects") and name != "packagefiles")
             and name != "__pycache__"
         )

@@ -31,7 +31,7 @@ void Comparison::begin(History::Reply reply) {
   compare_digests();
 }
 
-void Comparison::ask_both(const Json& request, std::function<void(std::array<std::string, 2>)> use) {
+void Comparison::ask_both(const Json& request, const std::function<void(const std::array<std::string, 2>&)>& use) {
   const auto replies = std::make_shared<std::array<std::string, 2>>();
   for (std::size_t i = 0; i < 2; ++i) {
     Json of_line = request;

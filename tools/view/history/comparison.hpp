@@ -23,7 +23,7 @@ class Comparison : public std::enable_shared_from_this<Comparison> {
   void compare_digests();
   void compare_events();
   void decide(const std::array<std::string, 2>& replies);
-  void ask_both(const Json& request, std::function<void(std::array<std::string, 2>)> use);
+  void ask_both(const Json& request, const std::function<void(const std::array<std::string, 2>&)>& use);
 
   History& history_;
   History::Owner owner_;

@@ -60,7 +60,6 @@ class Viewer {
   std::string scene_, log_;  // as the run sent them
   Json status_ = Json::object();
   std::string told_;  // the last status that clients got
-  std::size_t log_lines_ = 0;
   bool frame_is_due_ = false, run_is_over_ = false;
 };
 
