@@ -24,9 +24,9 @@ Sums gather(const SurfaceMap& map, std::span<const SurfacePoint> scan, const Pos
     const Point arm{cosine * point.position.x - sine * point.position.y,
                     sine * point.position.x + cosine * point.position.y};
     const Point at{pose.x + arm.x, pose.y + arm.y};
-    const SurfacePoint* near = map.nearest(at);
-    if (near == nullptr) continue;
     const Point own{cosine * point.normal.x - sine * point.normal.y, sine * point.normal.x + cosine * point.normal.y};
+    const SurfacePoint* near = map.nearest(at, own);
+    if (near == nullptr) continue;
     const bool has_own = own.x != 0 || own.y != 0, has_line = near->normal.x != 0 || near->normal.y != 0;
     if (has_own && has_line && dot(own, near->normal) < parameters.same_side_cos) continue;
     const Point gap = at - near->position;

@@ -54,15 +54,17 @@ void SurfaceMap::grow(int x_low, int y_low, int x_high, int y_high) {
   }
   const int width = x_high - x_low, height = y_high - y_low;
   const auto cells = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
-  std::vector<std::uint32_t> nearest(cells, none);
+  std::vector<std::uint32_t> nearest(cells, none), behind(cells, none);
   std::vector<std::uint8_t> scores(cells, 0);
   for (int y = 0; y < height_; ++y) {
     const auto from = static_cast<std::ptrdiff_t>(y) * width_;
     const auto to = static_cast<std::ptrdiff_t>(y + y_ - y_low) * width + (x_ - x_low);
     std::copy_n(nearest_.begin() + from, width_, nearest.begin() + to);
+    std::copy_n(behind_.begin() + from, width_, behind.begin() + to);
     std::copy_n(scores_.begin() + from, width_, scores.begin() + to);
   }
   nearest_ = std::move(nearest);
+  behind_ = std::move(behind);
   scores_ = std::move(scores);
   x_ = x_low;
   y_ = y_low;
@@ -83,9 +85,17 @@ void SurfaceMap::stamp(std::uint32_t point) {
       if (square > 256) continue;
       const std::uint8_t score = score_of_square_[static_cast<std::size_t>(square)];
       const std::size_t cell = row + static_cast<std::size_t>(x);
-      if (score <= scores_[cell]) continue;
-      scores_[cell] = score;
-      nearest_[cell] = point;
+      if (score > scores_[cell]) {
+        const SurfacePoint* const before = point_at(nearest_[cell]);
+        if (before != nullptr && dot(before->normal, points_[point].normal) < 0) behind_[cell] = nearest_[cell];
+        scores_[cell] = score;
+        nearest_[cell] = point;
+      } else if (dot(points_[nearest_[cell]].normal, points_[point].normal) < 0) {
+        const SurfacePoint* const other = point_at(behind_[cell]);
+        const Point centre{(x + 0.5) * cell_m_, (y + 0.5) * cell_m_};
+        const Point gap = other != nullptr ? other->position - centre : Point{reach_m_, reach_m_};
+        if (dx * dx + dy * dy < dot(gap, gap)) behind_[cell] = point;
+      }
     }
   }
 }

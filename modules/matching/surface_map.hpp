@@ -26,9 +26,17 @@ class SurfaceMap {
   /// The point nearest to the centre of the cell that contains `p`; null: none within reach.
   const SurfacePoint* nearest(Point p) const {
     const int x = column(p.x), y = column(p.y);
+    return contains(x, y) ? point_at(nearest_[index(x, y)]) : nullptr;
+  }
+  /// The same among the points whose surface faces as `normal` does, as far as they have one: a thin wall has two
+  /// sides.
+  const SurfacePoint* nearest(Point p, Point normal) const {
+    const int x = column(p.x), y = column(p.y);
     if (!contains(x, y)) return nullptr;
-    const std::uint32_t at = nearest_[index(x, y)];
-    return at == none ? nullptr : &points_[at];
+    const SurfacePoint* const first = point_at(nearest_[index(x, y)]);
+    if (first == nullptr || dot(first->normal, normal) >= 0) return first;
+    const SurfacePoint* const behind = point_at(behind_[index(x, y)]);
+    return behind != nullptr ? behind : first;
   }
 
   double cell_m() const { return cell_m_; }
@@ -51,13 +59,14 @@ class SurfaceMap {
     return static_cast<std::size_t>(y - y_) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x - x_);
   }
   void grow(int x_low, int y_low, int x_high, int y_high);
+  const SurfacePoint* point_at(std::uint32_t index) const { return index == none ? nullptr : &points_[index]; }
   void stamp(std::uint32_t point);
 
   double cell_m_, per_cell_, reach_m_;
   int reach_cells_;
   int x_ = 0, y_ = 0, width_ = 0, height_ = 0;
   std::vector<SurfacePoint> points_;
-  std::vector<std::uint32_t> nearest_;
+  std::vector<std::uint32_t> nearest_, behind_;  // by cell; behind: the nearest that faces the other way
   std::vector<std::uint8_t> scores_;
   std::array<std::uint8_t, 257> score_of_square_{};  // by the squared distance over that of the reach, times 256
 };

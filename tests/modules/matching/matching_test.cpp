@@ -69,6 +69,24 @@ TEST(Refinement, FindsThePoseOfAScanWithinAMillimetre) {
   EXPECT_GT(found.explained, 0.98);
 }
 
+// A partition whose sides are nearer to each other than a cell is wide.
+TEST(Refinement, AThinWallExplainsWhatIsSeenOfEitherSide) {
+  std::vector<SurfacePoint> both;
+  wall(both, {0, 0}, {6, 0});
+  wall(both, {6, -0.03}, {0, -0.03});
+  wall(both, {6, -3}, {6, 3});
+  const SurfaceMap map = map_of(both);
+  for (const bool above : {true, false}) {
+    std::vector<SurfacePoint> side;
+    above ? wall(side, {0, 0}, {6, 0}) : wall(side, {6, -0.03}, {0, -0.03});
+    wall(side, {6, above ? 0.0 : -3.0}, {6, above ? 3.0 : 0.0});
+    const Pose robot{3, above ? 1.0 : -1.0, 0.3};
+    const Refined found = refine(map, seen_from(robot, side), compose(robot, {0, 0.02, 0}), {}, {});
+    EXPECT_GT(found.explained, 0.98);
+    EXPECT_NEAR(found.pose.y, robot.y, 0.002);
+  }
+}
+
 TEST(Refinement, AlongACorridorThePriorDecides) {
   std::vector<SurfacePoint> corridor;
   wall(corridor, {0, 0}, {20, 0});
