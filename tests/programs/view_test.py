@@ -260,7 +260,7 @@ class View(unittest.TestCase):
         with Viewed("--until", "20") as viewed:
             viewed.wait_for_end_of_run()
             self.assertEqual(viewed.end(), 1)
-        with Viewed() as viewed:
+        with Viewed("--speed", "10") as viewed:
             client = viewed.client()
             while not (status := client.receive()).get("events"):
                 pass
