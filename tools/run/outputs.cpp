@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "fibers/kernel/fault_reports.hpp"
-#include "modules/run/plan.hpp"
 #include "tools/output/picture.hpp"
 #include "tools/output/summary.hpp"
 #include "tools/record/formats.hpp"
@@ -19,10 +18,7 @@ namespace {
 Outputs* of_this_run = nullptr;
 
 std::string picture_of(const run::Experiment& experiment, const bridge::RunResult& result) {
-  const world::WorldDescription& world = experiment.world().description();
-  std::vector<world::Obstacle> shown = world.obstacles, meshes = run::meshes_on_plan(world);
-  shown.insert(shown.end(), meshes.begin(), meshes.end());
-  return picture_svg(shown, result);
+  return picture_svg(view::obstacles_shown(experiment), result);
 }
 
 }  // namespace

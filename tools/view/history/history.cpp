@@ -88,10 +88,11 @@ const History::Snapshot& History::snapshot_before(const Line& line, Time time) c
   return last_snapshot(line, [time](const Snapshot& snapshot) { return snapshot.time <= time; });
 }
 
-void History::copy(const Snapshot& from, std::function<void(std::shared_ptr<Peer>)> use) {
-  from.peer->ask(R"({"do":"fork"})", [this, use = std::move(use)](Channel::Message* reply) {
-    const bool is_made = reply != nullptr && reply->descriptor.number() >= 0;
-    use(is_made ? join(Channel(std::move(reply->descriptor))) : nullptr);
+// Without a copy, the reply says so.
+void History::copy(const Snapshot& from, const Reply& reply, Use use) {
+  from.peer->ask(R"({"do":"fork"})", [this, reply, use = std::move(use)](Channel::Message* made) {
+    if (made == nullptr || made->descriptor.number() < 0) return reply(error_text("a copy of the run cannot be made"));
+    use(join(Channel(std::move(made->descriptor))));
   });
 }
 
@@ -114,11 +115,13 @@ History::Cursor& History::new_cursor(const CursorKey& key, const Snapshot& from)
   const auto cursor = std::make_shared<Cursor>();
   cursor->time = from.time;
   cursors_[key] = cursor;
-  copy(from, [this, cursor](const std::shared_ptr<Peer>& peer) {
+  const auto begin = [this, cursor](const std::shared_ptr<Peer>& peer) {
     cursor->peer = peer;
     cursor->is_made = true;
     for (auto& [request, reply] : std::exchange(cursor->waiting, {})) ask(*cursor, std::move(request), reply);
-  });
+  };
+  copy(
+      from, [begin](const std::string&) { begin(nullptr); }, begin);
   return *cursor;
 }
 
@@ -144,16 +147,20 @@ void History::ask_cursor(Owner owner, const Json& request, const Reply& reply) {
   cursor.time = std::max(cursor.time, time);
   if (&line != &lines_.front()) line.reached = std::max(line.reached, time);
   if (!is_seek && present == cursors_.end()) ask(cursor, text_of(Json{{"do", "to"}, {"time", time.ns()}}), [](auto) {});
-  // Where the cursor is then is known from the reply.
-  const auto moved = [this, key, reply](const std::string& text) {
+  if (what == "step") {
+    const auto count = request.value("count", std::int64_t{1});
+    if (count < 0) return step_back(key, request, cursor.events, reply);
+  }
+  ask(cursor, without_view_members(request, is_seek ? "to" : what.c_str()),
+      is_seek || what == "step" ? noting(key, reply) : reply);
+}
+
+// Where the cursor is then is known from the reply.
+History::Reply History::noting(const CursorKey& key, const Reply& reply) {
+  return [this, key, reply](const std::string& text) {
     if (const auto now = cursors_.find(key); now != cursors_.end()) now->second->note(text);
     reply(text);
   };
-  if (what == "step") {
-    const auto count = request.value("count", std::int64_t{1});
-    if (count < 0) return step_back(owner, request, cursor.events, reply);
-  }
-  ask(cursor, without_view_members(request, is_seek ? "to" : what.c_str()), is_seek || what == "step" ? moved : reply);
 }
 
 // Members of a frame.
@@ -166,36 +173,36 @@ void History::Cursor::note(const std::string& frame) {
   events = static_cast<std::uint64_t>(number_after("\"events\":"));
 }
 
+void History::go_to_event(const CursorKey& key, std::uint64_t event, const Reply& reply) {
+  const auto is_early = [event](const Snapshot& snapshot) { return snapshot.events <= event; };
+  const Line& line = lines_[static_cast<std::size_t>(key.second)];
+  Cursor& cursor = new_cursor(key, last_snapshot(line, is_early));
+  ask(cursor, text_of(Json{{"do", "to_event"}, {"event", event}, {"line", key.second}}), noting(key, reply));
+}
+
 // To the state after so many events fewer, or after so many fewer of one task, whose numbers a copy finds out.
-void History::step_back(Owner owner, const Json& request, std::uint64_t events, const Reply& reply) {
-  const Line& line = line_of(request);
+void History::step_back(const CursorKey& key, const Json& request, std::uint64_t events, const Reply& reply) {
   const auto back = static_cast<std::uint64_t>(-request.at("count").get<std::int64_t>());
-  const auto go_to = [this, owner, request, &line, reply](std::uint64_t target) {
-    const CursorKey key(owner, static_cast<int>(&line - lines_.data()));
-    const Snapshot& from =
-        last_snapshot(line, [target](const Snapshot& snapshot) { return snapshot.events <= target; });
-    Cursor& cursor = new_cursor(key, from);
-    ask(cursor, text_of(Json{{"do", "to_event"}, {"event", target}, {"line", key.second}}),
-        [this, key, reply](const std::string& text) {
-          if (const auto now = cursors_.find(key); now != cursors_.end()) now->second->note(text);
-          reply(text);
-        });
-  };
-  if (!request.contains("task") || request["task"].is_null()) return go_to(events > back ? events - back : 0);
+  if (!request.contains("task") || request["task"].is_null())
+    return go_to_event(key, events > back ? events - back : 0, reply);
   const Json find = {{"do", "event_before"}, {"event", events}, {"task", request["task"]}, {"count", back}};
-  const Snapshot& from = line.snapshots.front();
-  copy(from, [this, find, go_to, reply](const std::shared_ptr<Peer>& peer) {
-    if (!peer) return reply(error_text("a copy of the run cannot be made"));
-    peer->ask(text_of(find), [this, peer, go_to, reply](Channel::Message* message) {
+  const Snapshot& first = lines_[static_cast<std::size_t>(key.second)].snapshots.front();
+  copy(first, reply, [this, key, find, reply](const std::shared_ptr<Peer>& peer) {
+    peer->ask(text_of(find), [this, key, peer, reply](Channel::Message* message) {
       const Json found = Json::parse(text_of_reply(message));
       leave(peer);
-      found.contains("error") ? reply(text_of(found)) : go_to(found.at("event").get<std::uint64_t>());
+      if (found.contains("error")) return reply(text_of(found));
+      try {
+        go_to_event(key, found.at("event").get<std::uint64_t>(), reply);
+      } catch (const BadInput& refusal) {
+        reply(error_text(refusal.what()));
+      }
     });
   });
 }
 
 void History::ask_once(Owner owner, const Json& request, const Reply& reply) {
-  if (questions_.size() >= questions_max) throw BadInput("the view", "there are too many questions at once");
+  if (questions_.size() >= questions_max) return reply(error_text("the view: there are too many questions at once"));
   questions_.push_back({owner, request, reply});
   ask_next();
 }
@@ -227,14 +234,14 @@ void History::ask_now(const Question& question) {
     ask_next();
   };
   ++under_way_;
-  copy(snapshot, [this, end, text = without_view_members(request, what.c_str())](const std::shared_ptr<Peer>& peer) {
-    if (!peer) return end(error_text("a copy of the run cannot be made"));
-    peer->ask(text, [this, peer, end](Channel::Message* message) {
-      const std::string reply = text_of_reply(message);
-      leave(peer);
-      end(reply);
-    });
-  });
+  copy(snapshot, end,
+       [this, end, text = without_view_members(request, what.c_str())](const std::shared_ptr<Peer>& peer) {
+         peer->ask(text, [this, peer, end](Channel::Message* message) {
+           const std::string reply = text_of_reply(message);
+           leave(peer);
+           end(reply);
+         });
+       });
 }
 
 void History::branch(const Json& request, const Reply& reply) {
@@ -246,8 +253,7 @@ void History::branch(const Json& request, const Reply& reply) {
             .from = time,
             .reached = time};
   auto texts = request.at("interventions").get<std::vector<std::string>>();
-  copy(snapshot_before(parent, time), [this, line, time, texts, reply](const std::shared_ptr<Peer>& peer) {
-    if (!peer) return reply(error_text("a copy of the run cannot be made"));
+  copy(snapshot_before(parent, time), reply, [this, line, time, texts, reply](const std::shared_ptr<Peer>& peer) {
     peer->ask(text_of(Json{{"do", "to"}, {"time", time.ns()}}), [=, this](Channel::Message* message) {
       if (message == nullptr) return reply(text_of_reply(message));
       intervene(peer, texts, line, reply);

@@ -101,10 +101,13 @@ class History {
   void thin_out(Line& line);
   std::shared_ptr<Peer> join(Channel channel);
   void leave(const std::shared_ptr<Peer>& peer);
-  void copy(const Snapshot& from, std::function<void(std::shared_ptr<Peer>)> use);
+  using Use = std::function<void(const std::shared_ptr<Peer>& peer)>;
+  void copy(const Snapshot& from, const Reply& reply, Use use);
   Cursor& cursor_at(const CursorKey& key, const Line& line, Time time);
   Cursor& new_cursor(const CursorKey& key, const Snapshot& from);
-  void step_back(Owner owner, const Json& request, std::uint64_t events, const Reply& reply);
+  Reply noting(const CursorKey& key, const Reply& reply);
+  void go_to_event(const CursorKey& key, std::uint64_t event, const Reply& reply);
+  void step_back(const CursorKey& key, const Json& request, std::uint64_t events, const Reply& reply);
   void ask(Cursor& cursor, std::string request, const Reply& reply);
   void ask_next();
   void ask_now(const Question& question);

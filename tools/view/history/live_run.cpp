@@ -2,9 +2,10 @@
 #include "tools/view/history/live_run.hpp"
 
 #include <algorithm>
-#include <ctime>
 
 #include "core/error.hpp"
+#include "modules/run/ranks/processor_time.hpp"
+#include "tools/output/progress.hpp"
 #include "tools/output/summary.hpp"
 #include "tools/view/history/run_copy.hpp"
 #include "tools/view/module_lines.hpp"
@@ -18,12 +19,6 @@ namespace {
 constexpr double snapshot_period_s = 0.1;
 constexpr double status_period_s = 0.1;
 constexpr int pause_ms = 50;
-
-double clock_s(clockid_t clock) {
-  timespec now{};
-  clock_gettime(clock, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
 
 }  // namespace
 
@@ -46,7 +41,7 @@ void LiveRun::make_snapshot() {
   const Channel copy = here.fork();
   viewer_.send(text_of(Json{{"kind", "snapshot"}, {"time", reached_.ns()}, {"events", experiment_.events()}}),
                copy.number());
-  next_snapshot_s_ = clock_s(CLOCK_PROCESS_CPUTIME_ID) + snapshot_period_s_;
+  next_snapshot_s_ = run::processor_s() + snapshot_period_s_;
 }
 
 void LiveRun::after_window(Time reached, const std::function<bool()>& is_over) {
@@ -54,12 +49,12 @@ void LiveRun::after_window(Time reached, const std::function<bool()>& is_over) {
   counts_.take(reached);
   if (!viewer_.is_open()) return;
   take_requests();
-  if (clock_s(CLOCK_PROCESS_CPUTIME_ID) >= next_snapshot_s_) make_snapshot();
+  if (run::processor_s() >= next_snapshot_s_) make_snapshot();
   if (wanted_) {
     viewer_.send(frames_.read(reached, *wanted_) + "}");
     wanted_.reset();
   }
-  if (clock_s(CLOCK_MONOTONIC) >= next_status_s_) {
+  if (wall_clock_s() >= next_status_s_) {
     send_status();
     send_log();
   }
@@ -96,7 +91,7 @@ void LiveRun::heed(const std::string& text) {
 }
 
 void LiveRun::send_status() {
-  next_status_s_ = clock_s(CLOCK_MONOTONIC) + status_period_s;
+  next_status_s_ = wall_clock_s() + status_period_s;
   viewer_.send(text_of(Json{{"kind", "status"},
                             {"time", reached_.ns()},
                             {"events", experiment_.events()},

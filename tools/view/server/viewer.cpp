@@ -6,9 +6,9 @@
 
 #include <algorithm>
 #include <array>
-#include <ctime>
 
 #include "core/error.hpp"
+#include "tools/output/progress.hpp"
 #include "tools/view/history/comparison.hpp"
 #include "tools/view/page.hpp"
 
@@ -20,12 +20,6 @@ constexpr double frames_s_max = 60;
 // A client with more than this to take gets no further frames until it has taken them.
 constexpr std::size_t queued_max = 1 << 20;
 constexpr std::size_t log_bytes_max = 4 << 20;
-
-double wall_s() {
-  timespec now{};
-  clock_gettime(CLOCK_MONOTONIC, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
 
 /// A secret of 128 bits. It reaches no event.
 std::string make_token() {
@@ -111,7 +105,7 @@ void Viewer::take(Channel::Message& message) {
 void Viewer::ask_for_frame() {
   run_.flush();
   if (frame_is_due_ || run_is_over_) return;
-  const double now_s = wall_s();
+  const double now_s = wall_clock_s();
   bool any = false, scans = false;
   Json section = nullptr;
   for (const auto& [number, client] : clients_) {
@@ -126,7 +120,7 @@ void Viewer::ask_for_frame() {
 }
 
 void Viewer::send_frame(const std::string& text) {
-  const double now_s = wall_s();
+  const double now_s = wall_clock_s();
   for (auto& [number, client] : clients_) {
     if (!client.follows || now_s < client.next_s || server_.queued(number) > queued_max) continue;
     client.next_s = now_s + client.frame_s;
