@@ -3,7 +3,8 @@
 
 #include "core/error.hpp"
 #include "tools/record/carmen_recording.hpp"
-#include "tools/record/mcap_recording.hpp"
+#include "tools/record/foxglove_recording.hpp"
+#include "tools/record/mcap_file.hpp"
 
 #ifdef WAITPOINT_ROS_BAGS
 #include "tools/record/ros_bag_recording.hpp"
@@ -26,7 +27,8 @@ std::unique_ptr<Recording> make_bag(const std::filesystem::path& path,
 }  // namespace
 
 std::unique_ptr<Recording> make_recording(const std::filesystem::path& path, const scenario::Scenario& scenario) {
-  if (path.extension() == ".mcap") return std::make_unique<McapRecording>(path, scenario);
+  if (path.extension() == ".mcap")
+    return std::make_unique<FoxgloveRecording>(path, scenario, std::make_unique<McapFile>(path));
   if (path.extension() == ".log") return std::make_unique<CarmenRecording>(path, scenario);
   if (path.extension() == ".bag") return make_bag(path, scenario);
   throw BadInput("--record",

@@ -8,13 +8,10 @@
 
 #include "modules/bridge/run_result.hpp"
 #include "modules/posters/laser.hpp"
+#include "tools/record/topic_sink.hpp"
 
 namespace waitpoint::tools::foxglove {
 
-/// A schema's name and its JSON Schema text.
-struct Schema {
-  std::string name, text;
-};
 Schema clock();
 Schema frame_transform();
 Schema laser_scan();

@@ -71,22 +71,24 @@ void McapFile::append(std::string_view bytes) {
   size_ += bytes.size();
 }
 
-std::uint16_t McapFile::add_schema(const std::string& name, const std::string& text) {
-  const auto id = static_cast<std::uint16_t>(schemas_.size() + 1);  // 0 is none
-  schemas_.push_back(Fields().number(id).text(name).text("jsonschema").text(text).as_record(schema));
+std::uint16_t McapFile::number_of(const foxglove::Schema& of) {
+  const auto [found, is_new] = numbers_.try_emplace(of.name, schemas_.size() + 1);  // 0 is none
+  if (!is_new) return found->second;
+  schemas_.push_back(Fields().number(found->second).text(of.name).text("jsonschema").text(of.text).as_record(schema));
   chunk_ += schemas_.back();
-  return id;
+  return found->second;
 }
 
-std::uint16_t McapFile::add_channel(std::uint16_t of_schema, const std::string& topic) {
-  const auto id = static_cast<std::uint16_t>(channels_.size());
-  channels_.push_back(Fields().number(id).number(of_schema).text(topic).text("json").map(Fields()).as_record(channel));
+TopicSink::Topic McapFile::add(const foxglove::Schema& of_schema, const std::string& topic) {
+  const std::uint16_t number = number_of(of_schema);
+  const auto id = static_cast<Topic>(channels_.size());
+  channels_.push_back(Fields().number(id).number(number).text(topic).text("json").map(Fields()).as_record(channel));
   chunk_ += channels_.back();
   messages_[id] = 0;
   return id;
 }
 
-void McapFile::write(std::uint16_t on, Time time, std::string_view text) {
+void McapFile::write(Topic on, Time time, std::string_view text) {
   const std::uint64_t at = ns(time);
   std::vector<std::pair<std::uint64_t, std::uint64_t>>& index = in_chunk_[on];
   const bool is_first = in_chunk_.size() == 1 && index.empty();

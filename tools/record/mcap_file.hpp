@@ -14,24 +14,23 @@
 #include <string_view>
 #include <vector>
 
-#include "core/time.hpp"
 #include "tools/output/output_file.hpp"
+#include "tools/record/topic_sink.hpp"
 
 namespace waitpoint::tools {
 
-class McapFile {
+class McapFile final : public TopicSink {
  public:
   /// Throws BadInput if the file cannot be written; so do write() and finish().
   explicit McapFile(const std::filesystem::path& path);
 
-  /// Adds a kind of message: `text` is a JSON Schema. Returns its number, for add_channel().
-  std::uint16_t add_schema(const std::string& name, const std::string& text);
-  /// Adds a topic with JSON messages of a schema.
-  std::uint16_t add_channel(std::uint16_t schema, const std::string& topic);
-  /// Appends a message; times need not ascend.
-  void write(std::uint16_t channel, Time time, std::string_view message);
+  /// The topic is a channel of the file.
+  Topic add(const foxglove::Schema& schema, const std::string& topic) override;
+  bool wants(Topic) const override { return true; }
+  /// Appends a message.
+  void write(Topic topic, Time time, std::string_view message) override;
   /// Writes the index and renames the file into place.
-  void finish();
+  void finish() override;
 
  private:
   struct ChunkPlace {
@@ -43,6 +42,7 @@ class McapFile {
     std::uint64_t offset, length;
   };
 
+  std::uint16_t number_of(const foxglove::Schema& schema);
   void append(std::string_view bytes);
   void end_chunk();
   static std::string as_record(const ChunkPlace& place);
@@ -50,8 +50,9 @@ class McapFile {
 
   OutputFile file_;
   std::uint64_t size_ = 0;
-  std::uint32_t checksum_ = 0;                   // of everything written
-  std::vector<std::string> schemas_, channels_;  // as records
+  std::uint32_t checksum_ = 0;                    // of everything written
+  std::vector<std::string> schemas_, channels_;   // as records
+  std::map<std::string, std::uint16_t> numbers_;  // of schemas, by name
   std::string chunk_;
   std::uint64_t chunk_first_ns_ = 0, chunk_last_ns_ = 0;
   std::map<std::uint16_t, std::vector<std::pair<std::uint64_t, std::uint64_t>>> in_chunk_;  // (time, offset) by channel

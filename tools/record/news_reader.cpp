@@ -19,22 +19,27 @@ std::vector<world::Shape> shapes_of(const std::vector<world::Obstacle>& obstacle
 
 }  // namespace
 
-NewsReader::NewsReader(const scenario::Scenario& scenario, run::Experiment& experiment, Obstacles obstacles)
+bool Sampling::is_due(Time now) {
+  if (last_ && now - *last_ < sampling) return false;
+  last_ = now;
+  return true;
+}
+
+NewsReader::NewsReader(const scenario::Scenario& scenario, run::Experiment& experiment, Obstacles obstacles,
+                       Lines lines)
     : experiment_(experiment), obstacles_(obstacles) {
   for (std::size_t i = 0; i < scenario.robots.size(); ++i) {
     if (!experiment.is_here(i)) continue;
     bridge::Robot& robot = *experiment.robots()[i];
-    robots_.push_back({static_cast<std::uint32_t>(i), RobotPosters(scenario.robots[i], robot), ModuleLog()});
-    robot.set_watch(&robots_.back().modules);
+    robots_.push_back(
+        {static_cast<std::uint32_t>(i), RobotPosters(scenario.robots[i], robot), ModuleLog(robot.watch())});
+    if (lines == Lines::read) robot.set_watch(&robots_.back().modules);
   }
 }
 
-StepNews NewsReader::take(Time now) {
-  StepNews news{.now = now, .is_sampled = !sampled_ || now - *sampled_ >= sampling};
-  if (news.is_sampled) {
-    sampled_ = now;
-    if (obstacles_ == Obstacles::read && has_new_obstacles()) news.obstacles = drawn_;
-  }
+StepNews NewsReader::take(Time now, bool is_sampled) {
+  StepNews news{.now = now, .is_sampled = is_sampled};
+  if (is_sampled && obstacles_ == Obstacles::read && has_new_obstacles()) news.obstacles = drawn_;
   news.robots.reserve(robots_.size());
   for (OfRobot& robot : robots_) {
     const world::BodyState& body = experiment_.world().body(world::BodyId(robot.number));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A run for Foxglove and other viewers of MCAP files:
+// A run for Foxglove and other viewers, as a file or live:
 //
 //   /tf               every robot's frames: world -> ROBOT (true), world -> ROBOT/position (estimated), and
 //                     ROBOT/position -> ROBOT/LASER
@@ -8,24 +8,30 @@
 //   /ROBOT/LASER      its scans, in the frame ROBOT/LASER
 //   /ROBOT/odometry, /ROBOT/position, /ROBOT/truth    its poses
 //   /ROBOT/modules    requests to its modules and their outcomes, in words
-//   /ROBOT/goals      outcomes of its goals, in words
+//   /ROBOT/goals      outcomes of its goals, in words; when the run is over
+//
+// A message is made only if the sink wants it.
 #pragma once
 
-#include "tools/record/mcap_file.hpp"
+#include <memory>
+
+#include "tools/record/topic_sink.hpp"
 #include "tools/record/viewer_recording.hpp"
 
 namespace waitpoint::tools {
 
-class McapRecording final : public ViewerRecording {
+class FoxgloveRecording final : public ViewerRecording {
  public:
-  /// Throws BadInput if the file cannot be written.
-  McapRecording(const std::filesystem::path& path, const scenario::Scenario& scenario);
+  /// `path` is for messages.
+  FoxgloveRecording(const std::filesystem::path& path, const scenario::Scenario& scenario,
+                    std::unique_ptr<TopicSink> sink);
 
  private:
+  using Topic = TopicSink::Topic;
   /// Of one robot.
-  struct Channels {
-    std::vector<std::uint16_t> scans;
-    std::uint16_t odometry, position, truth, log;
+  struct Topics {
+    std::vector<Topic> scans;
+    Topic odometry, position, truth, log;
   };
 
   void add(const OfRobot& robot);
@@ -41,11 +47,11 @@ class McapRecording final : public ViewerRecording {
                   const posters::LaserReading& scan) override;
   void write_log(const OfRobot& robot, const ModuleLog::Line& line) override;
   void close(const bridge::RunResult& result) override;
+  void write_goals(const bridge::RobotResult& robot);
 
-  McapFile file_;
-  std::uint16_t transform_, scan_, log_, pose_, scene_, time_;  // schemas
-  std::uint16_t frames_, world_, clock_;                        // channels
-  std::vector<Channels> channels_;                              // by robot
+  std::unique_ptr<TopicSink> sink_;
+  Topic frames_, world_, clock_;
+  std::vector<Topics> topics_;  // by robot
   Time now_;
 };
 

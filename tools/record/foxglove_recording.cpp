@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/record/foxglove_recording.hpp"
+
+#include <fmt/format.h>
+
+#include "tools/record/foxglove.hpp"
+
+namespace waitpoint::tools {
+
+FoxgloveRecording::FoxgloveRecording(const std::filesystem::path& path, const scenario::Scenario& scenario,
+                                     std::unique_ptr<TopicSink> sink)
+    : ViewerRecording(path, scenario),
+      sink_(std::move(sink)),
+      frames_(sink_->add(foxglove::frame_transform(), "/tf")),
+      world_(sink_->add(foxglove::scene_update(), "/world")),
+      clock_(sink_->add(foxglove::clock(), "/clock")) {
+  topics_.reserve(robots().size());
+  for (const OfRobot& robot : robots()) add(robot);
+}
+
+void FoxgloveRecording::add(const OfRobot& robot) {
+  const auto topic = [&](const foxglove::Schema& schema, const std::string& name) {
+    return sink_->add(schema, "/" + robot.name + "/" + name);
+  };
+  Topics& of = topics_.emplace_back();
+  of.scans.reserve(robot.lasers.size());
+  for (const RecordedLaser& laser : robot.lasers) of.scans.push_back(topic(foxglove::laser_scan(), laser.name));
+  of.odometry = topic(foxglove::pose_in_frame(), "odometry");
+  of.position = topic(foxglove::pose_in_frame(), "position");
+  of.truth = topic(foxglove::pose_in_frame(), "truth");
+  of.log = topic(foxglove::log(), "modules");
+}
+
+void FoxgloveRecording::write_clock() {
+  if (sink_->wants(clock_)) sink_->write(clock_, now_, foxglove::clock(now_));
+}
+
+// Stamped with the time of the first message: equal worlds give equal texts.
+void FoxgloveRecording::write_obstacles(const std::vector<world::Shape>& shapes) {
+  if (sink_->wants(world_)) sink_->write(world_, now_, foxglove::scene_update(Time(), root, shapes));
+}
+
+void FoxgloveRecording::write_transform(Time date, const std::string& parent, const std::string& child,
+                                        const Pose& pose, double height_m) {
+  if (sink_->wants(frames_))
+    sink_->write(frames_, now_, foxglove::frame_transform(date, parent, child, pose, height_m));
+}
+
+void FoxgloveRecording::write_truth(const OfRobot& robot, Time date, const Pose& pose, double) {
+  const Topic topic = topics_[robot.number].truth;
+  if (sink_->wants(topic)) sink_->write(topic, now_, foxglove::pose_in_frame(date, root, pose));
+}
+
+void FoxgloveRecording::write_odometry(const OfRobot& robot, const posters::Odometry& odometry) {
+  const Topic topic = topics_[robot.number].odometry;
+  const posters::PositionEstimate& position = odometry.position;
+  if (sink_->wants(topic)) sink_->write(topic, now_, foxglove::pose_in_frame(position.date, root, position.pose));
+}
+
+void FoxgloveRecording::write_position(const OfRobot& robot, const posters::PositionEstimate& position) {
+  const Topic topic = topics_[robot.number].position;
+  if (sink_->wants(topic)) sink_->write(topic, now_, foxglove::pose_in_frame(position.date, root, position.pose));
+}
+
+void FoxgloveRecording::write_scan(const OfRobot& robot, std::size_t laser, const std::string& frame,
+                                   const posters::LaserReading& scan) {
+  const Topic topic = topics_[robot.number].scans[laser];
+  if (sink_->wants(topic)) sink_->write(topic, now_, foxglove::laser_scan(scan, frame));
+}
+
+void FoxgloveRecording::write_log(const OfRobot& robot, const ModuleLog::Line& line) {
+  const Topic topic = topics_[robot.number].log;
+  if (sink_->wants(topic)) sink_->write(topic, now_, foxglove::log(line.date, line.module, line.text, line.is_bad));
+}
+
+void FoxgloveRecording::close(const bridge::RunResult& result) {
+  for (const bridge::RobotResult& robot : result.robots) write_goals(robot);
+  if (result.outcome == bridge::Outcome::crashed) {
+    const Time end = Time() + result.simulated;
+    sink_->write(sink_->add(foxglove::log(), "/waitpoint"), end,
+                 foxglove::log(end, "waitpoint", "cut off: " + result.trouble, true));
+  }
+  sink_->finish();
+}
+
+void FoxgloveRecording::write_goals(const bridge::RobotResult& robot) {
+  const Topic goals = sink_->add(foxglove::log(), "/" + robot.name + "/goals");
+  for (const bridge::GoalResult& goal : robot.goals) {
+    if (goal.report.empty()) continue;
+    const std::string name = goal.name.empty() ? "goal" : goal.name;
+    const std::string words =
+        fmt::format("{} ({:.2f}, {:.2f}): {}", name, goal.position.x, goal.position.y, goal.report);
+    sink_->write(goals, goal.date, foxglove::log(goal.date, robot.name, words));
+  }
+}
+
+}  // namespace waitpoint::tools
