@@ -44,12 +44,14 @@ Viewer::Viewer(const ViewerOptions& options, Channel run)
       server_({options.address, options.port, make_token(), page()}, "--serve"),
       history_({[this](int descriptor, std::function<void()> ready) { server_.watch(descriptor, std::move(ready)); },
                 [this](int descriptor) { server_.forget(descriptor); }}) {
-  server_.opened = [this](ClientNumber client) { clients_[client]; };
-  server_.closed = [this](ClientNumber client) {
+  SocketService pages{.path = "/live"};
+  pages.opened = [this](ClientNumber client) { clients_[client]; };
+  pages.closed = [this](ClientNumber client) {
     clients_.erase(client);
     history_.forget(client);
   };
-  server_.received = [this](ClientNumber client, const std::string& text) { received(client, text); };
+  pages.received = [this](ClientNumber client, const std::string& text, bool) { received(client, text); };
+  server_.offer(std::move(pages));
   server_.watch(run_.number(), [this] { take_from_run(); });
 }
 

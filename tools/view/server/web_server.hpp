@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A small web server: one page, and WebSockets, whose clients send and get texts. One thread, without waiting; the same
-// loop watches other descriptors.
+// A small web server: one page, and WebSockets. One thread, without waiting; the same loop watches other descriptors.
 //
 // It is for one person on one machine: requests need a token, which the page's address has, and a Host and an Origin
 // that are the server's own, so that no other page of a browser reaches it. Connections, sizes of messages, and times
-// of silence are bounded; a client that does not take its texts is known by queued().
+// of silence are bounded; a client that does not take its messages is known by queued().
 #pragma once
 
 #include <cstdint>
@@ -13,10 +12,9 @@
 #include <string>
 #include <string_view>
 
-namespace waitpoint::tools::view {
+#include "tools/view/server/socket_service.hpp"
 
-/// Counts the WebSockets, from 1.
-using ClientNumber = std::uint64_t;
+namespace waitpoint::tools::view {
 
 struct WebServerOptions {
   std::string address = "127.0.0.1";
@@ -35,13 +33,14 @@ class WebServer {
 
   /// The page's address, with the token.
   std::string url() const;
+  /// The address of a service.
+  std::string url_of_socket(const std::string& path) const;
 
-  // Set before run().
-  std::function<void(ClientNumber)> opened, closed;
-  std::function<void(ClientNumber, std::string text)> received;
+  /// Before run().
+  void offer(SocketService service);
 
   /// Nothing for a client that has gone.
-  void send(ClientNumber client, std::string text);
+  void send(ClientNumber client, std::string data, bool is_text = true);
   /// Bytes that the client has not taken yet; 0 if it has gone.
   std::size_t queued(ClientNumber client) const;
   void close(ClientNumber client);

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/view/server/request_rules.hpp"
+
+#include <algorithm>
+
+namespace waitpoint::tools::view {
+
+namespace http = boost::beast::http;
+
+namespace {
+
+constexpr std::string_view own_scheme = "http://";
+constexpr const char* token_expected = "expected the address with the token that waitpoint printed\n";
+constexpr const char* host_expected = "this address is not the server's own\n";
+
+std::string_view field(const Request& request, http::field name) {
+  return {request[name].data(), request[name].size()};
+}
+
+Response begin(const Request& request) {
+  Response response(http::status::ok, request.version());
+  response.set(http::field::cache_control, "no-store");
+  response.set("X-Content-Type-Options", "nosniff");
+  response.set("Referrer-Policy", "no-referrer");
+  response.set(http::field::content_type, "text/plain; charset=utf-8");
+  response.keep_alive(false);
+  return response;
+}
+
+Response end(Response response, const Request& request) {
+  response.prepare_payload();
+  if (request.method() == http::verb::head) response.body().clear();
+  return response;
+}
+
+}  // namespace
+
+std::string_view RequestRules::path(const Request& request) {
+  const std::string_view target(request.target().data(), request.target().size());
+  return target.substr(0, target.find('?'));
+}
+
+bool RequestRules::has_token(const Request& request) const {
+  const std::string_view target(request.target().data(), request.target().size());
+  const std::size_t query = target.find('?');
+  return query != std::string_view::npos && target.substr(query + 1) == "token=" + token;
+}
+
+bool RequestRules::is_own(std::string_view origin) const {
+  return origin.empty() || (origin.starts_with(own_scheme) && knows(origin.substr(own_scheme.size())));
+}
+
+Response RequestRules::error(const Request& request, http::status status, const std::string& text) {
+  Response response = begin(request);
+  response.result(status);
+  response.body() = text;
+  return end(std::move(response), request);
+}
+
+Response RequestRules::answer(const Request& request) const {
+  if (request.method() != http::verb::get && request.method() != http::verb::head)
+    return error(request, http::status::method_not_allowed, "expected GET\n");
+  if (!knows(field(request, http::field::host))) return error(request, http::status::forbidden, host_expected);
+  if (path(request) != "/") return error(request, http::status::not_found, "there is only one page\n");
+  if (!has_token(request)) return error(request, http::status::forbidden, token_expected);
+  Response response = begin(request);
+  response.set(http::field::content_type, "text/html; charset=utf-8");
+  response.set("Content-Security-Policy",
+               "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data:; "
+               "connect-src 'self' ws://" +
+                   host + " ws://" + local_host +
+                   "; base-uri 'none'; form-action 'none'; "
+                   "frame-ancestors 'none'");
+  response.body() = page;
+  return end(std::move(response), request);
+}
+
+std::optional<Response> RequestRules::refusal(const Request& request, const SocketService& service) const {
+  if (!knows(field(request, http::field::host))) return error(request, http::status::forbidden, host_expected);
+  if (!has_token(request)) return error(request, http::status::forbidden, token_expected);
+  const std::string origin(field(request, http::field::origin));
+  if (!is_own(origin) && !std::ranges::count(service.origins, origin)) {
+    if (service.refused) service.refused(origin);
+    return error(request, http::status::forbidden, "pages of this origin may not connect\n");
+  }
+  if (!service.subprotocols.empty() && subprotocol(request, service).empty())
+    return error(request, http::status::bad_request, "expected the subprotocol " + service.subprotocols.front() + "\n");
+  return std::nullopt;
+}
+
+std::string RequestRules::subprotocol(const Request& request, const SocketService& service) {
+  for (const auto word : http::token_list(request[http::field::sec_websocket_protocol]))
+    if (std::string text(word.data(), word.size()); std::ranges::count(service.subprotocols, text)) return text;
+  return "";
+}
+
+}  // namespace waitpoint::tools::view

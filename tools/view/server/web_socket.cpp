@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/view/server/web_socket.hpp"
+
+#include <utility>
+
+namespace waitpoint::tools::view {
+
+namespace asio = boost::asio;
+namespace beast = boost::beast;
+namespace websocket = beast::websocket;
+using boost::system::error_code;
+
+namespace {
+
+// A client that has so much to take is dead or far too slow.
+constexpr std::size_t queued_bytes_max = 256 << 20;
+
+}  // namespace
+
+WebSocket::WebSocket(beast::tcp_stream stream, std::size_t message_bytes_max, Events events)
+    : socket_(std::move(stream)), events_(std::move(events)) {
+  socket_.set_option(websocket::stream_base::timeout::suggested(beast::role_type::server));
+  socket_.read_message_max(message_bytes_max);
+  socket_.auto_fragment(false);
+}
+
+void WebSocket::accept(const Request& request, const std::string& subprotocol) {
+  socket_.set_option(websocket::stream_base::decorator([subprotocol](websocket::response_type& response) {
+    if (!subprotocol.empty()) response.set(beast::http::field::sec_websocket_protocol, subprotocol);
+  }));
+  socket_.async_accept(request, [self = shared_from_this()](error_code error) {
+    if (error) return self->end();
+    self->is_open_ = true;
+    self->events_.opened();
+    self->read();
+  });
+}
+
+void WebSocket::read() {
+  socket_.async_read(buffer_, [self = shared_from_this()](error_code error, std::size_t) {
+    if (error) return self->end();
+    std::string data = beast::buffers_to_string(self->buffer_.data());
+    self->buffer_.consume(self->buffer_.size());
+    self->events_.received(std::move(data), self->socket_.got_text());
+    if (!self->has_ended_) self->read();
+  });
+}
+
+void WebSocket::send(std::string data, bool is_text) {
+  if (!is_open_ || has_ended_) return;
+  queued_ += data.size();
+  if (queued_ > queued_bytes_max) return end();
+  messages_.push_back({std::move(data), is_text});
+  if (messages_.size() == 1) write();
+}
+
+void WebSocket::write() {
+  socket_.text(messages_.front().is_text);
+  socket_.async_write(asio::buffer(messages_.front().data), [self = shared_from_this()](error_code error, std::size_t) {
+    if (error) return self->end();
+    self->queued_ -= self->messages_.front().data.size();
+    self->messages_.pop_front();
+    if (!self->messages_.empty() && !self->has_ended_) self->write();
+  });
+}
+
+void WebSocket::end() {
+  if (std::exchange(has_ended_, true)) return;
+  const std::shared_ptr<WebSocket> self = shared_from_this();
+  beast::get_lowest_layer(socket_).close();
+  events_.ended(is_open_);
+}
+
+}  // namespace waitpoint::tools::view
