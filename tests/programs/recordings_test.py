@@ -6,24 +6,22 @@ format's reference reader.
 """
 
 import functools
-import io
 import json
 import math
 import pathlib
 import re
 import shutil
-import struct
 import subprocess
 import sys
 import tempfile
 import unittest
 import zlib
 
+from mcap_records import (CHANNEL, CHUNK, CHUNK_INDEX, DATA_END, FOOTER, HEADER, MAGIC, MESSAGE, MESSAGE_INDEX, SCHEMA, STATISTICS,
+                          SUMMARY_OFFSET, Fields, records)
+
 BUILD = pathlib.Path(sys.argv.pop(1)).resolve()
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-MAGIC = b"\x89MCAP0\r\n"
-HEADER, FOOTER, SCHEMA, CHANNEL, MESSAGE, CHUNK, MESSAGE_INDEX, CHUNK_INDEX = range(1, 9)
-STATISTICS, SUMMARY_OFFSET, DATA_END = 0x0B, 0x0E, 0x0F
 
 
 @functools.lru_cache(maxsize=None)
@@ -43,40 +41,6 @@ def recorded(name):
     done = run("--record", folder() / name)
     assert "digest" in done.stdout, done.stderr
     return folder() / name
-
-
-class Fields:
-    """The fields of a record, in sequence."""
-
-    def __init__(self, data):
-        self.stream = io.BytesIO(data)
-
-    def number(self, size):
-        return int.from_bytes(self.stream.read(size), "little")
-
-    def raw(self):
-        return self.stream.read(self.number(4))
-
-    def text(self):
-        return self.raw().decode()
-
-    def map(self, *sizes):
-        inner, found = Fields(self.raw()), []
-        while inner.stream.tell() < len(inner.stream.getbuffer()):
-            found.append(tuple(inner.number(size) for size in sizes))
-        return found
-
-    def rest(self):
-        return self.stream.read()
-
-
-def records(data, start=0):
-    """(offset, operation, content) of each record."""
-    at = start
-    while at < len(data):
-        operation, length = struct.unpack_from("<BQ", data, at)
-        yield at, operation, data[at + 9:at + 9 + length]
-        at += 9 + length
 
 
 class Mcap(unittest.TestCase):
