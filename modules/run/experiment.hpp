@@ -70,6 +70,7 @@ class Experiment {
   Time intervene(Intervention intervention, std::optional<Time> date = std::nullopt);
   /// Called after each step of the world; must not change anything or throw.
   void set_observer(std::function<void(Time now)> observer) { observer_ = std::move(observer); }
+  const std::function<void(Time now)>& observer() const { return observer_; }
   const std::vector<InterventionOutcome>& outcomes() const { return operator_->outcomes(); }
 
   Simulation& simulation() { return simulation_; }

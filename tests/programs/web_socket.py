@@ -8,7 +8,7 @@ import socket
 import struct
 from urllib.parse import urlsplit
 
-TEXT, CLOSE, PING, PONG = 1, 8, 9, 10
+TEXT, BINARY, CLOSE, PING, PONG = 1, 2, 8, 9, 10
 
 
 class Refused(Exception):
@@ -29,6 +29,7 @@ class WebSocket:
                 break
             self.received += part
         answer, _, self.received = self.received.partition(b"\r\n\r\n")
+        self.answer = answer.decode()
         if b" 101 " not in answer.split(b"\r\n")[0]:
             self.close()
             raise Refused(answer.split(b"\r\n")[0].decode())
@@ -53,6 +54,12 @@ class WebSocket:
 
     def receive(self):
         """The next text, as JSON."""
+        while (message := self.receive_message())[0] != TEXT:
+            pass
+        return json.loads(message[1])
+
+    def receive_message(self):
+        """(TEXT or BINARY, bytes)."""
         while True:
             first, second = self.take(2)
             size = second & 127
@@ -63,8 +70,8 @@ class WebSocket:
                 self.send(data, PONG)
             elif first & 15 == CLOSE:
                 raise ConnectionError("the server has closed the WebSocket")
-            elif first & 15 == TEXT:
-                return json.loads(data)
+            elif first & 15 in (TEXT, BINARY):
+                return first & 15, data
 
     def ask(self, what, **members):
         """The reply to a request; what is pushed meanwhile is in `pushed`."""

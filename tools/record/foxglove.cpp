@@ -23,7 +23,7 @@ Json quaternion() { return object({{"x", number()}, {"y", number()}, {"z", numbe
 Json placement() { return object({{"position", vector()}, {"orientation", quaternion()}}); }
 Json colour() { return object({{"r", number()}, {"g", number()}, {"b", number()}, {"a", number()}}); }
 
-Schema schema(const std::string& name, Json properties) {
+Schema schema(const std::string& name, const Json& properties) {
   Json all = object(properties);
   all["title"] = "foxglove." + name;
   return {"foxglove." + name, all.dump()};

@@ -15,10 +15,10 @@ FoxgloveRecording::FoxgloveRecording(const std::filesystem::path& path, const sc
       world_(sink_->add(foxglove::scene_update(), "/world")),
       clock_(sink_->add(foxglove::clock(), "/clock")) {
   topics_.reserve(robots().size());
-  for (const OfRobot& robot : robots()) add(robot);
+  for (const OfRobot& robot : robots()) add_topics(robot);
 }
 
-void FoxgloveRecording::add(const OfRobot& robot) {
+void FoxgloveRecording::add_topics(const OfRobot& robot) {
   const auto topic = [&](const foxglove::Schema& schema, const std::string& name) {
     return sink_->add(schema, "/" + robot.name + "/" + name);
   };

@@ -34,7 +34,7 @@ class FoxgloveRecording final : public ViewerRecording {
     Topic odometry, position, truth, log;
   };
 
-  void add(const OfRobot& robot);
+  void add_topics(const OfRobot& robot);
   void set_time(Time now) override { now_ = now; }
   void write_clock() override;
   void write_obstacles(const std::vector<world::Shape>& shapes) override;

@@ -71,7 +71,8 @@ void Outputs::watch_steps() {
                     recording_->shows_obstacles() ? NewsReader::Obstacles::read : NewsReader::Obstacles::left_out);
   if (page_) page_->begin(scenario_, experiment_, scene_);
   // A library that writes bags knows nothing of forked copies.
-  experiment_.set_observer([this](Time now) {
+  experiment_.set_observer([this, other = experiment_.observer()](Time now) {
+    if (other) other(now);
     if (getpid() != process_) return;
     if (recording_) recording_->add(reader_->take(now));
     if (page_) page_->step(now);

@@ -31,6 +31,14 @@ void check_picture(const std::string& name) {
     refuse("--picture", "a name that ends in .svg, the format of pictures", name);
 }
 
+/// SCHEME://HOST:PORT without a path; of a file's page it is "file://".
+bool is_origin(const std::string& text) {
+  const std::size_t end = text.find("://");
+  constexpr std::size_t mark = 3;
+  return end != std::string::npos && end > 0 && text.find('/', end + mark) == std::string::npos &&
+         std::ranges::all_of(text, [](char c) { return c > ' ' && c <= '~'; });
+}
+
 }  // namespace
 
 bool RunOptions::writes_standard_output() const {
@@ -133,7 +141,11 @@ RunArguments::RunArguments(CommandLine& line)
                 "end the run, with status 1, at the first fault of a process outside");
   command_.option_or_flag("--serve", serve_, "ADDRESS:PORT", free_port,
                           "show the run in a browser, also after its end, until Ctrl-C: at this address, or\n"
-                          "at a free port of the loopback; the page's address is printed (docs/view.md)");
+                          "at a free port of the loopback; the addresses of the page and for Foxglove are\n"
+                          "printed (docs/view.md)");
+  command_.repeated("--serve-origin", serve_origins_, "ORIGIN",
+                    "Foxglove may connect from pages of this origin, as https://app.foxglove.dev; may be\n"
+                    "repeated");
   command_.flag("--serve-control", serve_control_,
                 "viewers may pause and pace the run, and try in branches what interventions do");
   command_.option("--journal", journal_, "FILE",
@@ -191,10 +203,11 @@ void RunArguments::check_of_many(const char* option) const {
                               {"--record-durations", record_durations_}});
 }
 
-/// A run in one process can be viewed, once.
-void RunArguments::check_served() const {
+// A run in one process can be viewed, once.
+void RunArguments::take_served(RunOptions& options) const {
   if (serve_.empty()) {
     if (serve_control_) throw BadInput("--serve-control", "expected --serve, whose viewers it concerns");
+    if (!serve_origins_.empty()) throw BadInput("--serve-origin", "expected --serve, whose viewers it concerns");
     return;
   }
   check_not_together("--serve", {{"--seeds", seeds_},
@@ -202,9 +215,14 @@ void RunArguments::check_served() const {
                                  {"--replay-durations", replay_durations_},
                                  {"--record-durations", record_durations_}});
   if (check_) throw BadInput("--serve", "cannot be used together with --check");
+  for (const std::string& origin : serve_origins_)
+    if (!is_origin(origin)) refuse("--serve-origin", "SCHEME://HOST, as browsers send it", origin);
   if (partners_.any())
     throw BadInput("--serve", std::string("cannot be used together with ") + partners_.name() +
                                   ": what is outside has no past to go back to");
+  options.serve = serve_ == free_port ? "" : serve_;
+  options.serve_control = serve_control_;
+  options.serve_origins = serve_origins_;
 }
 
 /// A self-check compares runs and writes no files.
@@ -290,9 +308,7 @@ RunOptions RunArguments::options() const {
   const auto file = [](const std::string& name) {
     return name.empty() ? std::nullopt : std::optional<std::filesystem::path>(name);
   };
-  check_served();
-  if (!serve_.empty()) options.serve = serve_ == free_port ? "" : serve_;
-  options.serve_control = serve_control_;
+  take_served(options);
   options.interactive = interactive_;
   options.tcl = tcl_;
   if (tcl_ && interactive_) throw BadInput("--tcl", "cannot be used together with --interactive");

@@ -43,6 +43,7 @@ struct RunOptions {
   PartnerOptions partners;                              ///< outside
   std::optional<std::string> serve;                     ///< ADDRESS:PORT of the viewer
   bool serve_control = false;                           ///< viewers may act on the run
+  std::vector<std::string> serve_origins;               ///< of pages from elsewhere that may connect as Foxglove
   bool check = false;                                   ///< self-check: compare runs instead of reporting a result
   std::optional<std::filesystem::path> summary, picture, page, trajectory, record, digests, events, decisions;
   std::optional<std::filesystem::path> record_durations, replay_durations;  ///< not both
@@ -88,14 +89,14 @@ class RunArguments {
   void check_alone() const;
   void check_for_ranks() const;
   void check_partners(double speed) const;
-  void check_served() const;
+  void take_served(RunOptions& options) const;
 
   Command command_;
   ScenarioArguments scenario_;
   std::string seed_, seeds_, jobs_, ranks_, order_, until_, speed_, watchdog_, idle_, journal_, replay_journal_;
   std::string serve_, summary_, picture_, page_, trajectory_, record_, digests_, events_, decisions_;
   std::string record_durations_, replay_durations_;
-  std::vector<std::string> places_;
+  std::vector<std::string> places_, serve_origins_;
   PartnerOptions partners_;
   bool serve_control_ = false, interactive_ = false, tcl_ = false, check_ = false;
 };

@@ -22,6 +22,7 @@ constexpr int status_of_signal = 128;
 view::ViewerOptions viewer_options(const RunOptions& options) {
   view::ViewerOptions viewer;
   viewer.is_controlled = options.serve_control;
+  viewer.origins = options.serve_origins;
   viewer.replay_command = replay_line(options, options.seed);
   if (options.serve->empty()) return viewer;
   const std::size_t colon = options.serve->rfind(':');
@@ -89,6 +90,7 @@ int run_viewed(const RunOptions& options, const std::function<int(view::Channel&
   view::Viewer viewer(viewing, std::move(here));
   const std::string url = viewer.url();
   std::fprintf(stderr, "waitpoint: the run is shown at %s\n", url.c_str());
+  std::fprintf(stderr, "waitpoint: Foxglove can connect to %s\n", viewer.foxglove_url().c_str());
   viewer.begin_run();
   RunProcess of_run(process);
   viewer.serve([&] { return of_run.is_done(url); });

@@ -3,7 +3,8 @@
 // itself, and, if it is controlled, is paused and paced from there. Nothing of this is an event.
 //
 // To the viewer: the scene (scene.hpp), frames when they are wanted, its status, lines of the modules' log, snapshots.
-// From the viewer: {"do":"frame",...} once for each frame, "pause" {on}, "speed" {value}.
+// From the viewer: {"do":"frame",...} once for each frame, "pause" {on}, "speed" {value}, "topics" {wanted, asked}
+// (live_topics.hpp), whose news it then tells.
 #pragma once
 
 #include <deque>
@@ -14,6 +15,7 @@
 #include "modules/run/experiment.hpp"
 #include "tools/record/module_log.hpp"
 #include "tools/view/event_counts.hpp"
+#include "tools/view/foxglove/live_topics.hpp"
 #include "tools/view/frame_reader.hpp"
 #include "tools/view/history/channel.hpp"
 #include "tools/view/scene.hpp"
@@ -45,6 +47,7 @@ class LiveRun {
   void make_snapshot();
   void send_status();
   void send_log();
+  void send_topics();
 
   Channel& viewer_;
   const scenario::Scenario& scenario_;
@@ -53,6 +56,7 @@ class LiveRun {
   FrameReader frames_;
   EventCounts counts_;
   std::deque<ModuleLog> logs_;  // by robot
+  LiveTopics topics_;
   Time reached_;
   std::optional<FrameOptions> wanted_;  // a frame
   std::optional<double> speed_;

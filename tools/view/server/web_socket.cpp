@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/view/server/web_socket.hpp"
 
+#include <boost/asio/post.hpp>
 #include <utility>
 
 namespace waitpoint::tools::view {
@@ -47,9 +48,14 @@ void WebSocket::read() {
 }
 
 void WebSocket::send(std::string data, bool is_text) {
-  if (!is_open_ || has_ended_) return;
+  if (!is_open_ || has_ended_ || is_cut_off_) return;
   queued_ += data.size();
-  if (queued_ > queued_bytes_max) return end();
+  if (queued_ > queued_bytes_max) {
+    is_cut_off_ = true;
+    // Later: the sender may be going through all its clients.
+    asio::post(socket_.get_executor(), [self = shared_from_this()] { self->end(); });
+    return;
+  }
   messages_.push_back({std::move(data), is_text});
   if (messages_.size() == 1) write();
 }

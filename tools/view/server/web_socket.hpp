@@ -46,7 +46,7 @@ class WebSocket : public std::enable_shared_from_this<WebSocket> {
   boost::beast::flat_buffer buffer_;
   std::deque<Message> messages_;  // the first is being sent
   std::size_t queued_ = 0;
-  bool is_open_ = false, has_ended_ = false;
+  bool is_open_ = false, is_cut_off_ = false, has_ended_ = false;
 };
 
 }  // namespace waitpoint::tools::view
