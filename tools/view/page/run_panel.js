@@ -48,6 +48,7 @@ class RunPanel {
     if (header.description) rows.splice(1, 0, ["Description", header.description]);
     if (this.missed()) rows.push(["Deadlines missed", this.missed()]);
     if (status.digest) rows.push(["Digest", status.digest]);
+    if (source.connection) rows.push(["For Foxglove", String(source.connection.url).replace("/live?", "/foxglove?")]);
     this.facts.set(rows);
     setText(this.text, status.summary || (status.over ? "No summary." : "When the run is over."));
   }
