@@ -26,13 +26,13 @@ Outcome take_profile(Body& body, Profile& profile) {
   return outcome;
 }
 
-Timeline take_timeline(Body& body, const Schedule& schedule) {
+Timeline take_timeline(Body& body, std::span<const Decision> decisions) {
   Timeline timeline;
   TimelineRecorder recording(timeline, &body.explorer());
   kernel::Scheduler& scheduler = body.simulation().scheduler();
   scheduler.set_watch(&recording);
   Fifo rest;
-  (void)body.run(rest, {.prefix = schedule.decisions});
+  (void)body.run(rest, {.prefix = decisions});
   scheduler.set_watch(nullptr);
   return timeline;
 }

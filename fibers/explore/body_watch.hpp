@@ -13,8 +13,8 @@ namespace waitpoint::exploration {
 /// Runs `body` in the default order and records its profile; returns the result.
 Outcome take_profile(Body& body, Profile& profile);
 
-/// Runs `body` once more by `schedule`, and records its timeline.
-Timeline take_timeline(Body& body, const Schedule& schedule);
+/// Runs `body` by these decisions, then in the default order, and records its timeline.
+Timeline take_timeline(Body& body, std::span<const Decision> decisions);
 
 /// Runs `body` by these decisions, then in the default order: its events after decision `from`.
 std::vector<DoneEvent> take_events(Body& body, std::span<const Decision> decisions, std::size_t from);

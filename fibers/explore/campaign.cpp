@@ -3,6 +3,7 @@
 
 #include <malloc.h>
 
+#include <cerrno>
 #include <chrono>
 #include <fstream>
 
@@ -33,12 +34,18 @@ Token first_token(const ExploreOptions& options, std::uint32_t call) {
   return {call, 0, options.strategy, options.seed, 0, {}, {}, options.memory};
 }
 
+std::string title_of(const ExternalChecks* checks) {
+  const std::string name = checks != nullptr ? checks->name() : "";
+  return name.empty() ? program_invocation_short_name : name;
+}
+
 }  // namespace
 
 Campaign::Campaign(ExternalChecks* checks, std::function<void()> body, const ExploreOptions& options,
                    std::uint32_t call)
     : options_(options),
       call_(call),
+      title_(title_of(checks)),
       command_(command_line(checks)),
       body_(std::move(body), checks, options.until, options.steps_max, options.memory),
       supervisor_({.explored = -1,
@@ -122,7 +129,7 @@ std::string Campaign::difference_to_the_first() {
     const auto text = [&](const Timeline& timeline) {
       if (i >= timeline.events.size()) return std::string("the end");
       const TimelineEvent& event = timeline.events[i];
-      return timeline.tasks[event.task].title + " " + name(event.operation) + " " + event.object;
+      return timeline.tasks[event.task].title + " " + name(event.operation) + " " + timeline.object(event.object);
     };
     if (text(before) != text(after))
       return "the body leaks state from one schedule into the next: in the default order, event " + std::to_string(i) +
@@ -180,17 +187,39 @@ void Campaign::tell(const Found& found) {
   if (least.schedule.switches.empty() && !found.is_default && usual_digest_ != 0)
     text +=
         "the default order, which passed at first, now fails: the body leaks state from one schedule into the next\n";
-  text += explain(body_, least, {runs_to_explain});
+  const Explanation explanation = explain(body_, least, {runs_to_explain});
+  text += explanation.text;
   if (const std::string file = trace_file(); !file.empty()) {
     std::ofstream out(file);
-    write_trace(out, take_timeline(body_, least.schedule));
+    write_trace(out, take_timeline(body_, least.schedule.decisions));
     if (!out.flush()) text += "waitpoint: WAITPOINT_TRACE: cannot write to '" + file + "'\n";
   }
+  const std::string file = finding_file();
+  FindingFile finding{.title = title_};
+  if (!file.empty()) add_schedules(body_, least, explanation.choice, finding);
   supervisor_.pause();
   if (!is_shortest && !found.token.strategy.empty() && least.schedule.switches != found.failure.schedule.switches)
     text += "too many switches for one line: the replay line repeats the run as it was found, with " +
             std::to_string(found.failure.schedule.switches.size()) + "\n";
   text += "replay: WAITPOINT_REPLAY=" + report_.replay + " " + command_ + races_.besides(told);
+  if (file.empty()) return;
+  finding.seed = options_.seed;
+  finding.schedule = found.which;
+  finding.failure = least.outcome.failure;
+  finding.choice = explanation.choice_words;
+  finding.steps = explanation.steps;
+  write_finding(file, std::move(finding));
+}
+
+// With the commands and the text of the report, which must be complete.
+void Campaign::write_finding(const std::string& file, FindingFile finding) {
+  const std::string token = "WAITPOINT_REPLAY=" + report_.replay + " ";
+  finding.replay = token + command_;
+  finding.debug = token + "waitpoint gdb -- " + command_;
+  finding.report = report_.text;
+  std::ofstream out(file);
+  out << to_text(finding);
+  if (!out.flush()) report_.text += "\nwaitpoint: WAITPOINT_FINDING: cannot write to '" + file + "'";
 }
 
 // For a written-out schedule no other is run, so that a debugger stops in this one only; but shared memory must be

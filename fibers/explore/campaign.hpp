@@ -10,6 +10,7 @@
 #include "fibers/explore/explore_report.hpp"
 #include "fibers/explore/minimize.hpp"
 #include "fibers/explore/race_findings.hpp"
+#include "fibers/explore/report/finding_file.hpp"
 #include "fibers/explore/report/timeline.hpp"
 #include "fibers/explore/schedules/exhaustion.hpp"
 #include "fibers/explore/schedules/token.hpp"
@@ -57,6 +58,7 @@ class Campaign {
   void set_scope(const Strategy& strategy, const std::string& what);
   void tell(const Found& found);
   void report_irreproducible(const Found& found);
+  void write_finding(const std::string& file, FindingFile finding);
   Outcome play(const Token& token);
   std::string difference_to(const Token& token, const Outcome& outcome);
   std::string event_at(const Token& token, std::uint32_t decision);
@@ -67,6 +69,7 @@ class Campaign {
 
   ExploreOptions options_;
   std::uint32_t call_;
+  const std::string title_;    // of the test, or else the program
   const std::string command_;  // that reruns this program
   Body body_;
   Profile profile_;

@@ -20,7 +20,7 @@ constexpr const char *strategy_name = "WAITPOINT_STRATEGY", *seed_name = "WAITPO
                      *iterations_name = "WAITPOINT_ITERATIONS", *time_limit_name = "WAITPOINT_TIME_LIMIT",
                      *schedule_limit_name = "WAITPOINT_SCHEDULE_LIMIT", *races_name = "WAITPOINT_RACES",
                      *memory_name = "WAITPOINT_MEMORY", *replay_name = "WAITPOINT_REPLAY",
-                     *trace_name = "WAITPOINT_TRACE";
+                     *trace_name = "WAITPOINT_TRACE", *finding_name = "WAITPOINT_FINDING";
 
 std::string variable(const char* name) {
   const char* value = std::getenv(name);
@@ -95,6 +95,7 @@ ExploreOptions with_environment(ExploreOptions options) {
     options.memory = *meant;
   }
   check_can_be_written(trace_name);
+  check_can_be_written(finding_name);
   if (const std::string replay = variable(replay_name); !replay.empty()) {
     options.replay = replay;
     [[maybe_unused]] static const int registered = std::atexit(check_replayed);
@@ -104,11 +105,12 @@ ExploreOptions with_environment(ExploreOptions options) {
 
 void refuse_environment(const BadInput& input) {
   for (const char* name : {strategy_name, seed_name, iterations_name, time_limit_name, schedule_limit_name, races_name,
-                           memory_name, replay_name, trace_name})
+                           memory_name, replay_name, trace_name, finding_name})
     if (!variable(name).empty()) refuse(input.what());
 }
 
 std::string trace_file() { return variable(trace_name); }
+std::string finding_file() { return variable(finding_name); }
 
 bool has_replay_variable() { return !variable(replay_name).empty(); }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Options of exploring tests set by the environment: WAITPOINT_STRATEGY, _SEED, _ITERATIONS, _TIME_LIMIT,
-// _SCHEDULE_LIMIT, _RACES, _MEMORY, _REPLAY and _TRACE.
+// _SCHEDULE_LIMIT, _RACES, _MEMORY, _REPLAY, _TRACE and _FINDING.
 #pragma once
 
 #include "core/error.hpp"
@@ -25,6 +25,8 @@ void mark_replay_reached();
 
 /// The file for a trace of the failure; empty if none is requested.
 std::string trace_file();
+/// The file for the failure as a finding, for `waitpoint view`; empty if none is requested.
+std::string finding_file();
 
 /// The command that reruns this program with its arguments, restricted to the running test.
 std::string command_line(const ExternalChecks* checks);

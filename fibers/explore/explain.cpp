@@ -5,8 +5,8 @@
 
 #include "fibers/explore/body_watch.hpp"
 #include "fibers/explore/report/choice_text.hpp"
+#include "fibers/explore/report/event_columns.hpp"
 #include "fibers/explore/report/place_text.hpp"
-#include "fibers/explore/report/reordered_events.hpp"
 #include "fibers/explore/schedules/event_stop.hpp"
 #include "fibers/explore/strategies/fifo.hpp"
 #include "fibers/kernel/visit.hpp"
@@ -18,13 +18,6 @@ namespace {
 
 constexpr std::size_t others_shown = 4;
 constexpr std::size_t events_shown = 40;
-
-struct CriticalChoice {
-  std::size_t decision;
-  std::uint32_t instead;              // the alternative that passes
-  std::vector<Decision> passing;      // all decisions of that run
-  std::optional<EventPair> reversed;  // the pair of events whose order differs
-};
 
 // Ranks the passing alternatives of one decision by how well they explain the failure: best is the one that passes by
 // reversing the two events between which is chosen, then one of them.
@@ -102,35 +95,28 @@ const char* description(Choice choice) {
   return "";
 }
 
-// As lines; empty if there is none.
-std::string describe_last_crossing(Body& body, const Failure& failure, Effort effort) {
-  const std::optional<CriticalChoice> crossing = find_last_critical_choice(body, failure, effort);
-  if (!crossing) return "";
-  const Decision& decision = failure.schedule.decisions[crossing->decision];
-  const bool is_usual = failure.schedule.switches.empty();
-  std::string text = "the last choice from which it could still have passed" +
-                     std::string(is_usual ? " by deviating from the default order" : "") + ": number " +
-                     std::to_string(crossing->decision) + ", " + description(decision.choice);
+// The choice in words, without the pair.
+std::string describe_choice(Body& body, const Failure& failure, const CriticalChoice& crossing) {
+  const Decision& decision = failure.schedule.decisions[crossing.decision];
+  std::string text = "number " + std::to_string(crossing.decision) + ", " + description(decision.choice);
   if (decision.choice != Choice::task) {
-    ChoiceWords words(body.explorer(), crossing->decision, crossing->instead);
+    ChoiceWords words(body.explorer(), crossing.decision, crossing.instead);
     body.run_watched_by(words, failure.schedule);
-    if (!words.chosen().words.empty()) {
-      const std::vector<std::string> told = with_lines({words.chosen(), words.instead()});
-      text += ", " + told[0] + "; it passes if it " + told[1];
-    }
-    return text + describe_pair(body, failure, *crossing);
+    if (words.chosen().words.empty()) return text;
+    const std::vector<std::string> told = with_lines({words.chosen(), words.instead()});
+    return text + ", " + told[0] + "; it passes if it " + told[1];
   }
   Played played{.prefix = failure.schedule.decisions};
-  played.stop_at = crossing->decision;
+  played.stop_at = crossing.decision;
   body.run_up_to(played, [&] {
     const std::span<Task* const> ready = body.explorer().stopped_before();
     if (ready.empty()) return;
     text += ", at " + to_string(body.simulation().global_time()) + " s";
-    if (crossing->reversed && crossing->reversed->indirection == 0) return;  // these are the pair
+    if (crossing.reversed && crossing.reversed->indirection == 0) return;  // these are the pair
     text += "\n  it fails with " + about_to(*ready[decision.chosen]) + ", and passes with " +
-            about_to(*ready[crossing->instead]);
+            about_to(*ready[crossing.instead]);
   });
-  return text + describe_pair(body, failure, *crossing);
+  return text;
 }
 
 // Spurious wake-ups, waiters out of order, costs: switches that the order of tasks does not show.
@@ -160,15 +146,45 @@ Failure with_places(Body& body, const Failure& failure) {
   return placed;
 }
 
-std::string explain(Body& body, const Failure& failure, Effort effort) {
+Explanation explain(Body& body, const Failure& failure, Effort effort) {
   const std::size_t switches = failure.schedule.switches.size();
-  std::string text = switches == 0   ? "the default order fails\n"
-                     : switches == 1 ? "one switch away from the default order fails\n"
-                                     : std::to_string(switches) + " switches away from the default order fail\n";
+  Explanation told;
+  std::string& text = told.text;
+  text = switches == 0   ? "the default order fails\n"
+         : switches == 1 ? "one switch away from the default order fails\n"
+                         : std::to_string(switches) + " switches away from the default order fail\n";
   text += describe_other_switches(body, failure.schedule);
-  return text + describe_last_crossing(body, failure, effort) +
-         "events of the tasks (*: switch away from the default order):\n" +
-         to_text(take_timeline(body, failure.schedule), events_shown);
+  told.choice = find_last_critical_choice(body, failure, effort);
+  if (told.choice) {
+    told.choice_words = describe_choice(body, failure, *told.choice);
+    text += "the last choice from which it could still have passed" +
+            std::string(switches == 0 ? " by deviating from the default order" : "") + ": " + told.choice_words +
+            describe_pair(body, failure, *told.choice);
+  }
+  told.steps = to_text(take_timeline(body, failure.schedule.decisions), events_shown);
+  text += "events of the tasks (*: switch away from the default order):\n" + told.steps;
+  return told;
+}
+
+void add_schedules(Body& body, const Failure& failure, const std::optional<CriticalChoice>& choice,
+                   FindingFile& finding) {
+  std::vector<EventOf> pair;
+  if (choice && choice->reversed) pair = {choice->reversed->failing, choice->reversed->passing};
+  const auto told = [&](std::span<const Decision> decisions) {
+    const Timeline timeline = take_timeline(body, decisions);
+    FindingSchedule schedule{to_columns(timeline, pair)};
+    for (std::size_t i = 0; i < pair.size(); ++i) {
+      const ToldEvent event = tell_event(body, decisions, pair[i]);
+      if (event.words.empty()) continue;
+      const sync::ReturnAddresses stacks[] = {event.stack};
+      schedule.pair[i] = {event.words, sync::user_source_lines(stacks, frames_shown).front()};
+    }
+    return schedule;
+  };
+  finding.fails = told(failure.schedule.decisions);
+  if (choice) finding.passes = told(choice->passing);
+  if (pair.empty())
+    finding.note = choice ? no_pair_in_words() : "no run with another choice is known that passes: it fails by itself";
 }
 
 }  // namespace waitpoint::exploration

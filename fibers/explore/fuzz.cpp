@@ -27,7 +27,7 @@ int fuzz_target::run(const std::uint8_t* data, std::size_t size) {
   const exploration::Failure failure{body_.explorer().schedule(), outcome};
   const exploration::Failure least =
       exploration::with_places(body_, exploration::minimize(body_, failure, {runs_to_minimize}));
-  const std::string text = least.outcome.failure + "\n" + exploration::explain(body_, least, {runs_to_explain});
+  const std::string text = least.outcome.failure + "\n" + exploration::explain(body_, least, {runs_to_explain}).text;
   std::fputs(text.c_str(), stderr);
   std::abort();
 }

@@ -4,17 +4,10 @@
 #include <algorithm>
 #include <ostream>
 
+#include "fibers/explore/report/json_text.hpp"
+
 namespace waitpoint::exploration {
 namespace {
-
-std::string quoted(const std::string& text) {
-  std::string quoted = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') quoted += '\\';
-    if (static_cast<unsigned char>(c) >= 0x20) quoted += c;
-  }
-  return quoted + "\"";
-}
 
 constexpr std::size_t repeated_max = 8;   // longest sequence of lines checked for repetition
 constexpr std::size_t repeats_shown = 3;  // repetitions up to this number are printed in full
@@ -23,7 +16,7 @@ std::string line_of(const Timeline& timeline, const TimelineEvent& event, std::s
   const std::string& task = timeline.tasks[event.task].title;
   std::string line = "  " + to_string(event.time) + (event.is_switch ? " * " : "   ") + task;
   line += std::string(width - task.size() + 2, ' ') + name(event.operation);
-  return event.object.empty() ? line : line + " " + event.object;
+  return event.object < 0 ? line : line + " " + timeline.object(event.object);
 }
 
 // The number of further repetitions of the `count` lines from `from` on.
@@ -77,7 +70,7 @@ std::string place_of(const Timeline& timeline, std::uint32_t task) {
 
 void name_rows(std::ostream& out, const Timeline& timeline) {
   const auto row = [&out](const char* kind, const std::string& place, const std::string& name) {
-    out << "{\"ph\":\"M\",\"name\":\"" << kind << "\"" << place << ",\"args\":{\"name\":" << quoted(name) << "}}";
+    out << "{\"ph\":\"M\",\"name\":\"" << kind << "\"" << place << ",\"args\":{\"name\":" << json_text(name) << "}}";
   };
   for (std::uint32_t i = 0; i < timeline.tasks.size(); ++i) {
     row("thread_name", place_of(timeline, i), timeline.tasks[i].title);
@@ -92,9 +85,9 @@ void name_rows(std::ostream& out, const Timeline& timeline) {
 }
 
 // The task's state after an event, until its `next` one or, without one, the end of the run.
-std::string state_after(const TimelineEvent& event, const TimelineEvent* next) {
+std::string state_after(const Timeline& timeline, const TimelineEvent& event, const TimelineEvent* next) {
   if (event.operation == kernel::Operation::end) return "";
-  if (!event.waits_for.empty()) return "waiting for " + event.waits_for;
+  if (event.waits_for >= 0) return "waiting for " + timeline.object(event.waits_for);
   if (next == nullptr || next->time == event.time) return "";  // ready, or the run ended
   return next->operation == kernel::Operation::sleep ? "sleeping" : "computing";
 }
@@ -132,14 +125,14 @@ void write_trace(std::ostream& out, const Timeline& timeline) {
     const TimelineEvent& event = events[i];
     const std::string where = place_of(timeline, event.task);
     const auto slice = [&](const std::string& title, const char* kind, std::int64_t from_ns, std::int64_t to_ns) {
-      out << "{\"ph\":\"X\",\"name\":" << quoted(title) << ",\"cat\":\"" << kind
+      out << "{\"ph\":\"X\",\"name\":" << json_text(title) << ",\"cat\":\"" << kind
           << "\",\"ts\":" << microseconds(from_ns) << ",\"dur\":" << microseconds(to_ns - from_ns) << where << "},\n";
     };
-    slice(name(event.operation) + (event.object.empty() ? "" : " " + event.object),
+    slice(name(event.operation) + (event.object < 0 ? "" : " " + timeline.object(event.object)),
           event.is_switch ? "switch" : "event", stamps_ns[i], stamps_ns[i] + 1);
     const bool is_last = next[i] == events.size();
     const std::int64_t until_ns = is_last ? end_ns : stamps_ns[next[i]];
-    const std::string state = state_after(event, is_last ? nullptr : &events[next[i]]);
+    const std::string state = state_after(timeline, event, is_last ? nullptr : &events[next[i]]);
     if (!state.empty() && until_ns > stamps_ns[i] + 1) slice(state, "state", stamps_ns[i] + 1, until_ns);
     if (event.woken_by < 0) continue;
     const auto from = static_cast<std::size_t>(event.woken_by);

@@ -12,18 +12,20 @@
 #include <vector>
 
 #include "core/time.hpp"
+#include "fibers/explore/strategies/schedule.hpp"
 #include "fibers/kernel/operation.hpp"
 
 namespace waitpoint::exploration {
 
 struct TimelineEvent {
-  Time time;
-  std::uint32_t task;  ///< index of Timeline::tasks
-  kernel::Operation operation;
-  std::string object;     ///< "mutex #1 "left""; empty without one
-  std::string waits_for;  ///< the object that its task waited for afterwards; empty if none
-  std::int64_t woken_by;  ///< index of the event that woke the task; -1 for none
-  bool is_switch;         ///< it was chosen over the default order's event
+  Time time = {};
+  std::uint32_t task = 0;  ///< index of Timeline::tasks
+  kernel::Operation operation = kernel::Operation::start;
+  std::int32_t object = -1;     ///< index of Timeline::objects; -1: none
+  std::int32_t waits_for = -1;  ///< the object that its task waited for afterwards; -1: none
+  std::int64_t woken_by = -1;   ///< index of the event that woke the task; -1: none
+  bool is_switch = false;       ///< it was chosen over the default order's event
+  EventOf which = {};
 };
 
 struct TimelineProcess {
@@ -32,15 +34,30 @@ struct TimelineProcess {
 };
 
 struct TimelineTask {
-  std::string title;
+  std::string title;          ///< "anna#2 of r1"
   std::uint32_t process = 0;  ///< index of Timeline::processes
+  std::uint32_t number = 0;
+  std::string name = {}, robot = {};
+};
+
+struct TimelineObject {
+  std::string title;  ///< "mutex #1 "left""
+  std::string kind = {}, label = {}, robot = {};
+  std::uint64_t number = 0;
 };
 
 struct Timeline {
   std::vector<TimelineProcess> processes;  ///< empty: the one of the simulation
   std::vector<TimelineTask> tasks;         ///< in the order of their first events
+  std::vector<TimelineObject> objects;     ///< the same
   std::vector<TimelineEvent> events;
-  std::size_t decisions = 0;  ///< of the explorer, up to the last event
+  std::uint64_t events_before = 0;  ///< of the run, which are left out
+  std::size_t decisions = 0;        ///< of the explorer, up to the last event
+
+  /// The object's title; empty for none.
+  std::string object(std::int32_t index) const {
+    return index < 0 ? "" : objects[static_cast<std::size_t>(index)].title;
+  }
 };
 
 /// The last events, one a line: the time, the task in its column, its operation; with an asterisk at a switch. Cycles

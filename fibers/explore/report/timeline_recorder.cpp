@@ -15,7 +15,15 @@ TimelineRecorder::TimelineRecorder(Timeline& timeline, const Explorer* explorer,
 
 std::uint32_t TimelineRecorder::number_of(const Task& task) {
   const auto [known, is_new] = numbers_.emplace(task.id, static_cast<std::uint32_t>(timeline_.tasks.size()));
-  if (is_new) timeline_.tasks.push_back({title_of(task), process_});
+  if (is_new) timeline_.tasks.push_back({title_of(task), process_, task.number, task.name, task.robot->name});
+  return known->second;
+}
+
+std::int32_t TimelineRecorder::number_of(const kernel::Object& object) {
+  const auto [known, is_new] = objects_.emplace(object.identity, static_cast<std::int32_t>(timeline_.objects.size()));
+  if (is_new)
+    timeline_.objects.push_back({sync::describe(object), object.kind, object.label,
+                                 object.robot != nullptr ? object.robot->name : "", object.number});
   return known->second;
 }
 
@@ -28,7 +36,7 @@ void TimelineRecorder::pause() {
   if (last_ == nullptr) return;
   TimelineEvent& last = timeline_.events[last_event_];
   if (last.operation != Operation::end && last_->state == kernel::TaskState::blocked)
-    last.waits_for = sync::describe(*last_->blocked_on);
+    last.waits_for = number_of(*last_->blocked_on);
 }
 
 // True if the event now executing, or its process, was chosen over the default: call it once per event.
@@ -52,14 +60,17 @@ void TimelineRecorder::note_wait(const kernel::EventRecord& record) {
     pause();
   } else if (record.object != nullptr &&
              (record.operation == Operation::resume || record.operation == Operation::timeout)) {
-    last.waits_for = sync::describe(*record.object);
+    last.waits_for = number_of(*record.object);
   }
 }
 
 void TimelineRecorder::record(kernel::Watch& watch, const kernel::EventRecord& record) {
   TimelineRecorder& self = static_cast<TimelineRecorder&>(watch);
   const bool is_switch = self.explorer_ != nullptr && self.is_switch(*self.explorer_);
-  if (record.time < self.from_) return;
+  if (record.time < self.from_) {
+    ++self.timeline_.events_before;
+    return;
+  }
   std::vector<TimelineEvent>& events = self.timeline_.events;
   self.note_wait(record);
   self.last_ = record.task;
@@ -72,8 +83,10 @@ void TimelineRecorder::record(kernel::Watch& watch, const kernel::EventRecord& r
     self.last_release_[record.object->identity] = static_cast<std::int64_t>(events.size());
   }
   const std::uint32_t task = self.number_of(*record.task);
-  events.push_back({record.time, task, record.operation, record.object != nullptr ? sync::describe(*record.object) : "",
-                    "", woken_by, is_switch});
+  EventOf which = event_of(*record.task);
+  --which.sequence;  // includes this one already
+  const std::int32_t object = record.object != nullptr ? self.number_of(*record.object) : -1;
+  events.push_back({record.time, task, record.operation, object, -1, woken_by, is_switch, which});
 }
 
 }  // namespace waitpoint::exploration

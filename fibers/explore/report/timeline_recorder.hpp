@@ -24,6 +24,7 @@ class TimelineRecorder : public kernel::Watch {
  private:
   static void record(kernel::Watch& watch, const kernel::EventRecord& record);
   std::uint32_t number_of(const Task& task);
+  std::int32_t number_of(const kernel::Object& object);
   bool is_switch(const Explorer& explorer);
   void note_wait(const kernel::EventRecord& record);
 
@@ -31,6 +32,7 @@ class TimelineRecorder : public kernel::Watch {
   const Explorer* explorer_;
   Time from_;
   std::map<std::uint64_t, std::uint32_t> numbers_;      // by task id
+  std::map<std::uint64_t, std::int32_t> objects_;       // by identity
   std::map<std::uint64_t, std::int64_t> last_release_;  // by object id: the last event that may have woken another task
   std::uint32_t process_ = 0;
   const Task* last_ = nullptr;  // the task of the last recorded event

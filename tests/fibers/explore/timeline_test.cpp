@@ -73,8 +73,7 @@ TEST(Timeline, ATraceShowsTasksBelowTheirProcesses) {
   exploration::Timeline timeline;
   timeline.processes = {{1000, "sh"}, {1001, "cat#1001"}};
   timeline.tasks = {{"main#0 of sh"}, {"main#0 of cat#1001", 1}};
-  for (const std::uint32_t task : {0u, 1u})
-    timeline.events.push_back({Time(), task, kernel::Operation::start, "", "", -1, false});
+  for (const std::uint32_t task : {0u, 1u}) timeline.events.push_back({.time = Time(), .task = task});
   std::ostringstream trace;
   write_trace(trace, timeline);
   for (const char* const part :
@@ -102,15 +101,16 @@ TEST(Timeline, WhatIsRepeatedStandsThereOnceWithHowOften) {
   using kernel::Operation;
   exploration::Timeline timeline;
   timeline.tasks = {{"a#1"}};
-  const auto add = [&](Operation operation, const char* object) {
-    timeline.events.push_back({Time(), 0, operation, object, "", -1, false});
+  timeline.objects = {{.title = "atomic #1"}, {.title = "atomic #2"}};
+  const auto add = [&](Operation operation, std::int32_t object) {
+    timeline.events.push_back({.operation = operation, .object = object});
   };
-  add(Operation::start, "");
+  add(Operation::start, -1);
   for (int i = 0; i < 20; ++i) {
-    add(Operation::load, "atomic #1");
-    add(Operation::load, "atomic #2");
+    add(Operation::load, 0);
+    add(Operation::load, 1);
   }
-  add(Operation::end, "");
+  add(Operation::end, -1);
   EXPECT_EQ(to_text(timeline, 40),
             "  0.000000000   a#1  start\n  0.000000000   a#1  load atomic #1\n  0.000000000   a#1  load atomic #2\n"
             "      ... 2 lines repeated 19 times\n  0.000000000   a#1  end\n");
@@ -122,7 +122,7 @@ TEST(Timeline, WhatIsRepeatedWithinWhatIsRepeatedStandsThereOnceToo) {
   exploration::Timeline timeline;
   timeline.tasks = {{"a#1"}, {"b#2"}};
   const auto add = [&](std::uint32_t task, Operation operation, int times) {
-    for (int i = 0; i < times; ++i) timeline.events.push_back({Time(), task, operation, "", "", -1, false});
+    for (int i = 0; i < times; ++i) timeline.events.push_back({.task = task, .operation = operation});
   };
   for (int long_turn = 0; long_turn < 5; ++long_turn) {
     for (int turn = 0; turn < 6; ++turn) {
