@@ -24,4 +24,9 @@ std::string version_text() {
                      WAITPOINT_FLAGS, exact::fingerprint());
 }
 
+std::string version_line() {
+  const std::string version = version_text();
+  return version.substr(0, version.find('\n'));
+}
+
 }  // namespace waitpoint::tools

@@ -10,4 +10,7 @@ namespace waitpoint::tools {
 /// math, one per line. No trailing newline.
 std::string version_text();
 
+/// Its first line, the version.
+std::string version_line();
+
 }  // namespace waitpoint::tools

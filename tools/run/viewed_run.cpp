@@ -1,71 +1,35 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/run/viewed_run.hpp"
 
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <cerrno>
-#include <csignal>
 #include <cstdio>
 #include <system_error>
 
-#include "core/number_text.hpp"
-#include "tools/command/interruption.hpp"
+#include "tools/command/serve_address.hpp"
+#include "tools/command/shown_process.hpp"
 #include "tools/command/version.hpp"
 #include "tools/view/server/viewer.hpp"
 
 namespace waitpoint::tools {
 namespace {
 
-constexpr int status_of_signal = 128;
-
 view::ViewerOptions viewer_options(const RunOptions& options) {
   view::ViewerOptions viewer;
   viewer.is_controlled = options.serve_control;
   viewer.origins = options.serve_origins;
   viewer.replay_command = replay_line(options, options.seed);
-  if (options.serve->empty()) return viewer;
-  const std::size_t colon = options.serve->rfind(':');
-  const std::string port = colon != std::string::npos ? options.serve->substr(colon + 1) : *options.serve;
-  if (!parse_number(port, viewer.port))
-    refuse("--serve", "an address and a port from 0 to 65535, as 127.0.0.1:8080", *options.serve);
-  if (colon != std::string::npos && colon > 0) viewer.address = options.serve->substr(0, colon);
-  if (viewer.address.front() == '[' && viewer.address.back() == ']')
-    viewer.address = viewer.address.substr(1, viewer.address.size() - 2);
+  const ServeAddress at = serve_address(*options.serve);
+  viewer.address = at.address;
+  viewer.port = at.port;
   return viewer;
 }
-
-/// The run's process, as the viewer's sees it.
-class RunProcess {
- public:
-  explicit RunProcess(pid_t process) : process_(process) {}
-
-  /// True when the viewer has nothing more to do: after a signal, once the run has ended.
-  bool is_done(const std::string& url) {
-    if (!has_ended_ && waitpid(process_, &status_, WNOHANG) == process_) {
-      has_ended_ = true;
-      if (interruption() == 0)
-        std::fprintf(stderr, "waitpoint: the run is over; until Ctrl-C it is shown at %s\n", url.c_str());
-    }
-    if (interruption() == 0) return false;
-    // One signal of a terminal reaches both; the run takes the second for its echo.
-    if (!has_ended_ && !std::exchange(is_told_, true)) kill(process_, interruption());
-    return has_ended_;
-  }
-  int status() const { return WIFEXITED(status_) ? WEXITSTATUS(status_) : status_of_signal + WTERMSIG(status_); }
-
- private:
-  pid_t process_;
-  int status_ = 0;
-  bool has_ended_ = false, is_told_ = false;
-};
 
 }  // namespace
 
 view::SceneOptions scene_options(const RunOptions& options, const scenario::Scenario& scenario) {
-  const std::string version = version_text();
-  return {options.seed, options.order, options.limit(scenario.until), version.substr(0, version.find('\n')),
-          options.serve_control};
+  return {options.seed, options.order, options.limit(scenario.until), version_line(), options.serve_control};
 }
 
 void check_can_be_viewed(const scenario::Scenario& scenario) {
@@ -92,7 +56,7 @@ int run_viewed(const RunOptions& options, const std::function<int(view::Channel&
   std::fprintf(stderr, "waitpoint: the run is shown at %s\n", url.c_str());
   std::fprintf(stderr, "waitpoint: Foxglove can connect to %s\n", viewer.foxglove_url().c_str());
   viewer.begin_run();
-  RunProcess of_run(process);
+  ShownProcess of_run(process, "run");
   viewer.serve([&] { return of_run.is_done(url); });
   return of_run.status();
 }

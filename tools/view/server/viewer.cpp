@@ -1,17 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/view/server/viewer.hpp"
 
-#include <fmt/format.h>
-#include <sys/random.h>
-
 #include <algorithm>
-#include <array>
 #include <cstdio>
 
 #include "core/error.hpp"
 #include "tools/output/progress.hpp"
 #include "tools/view/history/comparison.hpp"
 #include "tools/view/page.hpp"
+#include "tools/view/server/token.hpp"
 
 namespace waitpoint::tools::view {
 namespace {
@@ -22,16 +19,6 @@ constexpr double frames_s_max = 60;
 constexpr std::size_t queued_max = 1 << 20;
 constexpr std::size_t log_bytes_max = 4 << 20;
 constexpr std::size_t foxglove_bytes_max = 1 << 20;  // subscriptions to the topics of a crowd
-
-/// A secret of 128 bits. It reaches no event.
-std::string make_token() {
-  std::array<unsigned char, 16> bytes{};
-  WAITPOINT_CHECK(getrandom(bytes.data(), bytes.size(), 0) == static_cast<ssize_t>(bytes.size()),
-                  "the system has no random bytes");
-  std::string text;
-  for (const unsigned char byte : bytes) text += fmt::format("{:02x}", byte);
-  return text;
-}
 
 /// A reply with the number of its request.
 std::string with_id(const Json& id, const std::string& text) {

@@ -147,6 +147,8 @@ std::string WebServer::url_of_socket(const std::string& path) const {
 
 void WebServer::offer(SocketService service) { all_->services.push_back(std::move(service)); }
 
+void WebServer::set_page(std::string_view page) { all_->rules.page = page; }
+
 void WebServer::send(ClientNumber client, std::string data, bool is_text) {
   if (const auto found = all_->clients.find(client); found != all_->clients.end())
     found->second.socket->send(std::move(data), is_text);

@@ -20,7 +20,7 @@ struct WebServerOptions {
   std::string address = "127.0.0.1";
   std::uint16_t port = 0;  ///< 0: a free one
   std::string token;
-  std::string_view page;  ///< lives as long as the server
+  std::string_view page;  ///< lives as long as the server shows it
 };
 
 class WebServer {
@@ -30,6 +30,9 @@ class WebServer {
   ~WebServer();
   WebServer(const WebServer&) = delete;
   WebServer& operator=(const WebServer&) = delete;
+
+  /// Another page, from now on.
+  void set_page(std::string_view page);
 
   /// The page's address, with the token.
   std::string url() const;

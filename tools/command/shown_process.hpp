@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A process whose work is shown in browsers, as its parent sees it, which serves them and has the terminal.
+#pragma once
+
+#include <sys/types.h>
+
+#include <string>
+
+namespace waitpoint::tools {
+
+class ShownProcess {
+ public:
+  /// `what` it does, for messages: "run". heed_signals() must have been called.
+  ShownProcess(pid_t process, std::string what) : process_(process), what_(std::move(what)) {}
+
+  /// True when its parent has nothing more to do: after a signal, once the process has ended. Tells of its end.
+  bool is_done(const std::string& url);
+  bool has_ended() const { return has_ended_; }
+  /// Its exit status, or 128 and the signal that ended it.
+  int status() const;
+
+ private:
+  pid_t process_;
+  std::string what_;
+  int status_ = 0;
+  bool has_ended_ = false, is_told_ = false;
+};
+
+}  // namespace waitpoint::tools
