@@ -37,7 +37,7 @@ class Beside {
       found = compared?.difference;
     return [
       ...(source.marks?.(line) ?? []),
-      ...(found?.event ? [{time: found.time, text: "the first event that differs"}] : [])
+      ...(found?.event ? [{time: found.time, number: found.event, text: "the first event that differs"}] : [])
     ];
   }
 

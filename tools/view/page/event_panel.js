@@ -40,11 +40,12 @@ class EventPanel {
     if (!event) return this.stack.replaceChildren();
     const facts = [
       ["Event", countText(event.number)],
-      ["Time", instantText(event.time)],
+      ["Time", instantText(event.instant ?? event.time)],
       ["Task", `${event.task} of ${event.robot}`],
       ["Operation", event.operation],
       ["Object", event.object || "–"]
     ];
+    if (event.isSwitch) facts.push(["Switch", "chosen over the default order's event"]);
     if (event.waker)
       facts.push([
         "Woken by",
@@ -76,15 +77,17 @@ class EventPanel {
     this.stack.replaceChildren(
       ...(answer.error
         ? [element("li", {class: "note"}, answer.error)]
-        : answer.frames.map((frame) =>
-            element(
-              "li",
-              {},
-              element("span", {class: "function"}, frame.function),
-              " ",
-              element("span", {class: "place"}, frame.file ? `${frame.file}:${frame.line}` : "")
-            )
-          ))
+        : answer.frames.map(stackRow))
     );
   }
 }
+
+/** A call of a stack. */
+const stackRow = (frame) =>
+  element(
+    "li",
+    {},
+    element("span", {class: "function"}, frame.function),
+    " ",
+    element("span", {class: "place"}, frame.file ? `${frame.file}:${frame.line}` : "")
+  );

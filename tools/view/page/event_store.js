@@ -22,6 +22,14 @@ class EventStore {
     this.task = Int32Array.from(columns.k);
     this.operation = Uint8Array.from(columns.o);
     this.object = Int32Array.from(columns.x);
+    // Of a finding: by how much events of one instant are set apart, which were switches, which tasks wait in the end for
+    // what, and the numbers of the events whose order matters.
+    this.shift = columns.s ? Float64Array.from(columns.s) : null;
+    this.switches = new Set(columns.switches ?? []);
+    this.waits = columns.waits ? new Map(columns.waits) : null;
+    this.marked = columns.marked ?? null;
+    // With room behind the last event, where the tasks of a deadlock are seen waiting.
+    if (this.waits) this.to += Math.max(8, Math.min(MILLISECOND, 0.05 * (this.to - this.from)));
     let time = columns.from;
     for (let i = 0; i < count; ++i) this.time[i] = time += columns.t[i];
     this.lanes = this.lanesOf(count);
@@ -30,6 +38,11 @@ class EventStore {
 
   get count() {
     return this.time.length;
+  }
+
+  /** The time of an event in the run. */
+  instant(index) {
+    return this.time[index] - (this.shift?.[index] ?? 0);
   }
 
   /** For each task the indices of its events. */
@@ -66,6 +79,8 @@ class EventStore {
     return {
       number: this.first + index,
       time: this.time[index],
+      instant: this.instant(index),
+      isSwitch: this.switches.has(index),
       task: task.name,
       robot: task.robot,
       key: task.key,
@@ -81,7 +96,7 @@ class EventStore {
    */
   waker(index) {
     if (this.operationName(index) !== "resume" || this.object[index] < 0) return -1;
-    for (let i = index - 1; i >= 0 && this.time[i] === this.time[index]; --i) {
+    for (let i = index - 1; i >= 0 && this.instant(i) === this.instant(index); --i) {
       if (
         this.object[i] === this.object[index] &&
         this.task[i] !== this.task[index] &&

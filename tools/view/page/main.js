@@ -1,14 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Puts the page together.
 
-async function openSource() {
-  const run = byId("run");
-  if (run) return RecordedSource.open(run.textContent);
+function liveAddress() {
   const url = new URL("live", location.href);
   url.protocol = location.protocol === "https:" ? "wss:" : "ws:";
   url.search = new URLSearchParams({token: new URLSearchParams(location.search).get("token") ?? ""}).toString();
+  return url.href;
+}
+
+async function openSource() {
+  const run = byId("run");
+  if (run) {
+    const data = await unpacked(run.textContent);
+    return data.search ? new SearchView(data.search) : new RecordedSource(data);
+  }
   setText(byId("connection"), "connecting …");
-  return LiveSource.open(url.href);
+  return LiveSource.open(liveAddress());
 }
 
 /** A line for the user; it stays for a while, or until the next. */
@@ -20,8 +27,12 @@ function report(text) {
 
 async function start() {
   theme.choose("auto");
-  const source = await openSource(),
-    session = new Session(source),
+  const source = await openSource();
+  if (source instanceof SearchView) {
+    document.documentElement.dataset.ready = "true";
+    return;
+  }
+  const session = new Session(source),
     clock = new Clock(session, report);
   const {header} = source;
   document.title = `${header.scenario} – waitpoint`;
@@ -31,20 +42,12 @@ async function start() {
   await clock.seek(0);
   parts.axis.showAll();
   if (source.kind === "live") clock.setLive(true);
-  else if (source.lines.length > 1) await showFinding(source, parts);
+  else if (source.finding || source.lines.length > 1) await showFinding(source, parts, clock);
   // Programs without robots have no floor.
+  byId("plots").hidden = Boolean(source.finding);
   byId("plan").hidden = byId("split-side").hidden = header.robots.length + header.obstacles.length === 0;
   window.waitpoint = testHook(session, clock, parts);
   document.documentElement.dataset.ready = "true";
-}
-
-/** A finding begins with its lines side by side, about the events whose order matters. */
-async function showFinding(source, parts) {
-  parts.tabs.choose("lines");
-  await parts.panels.get("lines").compare(1);
-  const times = source.lines.flatMap((_, line) => source.marks(line).map(({time}) => time)),
-    margin = Math.max(extent(times), MILLISECOND);
-  if (times.length) parts.axis.set(Math.min(...times) - margin, Math.max(...times) + margin);
 }
 
 function showFacts(session) {
@@ -64,7 +67,9 @@ function showFacts(session) {
   );
   const state =
     source.kind === "recorded"
-      ? "recorded run"
+      ? source.finding
+        ? "finding"
+        : "recorded run"
       : source.connection.state === "open"
         ? status.over
           ? "connected, run over"

@@ -37,9 +37,11 @@ function buildParts(session, clock) {
   parts.tabs = new Tabs(byId("tabs"), byId("panels"));
   parts.panels = new Map();
   const panel = (key, name, make) => parts.panels.set(key, make(parts.tabs.add(key, name)));
-  panel("robots", "Robots", (at) => new RobotsPanel(at, session));
+  if (session.source.finding) panel("finding", "Finding", (at) => new FindingPanel(at, session, axis));
+  const hasRobots = session.header.robots.length > 0;
+  if (hasRobots) panel("robots", "Robots", (at) => new RobotsPanel(at, session));
   panel("tasks", "Tasks", (at) => new TasksPanel(at, session, (task) => selectTask(session, parts, task)));
-  panel("modules", "Modules", (at) => new ModulesPanel(at, session, (wanted) => parts.plots.add(wanted)));
+  if (hasRobots) panel("modules", "Modules", (at) => new ModulesPanel(at, session, (wanted) => parts.plots.add(wanted)));
   panel("event", "Event", (at) => new EventPanel(at, session, clock, () => parts.timelineGestures));
   panel("log", "Log", (at) => new LogPanel(at, session, clock));
   panel("lines", "Lines", (at) => new LinesPanel(at, session, clock, axis));
@@ -67,7 +69,7 @@ function connectParts(session, clock, parts) {
   session.on("robot event line run log source", updatePanel);
   session.on("event", () => {
     timeline.scrolled();
-    if (session.event && parts.tabs.chosen !== "tasks") parts.tabs.choose("event");
+    if (session.event && !["tasks", "finding"].includes(parts.tabs.chosen)) parts.tabs.choose("event");
   });
   session.on("theme", () => {
     for (const surface of surfaces) surface.invalidate();

@@ -9,7 +9,8 @@ class RecordedLine {
     this.frames = run.frames ?? [];
     if (this.frames.length === 0) this.frames.push({kind: "frame", line: 0, time: 0, events: 0, robots: []});
     this.store = new EventStore(run.events ?? NO_EVENTS, header.operations);
-    this.to = Math.max(this.frames.at(-1).time, this.store.count ? this.store.time.at(-1) : 0);
+    const last = this.store.count ? this.store.time.at(-1) : 0;
+    this.to = Math.max(this.frames.at(-1).time, this.store.waits ? this.store.to : last);
     this.complete(header);
   }
 

@@ -2,19 +2,20 @@
 // A finished run that is in the document itself. It has the methods of LiveSource, and answers at once. A finding has
 // other lines beside the run: the nearest schedule without the failure.
 
-class RecordedSource {
-  /** text: the run as base64 of gzip of JSON. */
-  static async open(text) {
-    const bytes = Uint8Array.from(atob(text.replace(/\s+/g, "")), (letter) => letter.charCodeAt(0));
-    const unpacked = new Response(bytes).body.pipeThrough(new DecompressionStream("gzip"));
-    return new RecordedSource(await new Response(unpacked).json());
-  }
+/** text: base64 of gzip of JSON. */
+async function unpacked(text) {
+  const bytes = Uint8Array.from(atob(text.replace(/\s+/g, "")), (letter) => letter.charCodeAt(0));
+  const stream = new Response(bytes).body.pipeThrough(new DecompressionStream("gzip"));
+  return new Response(stream).json();
+}
 
+class RecordedSource {
   constructor(run) {
     this.run = run;
     this.kind = "recorded";
     this.header = run.header;
     this.control = false;
+    this.finding = run.finding ?? null;
     this.lines = [run, ...(run.others ?? [])].map((one) => new RecordedLine(one, run.header));
     this.log = run.log ?? [];
     const summary = run.summary ?? "",
@@ -79,15 +80,37 @@ class RecordedSource {
     throw new Error("Not recorded: waitpoint run --serve tells it.");
   }
 
-  /** Events of interest, with a text and a call stack. */
+  /** Events of interest, with a text and a call stack: of a finding the pair whose order matters. */
   marks(line) {
-    const {store} = this.lines[line];
-    return (this.run.marks ?? [])
-      .filter((mark) => mark.line === line)
-      .map((mark) => ({...store.describe(mark.event - store.first), ...mark}));
+    const {store} = this.lines[line],
+      told = (this.run.marks ?? []).filter((mark) => mark.line === line);
+    const marks = store.marked?.map((event, pair) => ({...told.find((mark) => mark.pair === pair), event, pair, line}));
+    return (marks ?? told)
+      .filter(({event}) => event !== null && event >= store.first && event < store.first + store.count)
+      .map((mark) => {
+        const event = store.describe(mark.event - store.first),
+          text = `${PAIR[mark.pair]}: ${event.task} ${event.operation} ${event.object}`;
+        return {text, ...event, ...mark};
+      });
   }
 
-  async compare() {
-    return this.run.difference ?? {event: null};
+  async compare(line, other) {
+    return this.run.difference ?? firstDifference(this.lines[line].store, this.lines[other].store);
+  }
+}
+
+/** Where two schedules part: the first event that differs, as the protocol's "compare" tells it. */
+function firstDifference(one, other) {
+  const text = (store, index) => {
+    if (index >= store.count) return "";
+    const {task, operation, object} = store.describe(index);
+    return `${task} ${operation} ${object}`;
+  };
+  for (let number = Math.max(one.first, other.first); ; ++number) {
+    const i = number - one.first,
+      k = number - other.first;
+    if (i >= one.count && k >= other.count) return {event: null};
+    const [a, b] = [text(one, i), text(other, k)];
+    if (a !== b) return {event: number, time: i < one.count ? one.time[i] : other.time[k], a, b};
   }
 }

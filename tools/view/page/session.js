@@ -35,6 +35,7 @@ class Session {
   /** How far the line of time goes. A branch goes on when it is asked: at least as far as the run has come. */
   get end() {
     const {to, parent} = this.lineState;
+    if (this.source.finding) return Math.max(...this.source.status.lines.map((line) => line.to));
     return parent === null ? to : Math.max(to, this.source.status.lines[0].to);
   }
 

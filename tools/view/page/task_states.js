@@ -38,8 +38,15 @@ function stateBetween(store, before, after) {
     return {state: timer ? "idle" : "blocked", object};
   }
   if (is === "sleep" || (after < 0 && was === "timer_wait")) return {state: "idle", object: -1};
+  if (after < 0 && store.waits) {
+    // What the task of the very last event waits for, no later event has shown.
+    const last = before === store.count - 1 && WAITS.has(was) ? store.object[before] : -1,
+      awaited = store.waits.get(store.task[before]) ?? last;
+    return {state: awaited >= 0 ? "blocked" : null, object: awaited};
+  }
   if (after < 0) return WAITS.has(was) ? {state: "blocked", object: store.object[before]} : {state: null, object: -1};
-  return {state: is === "yield" ? "ready" : "running", object: -1};
+  const still = store.shift && before >= 0 && store.instant(before) === store.instant(after);
+  return {state: is === "yield" || still ? "ready" : "running", object: -1};
 }
 
 /**

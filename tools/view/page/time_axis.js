@@ -15,7 +15,8 @@ class TimeAxis {
   }
 
   get end() {
-    return Math.max(this.session.end, MILLISECOND);
+    // A schedule without waits may be over after a few nanoseconds, one for each event.
+    return Math.max(this.session.end, this.session.source.finding ? LEAST_SPAN : MILLISECOND);
   }
 
   get span() {

@@ -43,6 +43,8 @@ class TimelineData {
   }
 
   covers(from, to) {
+    // Nothing more is known of a finding.
+    if (this.session.source.finding) return this.store !== null;
     const end = this.axis.end;
     return this.store && this.store.from <= Math.max(0, from) && this.store.to >= Math.min(to, end);
   }

@@ -177,7 +177,7 @@ function eventLines(store, index) {
     waker = store.waker(index);
   return [
     `${event.task}: ${event.operation} ${event.object}`,
-    `${instantText(event.time)} · event ${countText(event.number)}`,
+    `${instantText(event.instant)} · event ${countText(event.number)}`,
     ...(waker >= 0 ? [`woken by ${store.describe(waker).task} (${store.operationName(waker)})`] : [])
   ];
 }

@@ -198,9 +198,11 @@ function drawArrow(pen, x0, y0, x1, y1, strong) {
   pen.globalAlpha = 1;
 }
 
-/** An instant of interest over all lanes. */
-function drawMark(pen, x, height, text) {
-  pen.strokeStyle = theme.colours.late;
+const markColour = ({pair}) => (pair === 1 ? theme.colours.select : theme.colours.late);
+
+/** An instant of interest over all lanes. slot: of its text, above those of others at the lower edge. */
+function drawMark(pen, x, height, text, colour, slot) {
+  pen.strokeStyle = colour;
   pen.lineWidth = 2;
   pen.setLineDash([6, 3]);
   pen.beginPath();
@@ -209,5 +211,19 @@ function drawMark(pen, x, height, text) {
   pen.stroke();
   pen.setLineDash([]);
   pen.textAlign = "left";
-  haloText(pen, text, x + 5, RULER + 10);
+  pen.font = "12px system-ui, sans-serif";
+  haloText(pen, text, x + 5, height - 10 - 15 * slot);
+}
+
+/** The letter of an event whose order matters, at its place in its lane. */
+function drawBadge(pen, x, y, {pair}) {
+  pen.fillStyle = markColour({pair});
+  pen.beginPath();
+  pen.arc(x, y, 8, 0, 2 * Math.PI);
+  pen.fill();
+  pen.fillStyle = theme.colours.floor;
+  pen.font = "bold 11px system-ui, sans-serif";
+  pen.textAlign = "center";
+  pen.textBaseline = "middle";
+  pen.fillText(PAIR[pair], x, y + 0.5);
 }

@@ -102,9 +102,17 @@ class TimelineView {
       for (const row of visible)
         if (row.tasks.length > 1 ? row.closed : true)
           if (!few) drawMissed(pen, counts, row.tasks, axis, y(row), row.height);
-    for (const mark of this.marks) drawMark(pen, axis.x(mark.time), height, mark.text);
+    this.marks.forEach((mark, slot) => this.paintMark(pen, mark, slot, y, height));
     pen.restore();
     this.moveCursor();
+  }
+
+  paintMark(pen, mark, slot, y, height) {
+    const known = this.places && mark.number !== undefined,
+      x = known ? this.places.of(mark.number - this.data.store.first) : this.axis.x(mark.time),
+      row = mark.pair === undefined ? null : this.rows.rowOf.get(mark.key);
+    drawMark(pen, x, height, mark.text, markColour(mark), slot);
+    if (row) drawBadge(pen, x, y(row) + row.height / 2, mark);
   }
 
   /** The cursor's line is an element: it moves without painting the lanes again. */
