@@ -96,6 +96,7 @@ int carry_out(int argc, const char* const* argv, std::vector<genom::ModuleType> 
     if (const auto* fitted = std::get_if<tools::FitOptions>(&options)) return tools::fit(*fitted, types);
     if (const auto* compared = std::get_if<tools::CompareOptions>(&options)) return tools::compare(*compared, types);
     if (const auto* plan = std::get_if<tools::PlanOptions>(&options)) return tools::show_plan(*plan);
+    if (const auto* viewed = std::get_if<tools::ViewOptions>(&options)) return tools::view_finding(*viewed);
     if (const auto* generated = std::get_if<tools::GenomOptions>(&options)) return tools::genom(*generated);
     if (const auto* debug = std::get_if<tools::DebugOptions>(&options)) tools::debug(*debug);
     if (const auto* executed = std::get_if<tools::ExecOptions>(&options)) return tools::exec(*executed);

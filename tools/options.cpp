@@ -77,6 +77,7 @@ Options read_options(int argc, const char* const* argv, const std::string& versi
   ReplayArguments replay(line);
   FitArguments fit(line);
   CompareArguments compare(line);
+  ViewArguments view(line);
   line.footer(
       "See waitpoint COMMAND --help. Exit status: 0 success, 1 a failed expectation of the scenario or a deadlock,\n"
       "2 bad input, 130 stopped by a signal.");
@@ -112,13 +113,14 @@ Options read_options(int argc, const char* const* argv, const std::string& versi
   }
   if (fit.parsed()) return fit.options();
   if (compare.parsed()) return compare.options();
+  if (view.parsed()) return view.options();
   if (check.parsed()) {
     const std::filesystem::path scenario = find_scenario(checked.file);
     return CheckOptions{scenario, checked.confinement.folders(scenario), checked.assignments};
   }
   throw BadInput(
       "command line",
-      "expected a command, run, check, plan, explore, exec, genom, replay, fit or compare; see waitpoint --help");
+      "expected a command, run, check, plan, explore, exec, genom, replay, fit, compare or view; see waitpoint --help");
 }
 
 }  // namespace waitpoint::tools

@@ -9,6 +9,7 @@
 
 #include "tools/exec/exec_options.hpp"
 #include "tools/explore/runs/explore_options.hpp"
+#include "tools/finding/view_command.hpp"
 #include "tools/fit/compare.hpp"
 #include "tools/fit/fit.hpp"
 #include "tools/gdb/debug.hpp"
@@ -32,7 +33,7 @@ struct ShownText {
 };
 
 using Options = std::variant<RunOptions, CheckOptions, ExploreOptions, ExecOptions, DebugOptions, PlanOptions,
-                             GenomOptions, ReplayOptions, FitOptions, CompareOptions, ShownText>;
+                             GenomOptions, ReplayOptions, FitOptions, CompareOptions, ViewOptions, ShownText>;
 
 /// Reads the arguments, and WAITPOINT_SEED unless --seed is given. Throws BadInput, one line, for invalid arguments.
 /// `version` is the text of --version.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <csignal>
+#include <nlohmann/json.hpp>
 #include <regex>
 #include <set>
 #include <sstream>
@@ -145,6 +146,29 @@ TEST_F(ExploreScenario, AnExceptionIsFoundMinimisedExplainedAndReplayed) {
     EXPECT_NE(replayed.output.find("the same run"), std::string::npos) << replayed.errors;
     EXPECT_NE(replayed.errors.find("the second task came first"), std::string::npos) << replayed.errors;
   }
+}
+
+TEST_F(ExploreScenario, AFindingHasBothRunsWithTheirFloorAndTheEventsWhoseOrderMatters) {
+  tools::ExploreOptions search = options(1, {"robots.0.modules.pair.turns=3"});
+  search.finding = folder_ / "finding.json";
+  const Told told = explore(search);
+  ASSERT_EQ(told.status, 1) << told.errors;
+  const auto finding = nlohmann::json::parse(folder_.read("finding.json"));
+  EXPECT_EQ(finding["header"]["robots"][0]["name"], "r");
+  ASSERT_EQ(finding["others"].size(), 1u) << told.output;
+  for (const auto& schedule : {finding, finding["others"][0]}) {
+    EXPECT_FALSE(schedule["frames"].empty());
+    EXPECT_EQ(schedule["frames"][0]["time"], 0);
+    EXPECT_GT(schedule["events"]["t"].size(), 10u);
+    EXPECT_EQ(schedule["events"]["marked"].size(), 2u);
+  }
+  // Up to where they part, both runs are the same.
+  const auto &fails = finding["events"]["k"], &passes = finding["others"][0]["events"]["k"];
+  const std::size_t parting = finding["events"]["marked"][0].get<std::size_t>() - 1;
+  EXPECT_TRUE(std::equal(fails.begin(), fails.begin() + static_cast<std::ptrdiff_t>(parting / 2), passes.begin()));
+  EXPECT_NE(told.output.find(finding["finding"]["report"].get<std::string>()), std::string::npos);
+  EXPECT_NE(found(told.output, "first in the failing run: +(at .*)"), "");
+  EXPECT_EQ(finding["marks"][0]["words"], found(told.output, "first in the failing run: +(at .*)"));
 }
 
 TEST_F(ExploreScenario, ALackOfProgressIsFoundAndSaysWhoSpins) {

@@ -50,6 +50,7 @@ OWN_CASES = {
     "exec, ROS": [sys.executable, str(ROOT / "tests/exec/ros_test.py"), BUILD],
     "exec, repeatability": [sys.executable, str(ROOT / "tests/exec/repeatability_test.py"), BUILD],
     "explore --exec": [sys.executable, str(ROOT / "tests/exec/exploring_test.py"), BUILD],
+    "explore --exec, findings": [sys.executable, str(ROOT / "tests/exec/finding_test.py"), BUILD],
     "explore --exec, ends": [sys.executable, str(ROOT / "tests/exec/ends_test.py"), BUILD],
     "explore --exec, accesses": [sys.executable, str(ROOT / "tests/exec/accesses_test.py"), BUILD],
     "explore --exec, processes": [sys.executable, str(ROOT / "tests/exec/exploring_processes_test.py"), BUILD],

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -21,21 +22,36 @@
 #include "tools/explore/runs/scene.hpp"
 #include "tools/explore/search/discoveries.hpp"
 #include "tools/explore/search/search.hpp"
+#include "tools/explore/shown_search.hpp"
+#include "tools/finding/finding_page.hpp"
 #include "tools/output/output_file.hpp"
 
 namespace waitpoint::tools {
 namespace {
 
+std::string finding_text(const FailureReport& report) {
+  exploration::FindingFile finding = report.finding;
+  finding.report = report.text;
+  return exploration::to_text(finding);
+}
+
+/// What is left of a search, and who looks on.
 class Files {
  public:
-  explicit Files(const ExploreOptions& options) {
+  /// `viewers`: null if nobody looks on.
+  Files(const ExploreOptions& options, view::Channel* viewers) {
+    if (viewers != nullptr) viewers_.emplace(*viewers);
     if (options.results) results_.emplace(*options.results);
     if (options.schedule) schedule_.emplace(*options.schedule);
     if (options.trace) trace_.emplace(*options.trace);
+    if (options.page) page_.emplace(*options.page);
+    if (options.finding) finding_.emplace(*options.finding);
   }
 
   /// Null if no results are asked for.
   ResultsFile* results() { return results_ ? &*results_ : nullptr; }
+  /// Of processes that show the search; null if there are none.
+  SearchViewers* viewers() { return viewers_ ? &*viewers_ : nullptr; }
   void write(const FailureReport& report) {
     if (schedule_) {
       schedule_->write(to_text(report.schedule));
@@ -45,11 +61,28 @@ class Files {
       trace_->write(report.trace);
       trace_->commit();
     }
+    if (!page_ && !finding_ && !viewers_) return;
+    const std::string text = finding_text(report);
+    if (viewers_) viewers_->show(text);
+    if (page_) {
+      page_->write(page_of_finding(text));
+      page_->commit();
+    }
+    if (finding_) {
+      finding_->write(text);
+      finding_->commit();
+    }
+  }
+  /// No schedule has failed: nothing is written.
+  void leave(const ExploreOptions& options) const {
+    for (const auto& [name, file] : {std::pair("--page", options.page), std::pair("--finding", options.finding)})
+      if (file) std::fprintf(stderr, "waitpoint: %s: no schedule failed: %s is not written\n", name, file->c_str());
   }
 
  private:
   std::optional<ResultsFile> results_;
-  std::optional<OutputFile> schedule_, trace_;
+  std::optional<OutputFile> schedule_, trace_, page_, finding_;
+  std::optional<SearchViewers> viewers_;
 };
 
 void tell(const FailureReport& report, Files& files) {
@@ -105,6 +138,7 @@ int search(Target& target, Files& files) {
   heed_signals();
   target.prepare();
   SearchProgress progress(stderr, isatty(STDERR_FILENO) != 0);
+  if (files.viewers() != nullptr) files.viewers()->listen_to(progress);
   target.set_limit(target.options().schedule_limit_s.value_or(0));
   const double usual_start_s = progress.seconds();
   std::optional<Finding> usual = run_usual(target);
@@ -125,28 +159,41 @@ int search(Target& target, Files& files) {
   const double seconds = progress.seconds() - start_s;
   if (usual && files.results() != nullptr) files.results()->commit();
   const bool is_interrupted = search.interrupted() || !usual;
-  write_standard_output(sum(target, search, seconds, is_interrupted));
+  const std::string words = sum(target, search, seconds, is_interrupted);
+  write_standard_output(words);
+  if (files.viewers() != nullptr) files.viewers()->end(words);
   const FailedRun* const gravest = discoveries.gravest();
-  if (gravest != nullptr) tell(report_of(target, progress, discoveries), files);
+  if (gravest != nullptr)
+    tell(report_of(target, progress, discoveries), files);
+  else
+    files.leave(target.options());
   return is_interrupted ? 130 : gravest != nullptr ? 1 : 0;
 }
 
 }  // namespace
 
 int explore(const ExploreOptions& options, std::span<const genom::ModuleType> types) {
+  const auto shown = [&](const std::function<int(view::Channel*)>& begin) {
+    if (!options.serve) return begin(nullptr);
+    return show_search(options, [&](view::Channel& viewers) { return begin(&viewers); });
+  };
   if (!options.program.empty()) {
     if (!options.replay.empty()) return replay_program(options);
-    Files files(options);
-    ProgramTarget program(options);
-    return search(program, files);
+    return shown([&](view::Channel* viewers) {
+      Files files(options, viewers);
+      ProgramTarget program(options);
+      return search(program, files);
+    });
   }
   const scenario::Scenario scenario = scenario::read_scenario(options.scenario, options.assignments);
   begin_with_program_layer(scenario);
   if (!options.replay.empty()) return replay(options, scenario, types);
-  sync::tell_threads_outside();
-  Files files(options);
-  Scene scene(scenario, types, options, "");  // a failure is reported with its token
-  return search(scene, files);
+  return shown([&](view::Channel* viewers) {
+    sync::tell_threads_outside();
+    Files files(options, viewers);
+    Scene scene(scenario, types, options, "");  // a failure is reported with its token
+    return search(scene, files);
+  });
 }
 
 }  // namespace waitpoint::tools

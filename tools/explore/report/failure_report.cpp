@@ -7,7 +7,9 @@
 
 #include "core/number_text.hpp"
 #include "fibers/explore/schedules/token.hpp"
+#include "tools/command/version.hpp"
 #include "tools/explore/report/fewer_switches.hpp"
+#include "tools/explore/report/finding_schedules.hpp"
 #include "tools/explore/report/reversed_events.hpp"
 #include "tools/explore/runs/switch_points.hpp"
 #include "tools/explore/search/search.hpp"
@@ -37,6 +39,29 @@ std::string headline(const std::string& which, const Finding& finding) {
   return fmt::format("{} failed at {} s: {}\n", which, to_string(finding.end), finding.words);
 }
 
+/// The replay line, and what a page says beside the schedules.
+void tell_replay(const Target& target, const Finding& least, const std::string& token, const std::string& schedule,
+                 FailureReport& report) {
+  const ExploreOptions options = with_switches_at(least.switch_at, target.options());
+  const std::string command = replay_command(options, token);
+  report.text += "replay: " + command + "\n";
+  report.finding.title = target.name();
+  report.finding.version = version_line();
+  report.finding.seed = options.seed;
+  report.finding.schedule = schedule;
+  report.finding.failure = least.words;
+  report.finding.replay = command;
+  report.finding.debug = debug_command(options, token);
+}
+
+/// Empty if there is a pair.
+std::string reason_without_pair(const ReversedEvents& reversed, bool is_noise, bool is_minimized) {
+  if (reversed.pair) return "";
+  if (is_noise) return "it is the noise, not the order: the passing run has the default order, and its own noise";
+  if (!is_minimized) return "--no-minimize: no passing run is sought";
+  return reversed.passing ? exploration::no_pair_in_words() : "no passing run was found in time";
+}
+
 /// Repeats the failing run to describe its switches and its last events.
 void tell_run(Target& target, const Plan& plan, const Finding& least, FailureReport& report) {
   const Time from = Time() + std::max(Duration(), least.end.since_start() - traced);
@@ -45,6 +70,7 @@ void tell_run(Target& target, const Plan& plan, const Finding& least, FailureRep
   report.text += told->details;
   report.races = told->races;
   if (!told->told.empty()) report.text += "switches away from the default order:\n" + told->told;
+  report.finding.steps = told->last_events;
   if (!told->last_events.empty())
     report.text += "last events of the tasks (*: switch away from the default order):\n" + told->last_events;
   report.trace = told->trace;
@@ -66,9 +92,11 @@ FailureReport report_default(Target& target, const Finding& finding) {
                      {},
                      trail_of(target, {.drawn = false}, finding)};
   tell_run(target, {.drawn = false}, finding, report);
+  report.finding.note = "the default order fails, beside which no passing one is sought";
+  if (options.tells_finding()) add_schedules(target, {.drawn = false}, finding, {}, report.finding);
   if (finding.digest != 0) report.text += "digest: " + digest_text(finding.digest) + "\n";
   const Token token{0, token_digest(finding.digest), "", 0, 0, {}, {}, options.memory};
-  report.text += "replay: " + replay_command(options, to_text_with(token, report.schedule.trail)) + "\n";
+  tell_replay(target, finding, to_text_with(token, report.schedule.trail), "the default order", report);
   return report;
 }
 
@@ -81,11 +109,14 @@ FailureReport report(Target& target, SearchProgress& progress, const FailedRun& 
   Token token = found;
   const Plan found_plan = plan;
   Finding least = failed.finding;
+  ReversedEvents reversed;
+  bool is_noise = false;
   if (options.minimize) {
     Budget budget(runs_to_minimize, seconds_to_minimize);
     FewerSwitches fewer(target, progress, budget, plan.number, failed.finding);
     fewer.run();
-    if (fewer.is_noise()) {
+    is_noise = fewer.is_noise();
+    if (is_noise) {
       report.text += target.has_noise() ? "it is the noise, not the order: with the noise of this schedule the default "
                                           "order fails too\n"
                                         : "the default order fails too, intermittently\n";
@@ -97,7 +128,7 @@ FailureReport report(Target& target, SearchProgress& progress, const FailedRun& 
       if (target.has_noise() && fewer.number() == 0 && found_plan.number != 0)
         report.text += "the noise does not matter\n";
     }
-    if (fewer.is_noise() || fewer.repeats()) {
+    if (is_noise || fewer.repeats()) {
       least = fewer.least();
       plan = {.number = fewer.number(), .drawn = false, .switches = {}, .deviations = least.deviations};
       const Token deviating{0, token_digest(least.digest), "", 0, 0, least.deviations, {}, options.memory};
@@ -105,10 +136,16 @@ FailureReport report(Target& target, SearchProgress& progress, const FailedRun& 
     }
     Budget explaining(runs_to_explain, seconds_to_explain);
     const LeastFailure failure{plan.number, least};
-    if (const auto choice = last_choice(target, progress, explaining, failure))
-      report.text += "the last choice from which it could still have passed: " + choice->words + "\n" +
-                     reversed_events(target, progress, explaining, failure, *choice);
+    if (const auto choice = last_choice(target, progress, explaining, failure)) {
+      report.finding.choice = choice->words;
+      reversed = reversed_events(target, progress, explaining, failure, *choice);
+      report.text += "the last choice from which it could still have passed: " + choice->words + "\n" + reversed.text;
+    }
   }
+  report.finding.note = reason_without_pair(reversed, is_noise, options.minimize);
+  // The default order has passed with the target's own noise.
+  if (is_noise && found_plan.number != 0) reversed.passing = Plan{.drawn = false};
+  if (options.tells_finding()) add_schedules(target, plan, least, reversed, report.finding);
   progress.finish();
   report.schedule = {target.fingerprint(),
                      options.strategy,
@@ -122,7 +159,7 @@ FailureReport report(Target& target, SearchProgress& progress, const FailedRun& 
       token == found ? trail_of(target, found_plan, failed.finding) : report.schedule.trail;
   if (failed.finding.kind != Finding::Kind::killed) tell_run(target, plan, least, report);
   if (least.digest != 0) report.text += "digest: " + digest_text(least.digest) + "\n";
-  report.text += "replay: " + replay_command(options, to_text_with(token, trail)) + "\n";
+  tell_replay(target, least, to_text_with(token, trail), name_of(failed, options), report);
   if (options.schedule) report.text += "replay: " + replay_command(options, options.schedule->string()) + "\n";
   return report;
 }

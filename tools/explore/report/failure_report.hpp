@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "fibers/explore/report/finding_file.hpp"
 #include "tools/explore/replay/schedule_file.hpp"
 #include "tools/explore/runs/target.hpp"
 #include "tools/explore/search/failed_run.hpp"
@@ -18,6 +19,8 @@ struct FailureReport {
   StoredSchedule schedule;           ///< the minimised one
   std::string trace;                 ///< of its last seconds, if requested
   std::vector<ToldRace> races = {};  ///< that the text tells of
+  /// With the schedules, if ExploreOptions::tells_finding().
+  exploration::FindingFile finding = {};
 };
 
 /// The report of a failing default order.

@@ -3,7 +3,8 @@
 
 #include <fmt/format.h>
 
-#include "fibers/explore/report/reordered_events.hpp"
+#include <algorithm>
+
 #include "tools/explore/search/search.hpp"
 
 namespace waitpoint::tools {
@@ -21,9 +22,9 @@ class Comparison {
              const LastChoice& choice)
       : target_(target), progress_(progress), budget_(budget), least_(least), choice_(choice) {}
 
-  std::string in_words() {
+  ReversedEvents found() {
     const std::optional<Finding> failing = log_of(least_.plan());
-    if (!failing) return "";
+    if (!failing) return {};
     fails_ = failing->log;
     for (std::uint32_t other = 0; other < alternatives_max && !is_plainest(); ++other) {
       const std::optional<Finding> tried = log_of(least_.plan_up_to(choice_.decision, other));
@@ -32,12 +33,12 @@ class Comparison {
     }
     if (!passes_)
       if (const std::optional<Finding> tried = log_of(choice_.passing)) consider(choice_.passing, *tried);
-    if (!passes_) return "";
-    if (!pair_) return exploration::no_pair_in_words();
+    if (!passes_) return {};
+    if (!pair_) return {exploration::no_pair_in_words(), passes_};
     const std::optional<Finding> first = before(least_.plan(), pair_->failing),
                                  second = before(*passes_, pair_->passing);
-    if (!first || !second) return "";
-    return exploration::pair_in_words(first->told, second->told);
+    if (!first || !second) return {"", passes_};
+    return {exploration::pair_in_words(first->told, second->told), passes_, pair_, std::min(first->end, second->end)};
   }
 
  private:
@@ -75,9 +76,9 @@ class Comparison {
 
 }  // namespace
 
-std::string reversed_events(Target& target, SearchProgress& progress, Budget& budget, const LeastFailure& least,
-                            const LastChoice& choice) {
-  return Comparison(target, progress, budget, least, choice).in_words();
+ReversedEvents reversed_events(Target& target, SearchProgress& progress, Budget& budget, const LeastFailure& least,
+                               const LastChoice& choice) {
+  return Comparison(target, progress, budget, least, choice).found();
 }
 
 }  // namespace waitpoint::tools

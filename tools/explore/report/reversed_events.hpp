@@ -3,16 +3,24 @@
 // both call stacks (fibers/explore/report/reordered_events.hpp).
 #pragma once
 
+#include <optional>
 #include <string>
 
+#include "fibers/explore/report/reordered_events.hpp"
 #include "tools/explore/report/last_choice.hpp"
 
 namespace waitpoint::tools {
 
-/// Text lines. The passing run is the one with the fewest differences among the alternatives at that choice, each
-/// followed by the default order; else the run that showed the choice to be the last one. Empty if the budget is
-/// exhausted.
-std::string reversed_events(Target& target, SearchProgress& progress, Budget& budget, const LeastFailure& least,
-                            const LastChoice& choice);
+struct ReversedEvents {
+  std::string text;                  ///< lines; empty if the budget is exhausted
+  std::optional<Plan> passing = {};  ///< of the passing run; nothing if the budget is exhausted
+  std::optional<exploration::EventPair> pair = {};
+  Time from = {};  ///< of the pair, when the earlier one happens
+};
+
+/// The passing run is the one with the fewest differences among the alternatives at that choice, each followed by the
+/// default order; else the run that showed the choice to be the last one.
+ReversedEvents reversed_events(Target& target, SearchProgress& progress, Budget& budget, const LeastFailure& least,
+                               const LastChoice& choice);
 
 }  // namespace waitpoint::tools

@@ -20,6 +20,7 @@ namespace waitpoint::tools {
 namespace {
 
 constexpr std::uint32_t jobs_max = 1024, snapshots_max = 1000;
+constexpr const char* free_port = "a free port";
 
 /// The option's text, else the environment variable's; `where` becomes the name of the source used.
 std::string text_of(const std::string& option, const char* variable, std::string& where) {
@@ -139,6 +140,13 @@ ExploreArguments::ExploreArguments(CommandLine& line)
   command_.option("--schedule", schedule_, "FILE", "write the failing schedule, minimised, for --replay");
   command_.option("--trace", trace_, "FILE.json",
                   "write the last seconds before the failure as a trace for Chrome and Perfetto");
+  command_.option("--page", page_, "FILE.html",
+                  "write the failing schedule beside the nearest passing one as a page for browsers, which opens\n"
+                  "offline (docs/view.md)");
+  command_.option("--finding", finding_, "FILE.json", "write the same as data, for `waitpoint view`");
+  command_.option_or_flag("--serve", serve_, "ADDRESS:PORT", free_port,
+                          "show the search and its finding in a browser, until Ctrl-C: at this address, or at a\n"
+                          "free port of the loopback; the page's address is printed (docs/view.md)");
   command_.option("--races", races_, "report|fail|ignore",
                   "data races of a program compiled with -fsanitize=thread (default: $WAITPOINT_RACES, or\n"
                   "report): failures, each reported once, that do not end the search; failures like any\n"
@@ -202,6 +210,22 @@ void ExploreArguments::take_program_options(ExploreOptions& options) const {
     refuse("--snapshots", "a whole number from 0 to " + std::to_string(snapshots_max), snapshots_);
 }
 
+void ExploreArguments::take_outputs(ExploreOptions& options) const {
+  const bool is_file = !replay_.empty() && !exploration::is_token(replay_);
+  check_distinct({{"--results", results_},
+                  {"--schedule", schedule_},
+                  {"--trace", trace_},
+                  {"--page", page_},
+                  {"--finding", finding_},
+                  {"--replay", is_file ? replay_ : "", NamedFile::Use::read}});
+  options.results = file(results_);
+  options.trace = file(trace_);
+  options.page = file(page_);
+  options.finding = file(finding_);
+  if (!serve_.empty()) options.serve = serve_ == free_port ? "" : serve_;
+  options.schedule = file(schedule_);
+}
+
 ExploreOptions ExploreArguments::options(const std::vector<std::string>& words) const {
   ExploreOptions options;
   for (const auto& [name, is_given] :
@@ -252,14 +276,7 @@ ExploreOptions ExploreArguments::options(const std::vector<std::string>& words) 
   if (options.from && options.until && *options.from >= *options.until)
     refuse("--from", "a time before --until", from_);
   if (!shard_.empty()) options.shard = shard_of(shard_);
-  const bool is_file = !replay_.empty() && !exploration::is_token(replay_);
-  check_distinct({{"--results", results_},
-                  {"--schedule", schedule_},
-                  {"--trace", trace_},
-                  {"--replay", is_file ? replay_ : "", NamedFile::Use::read}});
-  options.results = file(results_);
-  options.trace = file(trace_);
-  options.schedule = file(schedule_);
+  take_outputs(options);
   options.minimize = !keep_all_;
   where = "--replay";
   options.replay = text_of(replay_, "WAITPOINT_REPLAY", where);
@@ -269,7 +286,10 @@ ExploreOptions ExploreArguments::options(const std::vector<std::string>& words) 
                                     {"--results", results_},
                                     {"--jobs", jobs_},
                                     {"--strategy", strategy_},
-                                    {"--schedule", schedule_}})
+                                    {"--schedule", schedule_},
+                                    {"--page", page_},
+                                    {"--finding", finding_},
+                                    {"--serve", serve_}})
     if (!value.empty()) throw BadInput(where, std::string("cannot be used together with ") + name);
   return options;
 }

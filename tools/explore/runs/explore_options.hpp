@@ -42,8 +42,9 @@ struct ExploreOptions {
   std::optional<Duration> until;                ///< overrides the scenario's
   std::optional<Duration> from;                 ///< the end of the part that all schedules share
   Shard shard;
-  std::optional<std::filesystem::path> results, trace, schedule;  ///< output files
-  std::string replay;  ///< a token or a file's name, to run only that schedule
+  std::optional<std::filesystem::path> results, trace, schedule, page, finding;  ///< output files
+  std::optional<std::string> serve;  ///< address and port at which browsers see the search and its finding; empty: any
+  std::string replay;                ///< a token or a file's name, to run only that schedule
   bool minimize = true;
   bool forks_each = false;                   ///< each schedule of a program has a process of its own
   std::uint32_t snapshots = 0;               ///< of a program: the most that are kept
@@ -52,6 +53,8 @@ struct ExploreOptions {
   Memory memory = Memory::sc;                ///< the same
   SwitchAt switch_at = SwitchAt::automatic;  ///< of a program without it
 
+  /// The failure is wanted with its events, for a page.
+  bool tells_finding() const { return page || finding || serve; }
   /// The end of a run, for a scenario whose own limit is `own`.
   Time limit(Duration own) const { return Time() + until.value_or(own); }
 };
@@ -70,11 +73,13 @@ class ExploreArguments {
  private:
   void check_program() const;
   void take_program_options(ExploreOptions& options) const;
+  void take_outputs(ExploreOptions& options) const;
   void check_exhaustive(const std::string& where, const ExploreOptions& options) const;
 
   Command command_;
   std::string scenario_, seed_, strategy_, iterations_, time_limit_, schedule_limit_, jobs_, until_, from_, shard_;
-  std::string results_, trace_, schedule_, replay_, races_, switch_at_, memory_, snapshots_, serve_world_;
+  std::string results_, trace_, schedule_, replay_, races_, switch_at_, memory_, snapshots_, serve_world_, page_,
+      finding_, serve_;
   std::vector<std::string> assignments_, properties_, external_;
   ConfinementArguments confinement_;
   ConditionArguments conditions_;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <sstream>
 
+#include "fibers/explore/report/event_columns.hpp"
 #include "fibers/explore/report/place_text.hpp"
 #include "fibers/explore/report/reordered_events.hpp"
 #include "tools/explore/runs/fields.hpp"
@@ -57,6 +58,9 @@ void pass_fields(Pass& pass, F& finding) {
   pass(finding.system_calls);
   pass(finding.last_events);
   pass(finding.trace);
+  pass(finding.columns);
+  pass(finding.scene);
+  pass(finding.frames);
   pass(finding.log);
   pass(finding.trail);
   pass(finding.profile.steps);
@@ -90,9 +94,10 @@ void Finding::tell(const exploration::Narration& narration, bool decision_asked,
     told = to_text(exploration::with_lines(narration.switches), lines_of_switches_max);
 }
 
-void Finding::tell(const exploration::Timeline& timeline, bool trace_too) {
+void Finding::tell(const exploration::Timeline& timeline, const TimelineForms& forms) {
   last_events = to_text(timeline, events_shown);
-  if (!trace_too) return;
+  if (forms.columns) columns = to_columns(timeline, forms.marked);
+  if (!forms.trace) return;
   std::ostringstream text;
   write_trace(text, timeline);
   trace = text.str();

@@ -5,6 +5,7 @@
 
 #include <compare>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -66,6 +67,8 @@ struct Finding {
   std::string system_calls;                 ///< with the profile: warnings of calls that leave virtual time
   std::string last_events;                  ///< if requested, in words
   std::string trace;                        ///< if requested
+  std::string columns;                      ///< for a page, if requested: exploration::to_columns()
+  std::string scene, frames;                ///< the same, of a scenario: its floor, as JSON
   std::vector<exploration::DoneEvent> log;  ///< if requested
   std::string trail;                        ///< if requested
   exploration::Profile profile;             ///< if requested
@@ -75,8 +78,12 @@ struct Finding {
   void take(const exploration::Schedule& schedule, bool has_parted);
   /// Copies the requested decision, or with `switches_too` the switches in words.
   void tell(const exploration::Narration& narration, bool decision_asked, bool switches_too);
-  /// Copies the tasks' events.
-  void tell(const exploration::Timeline& timeline, bool trace_too);
+  /// Copies the tasks' events, as a trace or in columns, too, if wanted.
+  struct TimelineForms {
+    bool trace = false, columns = false;
+    std::span<const exploration::EventOf> marked = {};  ///< in the columns
+  };
+  void tell(const exploration::Timeline& timeline, const TimelineForms& forms);
   /// Copies the event before which the run was to end, with its task's call stack.
   void tell(const std::string& event, const std::vector<std::string>& calls);
   /// "2 collisions, expected 0".

@@ -235,7 +235,7 @@ Finding finding_of_run(const RunMemory& memory, int status, const std::string& o
   }
   if (const posix::History* const history = history_of(record); history != nullptr) {
     finding.tell(history->narration, request.decision.has_value(), request.words);
-    if (request.events) finding.tell(history->timeline, trace_too);
+    if (request.events) finding.tell(history->timeline, {trace_too, request.page, request.marks()});
   }
   if (request.log_from) finding.log = explored.log;
   if (request.stop_before && !explored.stopped_before.empty()) {

@@ -15,6 +15,9 @@
 #include "fibers/sync/source_lines.hpp"
 #include "fibers/sync/system_calls.hpp"
 #include "modules/run/expectation.hpp"
+#include "tools/command/version.hpp"
+#include "tools/explore/runs/floor_frames.hpp"
+#include "tools/view/scene.hpp"
 
 namespace waitpoint::tools {
 namespace {
@@ -131,13 +134,21 @@ void Scene::watch_and_carry_out(const Plan& plan, const Request& request, Findin
   if (request.stop_before)
     scheduler.set_decisions(stage_->stop.emplace(scheduler, stage_->explorer, *request.stop_before));
   simulation.tell(request.places ? sync::Places::told : sync::Places::left_out);
-  carry_out(plan.until, finding);
+  std::optional<FloorFrames> floor;
+  if (request.page) {
+    finding.scene = view::text_of(
+        view::scene(scenario_, stage_->experiment,
+                    {options_.seed, kernel::Order::explored, options_.limit(scenario_.until), version_line()}));
+    floor.emplace(scenario_, stage_->experiment, request.events_from, simulation.global_time());
+  }
+  carry_out(plan.until, floor ? &*floor : nullptr, finding);
+  if (floor) finding.frames = floor->take();
   if (request.profile) finding.system_calls = sync::collected_system_calls();
   scheduler.set_watch(nullptr);
   scheduler.set_decisions(stage_->explorer);
   if (profiling) finding.profile.finish(stage_->explorer.steps());
   finding.tell(narrator.narration(), request.decision.has_value(), request.words);
-  if (request.events) finding.tell(timeline, options_.trace.has_value());
+  if (request.events) finding.tell(timeline, {options_.trace.has_value(), request.page, request.marks()});
   finding.trail = to_text(trail);
   if (request.stop_before) tell_stop(finding);
 }
@@ -153,7 +164,7 @@ void Scene::tell_stop(Finding& finding) const {
   finding.tell(exploration::about_to(*task), sync::user_source_lines(stacks, exploration::frames_shown).front());
 }
 
-void Scene::carry_out(Time until, Finding& finding) {
+void Scene::carry_out(Time until, FloorFrames* floor, Finding& finding) {
   run::Experiment& experiment = stage_->experiment;
   const bool is_cut = until < options_.limit(scenario_.until);
   until = std::min(until, options_.limit(scenario_.until));
@@ -163,6 +174,7 @@ void Scene::carry_out(Time until, Finding& finding) {
     while (end == RunEnd::time_reached && reached < until && finding.passed() && !is_stopped()) {
       reached = std::min(until, Time() + window * (reached.since_start() / window + 1));
       end = experiment.run_before(reached);
+      if (floor != nullptr) floor->step(std::min(reached, experiment.simulation().global_time()));
       finding.words = joined(run::broken(scenario_.expect, experiment.figures()));
       if (!finding.words.empty()) finding.kind = Finding::Kind::unmet;
       if (sync::has_started_outside_of_virtual_time()) {

@@ -19,6 +19,8 @@
 
 namespace waitpoint::tools {
 
+class FloorFrames;
+
 class Scene final : public Target {
  public:
   /// BadInput for an invalid scenario. The arguments must outlive the scene.
@@ -47,7 +49,7 @@ class Scene final : public Target {
   bool has_processes() const override { return false; }
   struct Stage;
   void watch_and_carry_out(const Plan& plan, const Request& request, Finding& finding);
-  void carry_out(Time until, Finding& finding);
+  void carry_out(Time until, FloorFrames* floor, Finding& finding);
   void judge(Finding& finding, bool goals_too) const;
   bool is_stopped() const;
   void tell_stop(Finding& finding) const;

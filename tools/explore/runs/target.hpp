@@ -2,8 +2,10 @@
 // The subject of an exploration: a scenario, or an arbitrary program. Each schedule is a run.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -31,8 +33,13 @@ class Target {
     std::optional<std::size_t> decision = {};  ///< describe the choice made there
     std::optional<std::size_t> log_from = {};  ///< the events after this decision
     std::optional<std::uint32_t> trail = {};   ///< of scenarios: a mark after each 2^N events; excludes the above
+    bool page = false;                         ///< with the events also in columns, and of a scenario the floor
+    std::uint32_t marked_count = 0;
+    std::array<exploration::EventOf, 2> marked = {};  ///< in the columns: so many of these
     /// Ends the run before this event, and describes its task's next operation and call stack.
     std::optional<exploration::EventOf> stop_before = {};
+
+    std::span<const exploration::EventOf> marks() const { return std::span(marked).first(marked_count); }
   };
 
   /// The same request for further schedules, whose numbers grow by `step`; up to the first that does not pass.

@@ -38,8 +38,11 @@ Token token_of(const FailedRun& run, const ExploreOptions& options) {
   return {0, digest, "", 0, 0, run.finding.deviations, {}, options.memory};
 }
 
-std::string replay_command(const ExploreOptions& options, const std::string& replayed) {
-  std::string line = quoted(program_invocation_name) + " explore ";
+namespace {
+
+/// Without the program's name.
+std::string explore_words(const ExploreOptions& options, const std::string& replayed) {
+  std::string line = "explore ";
   line += options.program.empty() ? quoted(options.scenario.string()) : "--exec";
   line += " --seed " + std::to_string(options.seed);
   if (options.until) line += " --until " + to_string(Time() + *options.until);
@@ -54,6 +57,21 @@ std::string replay_command(const ExploreOptions& options, const std::string& rep
   if (!replayed.empty()) line += " --replay " + quoted(replayed);
   if (!options.program.empty()) line += " --" + quoted(options.program);
   return line;
+}
+
+}  // namespace
+
+std::string replay_command(const ExploreOptions& options, const std::string& replayed) {
+  return quoted(program_invocation_name) + " " + explore_words(options, replayed);
+}
+
+std::string debug_command(const ExploreOptions& options, const std::string& replayed) {
+  const std::string program = program_invocation_name;
+  const bool is_own = program.substr(program.rfind('/') + 1) == "waitpoint";
+  // A program is forked, just before its main().
+  const std::string gdb = options.program.empty() ? " gdb -- " : " gdb -ex 'set follow-fork-mode child' -- ";
+  return (is_own ? quoted(program) + gdb : "waitpoint" + gdb + quoted(program) + " ") +
+         explore_words(options, replayed);
 }
 
 }  // namespace waitpoint::tools

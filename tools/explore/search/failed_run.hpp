@@ -28,5 +28,7 @@ exploration::Token token_of(const FailedRun& run, const ExploreOptions& options)
 /// The command that repeats the target's run with these options; with `replayed`, a token or a file's name, that
 /// schedule.
 std::string replay_command(const ExploreOptions& options, const std::string& replayed = "");
+/// The same in gdb.
+std::string debug_command(const ExploreOptions& options, const std::string& replayed);
 
 }  // namespace waitpoint::tools

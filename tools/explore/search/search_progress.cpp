@@ -31,7 +31,16 @@ void SearchProgress::show(const std::string& words) {
   shown_ = terminal_;
 }
 
+void SearchProgress::tell() {
+  if (!heard_ || clock_() < next_told_s_) return;
+  next_told_s_ = clock_() + redraw_s;
+  news_.seconds = seconds();
+  heard_(news_);
+}
+
 void SearchProgress::update(std::uint64_t schedules, std::uint64_t distinct, std::uint64_t failures) {
+  news_ = {schedules, distinct, failures};
+  tell();
   if (!due()) return;
   const double elapsed_s = seconds();
   show(fmt::format("{} schedules, {:.1f} a second, {} distinct, {} failed", schedules,
@@ -39,6 +48,8 @@ void SearchProgress::update(std::uint64_t schedules, std::uint64_t distinct, std
 }
 
 void SearchProgress::update(const std::string& words) {
+  news_.words = words;
+  tell();
   if (due()) show(words);
 }
 

@@ -6,11 +6,19 @@
 
 #include <cstdint>
 #include <cstdio>
+#include <functional>
 #include <string>
+#include <utility>
 
 #include "tools/output/progress.hpp"
 
 namespace waitpoint::tools {
+
+struct SearchNews {
+  std::uint64_t schedules = 0, distinct = 0, failures = 0;
+  double seconds = 0;      ///< since the begin
+  std::string words = {};  ///< of another activity than searching
+};
 
 class SearchProgress {
  public:
@@ -21,6 +29,8 @@ class SearchProgress {
   void update(std::uint64_t schedules, std::uint64_t distinct, std::uint64_t failures);
   /// Another activity, in words.
   void update(const std::string& words);
+  /// Calls `heard` with each news, too, at most five times a second.
+  void listen(std::function<void(const SearchNews&)> heard) { heard_ = std::move(heard); }
   /// Erases the line.
   void finish();
   /// Seconds since construction.
@@ -29,12 +39,16 @@ class SearchProgress {
  private:
   bool due();
   void show(const std::string& words);
+  void tell();
 
   std::FILE* stream_;
   bool terminal_;
   Progress::Clock clock_;
   double start_s_, next_s_;
   bool shown_ = false;
+  std::function<void(const SearchNews&)> heard_;
+  SearchNews news_;
+  double next_told_s_ = 0;
 };
 
 }  // namespace waitpoint::tools

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/explore/report/finding_schedules.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "fibers/explore/report/event_columns.hpp"
+#include "tools/explore/search/search.hpp"
+
+namespace waitpoint::tools {
+namespace {
+
+using exploration::EventOf;
+using exploration::FindingEvent;
+using exploration::FindingSchedule;
+
+// What a long run shows before the pair, or, without one, before the failure; what a run shows after it.
+constexpr Duration lead = std::chrono::seconds(1), last_seconds = std::chrono::seconds(2),
+                   survival_shown = std::chrono::milliseconds(500);
+
+// The lines of exploration::with_calls() in their parts.
+FindingEvent event_told(const std::string& told) {
+  constexpr std::string_view call = "      at ";
+  FindingEvent event;
+  for (std::size_t begin = 0; begin < told.size();) {
+    const std::size_t end = std::min(told.find('\n', begin), told.size());
+    const std::string line = told.substr(begin, end - begin);
+    if (line.starts_with(call))
+      event.calls.push_back(line.substr(call.size()));
+    else
+      event.words += (event.words.empty() ? "" : "\n") + line;
+    begin = end + 1;
+  }
+  return event;
+}
+
+class Schedules {
+ public:
+  Schedules(Target& target, const Finding& failure, const ReversedEvents& reversed)
+      : target_(target), request_{.events = true, .page = true} {
+    if (reversed.pair) {
+      request_.marked = {reversed.pair->failing, reversed.pair->passing};
+      request_.marked_count = 2;
+    }
+    const Time from = reversed.pair ? reversed.from - lead : failure.end - last_seconds;
+    if (failure.events > exploration::page_events_max) request_.events_from = std::max(Time(), from);
+  }
+
+  /// Of the run by this plan; its floor is `scene`.
+  FindingSchedule told(const Plan& plan, std::string& scene) {
+    FindingSchedule schedule;
+    if (std::optional<Finding> run = run_apart(target_, plan, request_)) {
+      schedule.events = std::move(run->columns);
+      schedule.frames = std::move(run->frames);
+      scene = std::move(run->scene);
+    }
+    if (schedule.events.empty()) schedule.events = exploration::to_columns({}, {});
+    for (std::size_t i = 0; i < request_.marked_count; ++i) schedule.pair[i] = event(plan, request_.marked[i]);
+    return schedule;
+  }
+
+ private:
+  std::optional<FindingEvent> event(const Plan& plan, const EventOf& which) {
+    const std::optional<Finding> stopped = run_apart(target_, plan, {.stop_before = which});
+    if (!stopped || stopped->told.empty()) return std::nullopt;
+    return event_told(stopped->told);
+  }
+
+  Target& target_;
+  Target::Request request_;
+};
+
+}  // namespace
+
+void add_schedules(Target& target, const Plan& failing, const Finding& failure, const ReversedEvents& reversed,
+                   exploration::FindingFile& finding) {
+  Schedules schedules(target, failure, reversed);
+  finding.fails = schedules.told(failing, finding.scene);
+  if (!reversed.passing) return;
+  Plan passing = *reversed.passing;
+  passing.until = std::min(passing.until, failure.end + survival_shown);
+  std::string same_scene;
+  finding.passes = schedules.told(passing, same_scene);
+}
+
+}  // namespace waitpoint::tools

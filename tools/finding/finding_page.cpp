@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/finding/finding_page.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "core/error.hpp"
+#include "tools/view/compressed_text.hpp"
+#include "tools/view/page.hpp"
+
+namespace waitpoint::tools {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr int known_format = 1;
+
+bool is_schedule(const Json& schedule) {
+  const auto events = schedule.find("events");
+  return events != schedule.end() && events->is_object() && events->contains("t");
+}
+
+}  // namespace
+
+std::string read_finding(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::ostringstream text;
+  if (!in || !(text << in.rdbuf()))
+    throw BadInput(file.string(), std::string("cannot be read: ") + std::strerror(errno));
+  const std::string expected = "expected a finding, as explore --finding writes it";
+  const Json json = Json::parse(text.view(), nullptr, false);
+  if (json.is_discarded()) throw BadInput(file.string(), expected + ", found no whole JSON");
+  if (!json.is_object() || !json.contains("finding") || !json["finding"].is_object() || !json.contains("header"))
+    throw BadInput(file.string(), expected + ", found other JSON");
+  if (const Json number = json["finding"].value("format", Json()); number != known_format)
+    throw BadInput(file.string(), "expected a finding of format 1, found " + number.dump());
+  const Json others = json.value("others", Json::array());
+  if (!is_schedule(json) || !others.is_array() || !std::ranges::all_of(others, is_schedule))
+    throw BadInput(file.string(), expected + ", found one without events");
+  return std::move(text).str();
+}
+
+std::string page_of_finding(std::string_view finding) {
+  view::CompressedText compressed;
+  compressed.append(finding);
+  return view::page_of(view::base64(compressed.finish()));
+}
+
+}  // namespace waitpoint::tools
