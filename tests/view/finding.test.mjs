@@ -162,9 +162,9 @@ test('a task that waits in the end is blocked, and one that waits for its turn i
 });
 
 test('the command that repeats it is copied by a button', async () => {
-  await page.click('.command + button');
+  await page.click('button:has(+ .command)');
   assert.equal(await page.evaluate(() => getSelection().toString()), REPLAY);
-  assert.match(await textOf('.command + button'), /Copied|Selected/);
+  assert.match(await textOf('button:has(+ .command)'), /Copied|Selected/);
 });
 
 for (const dark of [false, true])

@@ -38,8 +38,11 @@ std::string object_text(const TimelineObject& object) {
          json_text(object.robot) + "]";
 }
 
+// A process that was forked has the tasks of its parent: the event is the first process's.
 std::optional<std::size_t> place_of(const Timeline& timeline, const EventOf& event) {
-  const auto found = std::ranges::find(timeline.events, event, &TimelineEvent::which);
+  const auto found = std::ranges::find_if(timeline.events, [&](const TimelineEvent& other) {
+    return other.which == event && timeline.tasks[other.task].process == 0;
+  });
   if (found == timeline.events.end()) return std::nullopt;
   return static_cast<std::size_t>(found - timeline.events.begin());
 }

@@ -52,7 +52,7 @@ void append_marks(std::string& text, int line, const FindingSchedule& schedule) 
     append_text(mark, "words", event->words);
     std::string frames;
     for (const std::string& call : event->calls) frames += (frames.empty() ? "" : ",") + frame(call);
-    text += (text.empty() ? "" : ",") + mark + ",\"frames\":[" + frames + "]}";
+    text.append(text.empty() ? "" : ",").append(mark).append(",\"frames\":[").append(frames).append("]}");
   }
 }
 

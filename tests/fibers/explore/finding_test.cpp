@@ -110,6 +110,20 @@ TEST(Finding, ALongScheduleShowsThePartAboutTheMarkedEvent) {
   EXPECT_EQ(last["first"], 81) << "without a marked event the failure is shown";
 }
 
+TEST(Finding, TheMarkedEventIsThatOfTheFirstProcess) {
+  exploration::Timeline timeline = steps_of_one_task(1);
+  timeline.processes = {{1000, "sh"}, {1001, "sh"}};
+  timeline.tasks.push_back({.title = "a#1", .process = 1, .number = 1, .name = "a", .robot = "r"});
+  const exploration::TimelineEvent of_first = timeline.events[0];
+  timeline.events[0].task = 1;  // a forked copy of the task, with events of the same numbers
+  timeline.events.push_back(of_first);
+  const exploration::EventOf marked[] = {of_first.which};
+  const Json json = Json::parse(exploration::to_columns(timeline, marked));
+  EXPECT_EQ(json["marked"], Json::parse("[2]"));
+  EXPECT_EQ(json["tasks"][0][2], "sh 1000");
+  EXPECT_EQ(json["tasks"][1][2], "sh 1001");
+}
+
 TEST(Finding, EventsOfOneInstantAreSetApartAndKeepTheirTime) {
   const Json json = Json::parse(exploration::to_columns(steps_of_one_task(3), {}));
   EXPECT_EQ(json["t"], Json::parse("[0,1,1]"));

@@ -33,7 +33,7 @@ class FindingPanel {
       all = source.lines.flatMap((_, line) => source.marks(line)),
       note = (text) => element("p", {class: "note"}, text);
     const last = choice ? [note(`The last choice from which it could still have passed: ${choice}`)] : [];
-    if (all.length === 0 || source.lines.length < 2) return [note(`None: ${reason}.`), ...last];
+    if (all.length === 0 || source.lines.length < 2) return [note(`None: ${reason.trim()}.`), ...last];
     return [
       element("div", {class: "schedules"}, this.card(0, "Fails"), this.card(1, "Passes")),
       ...last,
@@ -80,7 +80,7 @@ function command(name, text) {
     setText(copy, document.execCommand("copy") ? "Copied" : "Selected");
     setTimeout(() => setText(copy, "Copy"), 2000);
   });
-  return element("div", {class: "row"}, element("span", {class: "age"}, name), line, copy);
+  return element("div", {class: "row"}, element("span", {class: "age"}, name), copy, line);
 }
 
 function more(title, text) {
@@ -93,9 +93,11 @@ async function showFinding(source, parts, clock) {
   parts.tabs.choose(source.finding ? "finding" : "lines");
   if (source.lines.length > 1) await parts.panels.get("lines").compare(1);
   const marks = source.lines.flatMap((_, line) => source.marks(line)),
-    spans = source.lines.map(({store}, line) => spanAbout(store, marks.filter((mark) => mark.line === line)));
+    shown = marks.length ? source.lines : source.lines.slice(0, 1),
+    spans = shown.map(({store}, line) => spanAbout(store, marks.filter((mark) => mark.line === line)));
   parts.axis.set(Math.min(...spans.map(({from}) => from)), Math.max(...spans.map(({to}) => to)));
-  await clock.seek(Math.min(...marks.map(({time}) => time), source.status.time));
+  // Just before the first of them, which the cursor would cover.
+  await clock.seek(Math.min(...marks.map(({time}) => time - 1), source.status.time));
 }
 
 /** The span of the marked events of a schedule with some before and after them; without any, of the last ones. */

@@ -32,6 +32,8 @@ function stateBetween(store, before, after) {
   const was = before >= 0 ? store.operationName(before) : "",
     is = after >= 0 ? store.operationName(after) : "";
   if (was === "end" || is === "start") return {state: null, object: -1};
+  // A process that was forked begins in the middle of its parent's task.
+  if (store.shift && before < 0 && store.first === 1) return {state: null, object: -1};
   if (is === "resume" || is === "timeout") {
     const object = store.object[after] >= 0 ? store.object[after] : before >= 0 ? store.object[before] : -1;
     const timer = was === "timer_wait" || (object >= 0 && store.objects[object].kind === "timer");
