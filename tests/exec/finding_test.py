@@ -106,6 +106,35 @@ class Finding(ExecCase):
         shown = explore("--page", self.page, "--", self.program)
         self.assertEqual(shown.stdout.splitlines()[1:], plain.stdout.splitlines()[1:])
 
+    def test_beside_a_default_order_that_fails_is_a_run_that_passes(self):
+        program = self.folder / "late"
+        source = self.folder / "late.c"
+        source.write_text("""
+            #include <pthread.h>
+            static pthread_mutex_t mutex = PTHREAD_MUTEX_INITIALIZER;
+            static int order, first;
+            static void* come(void* number) {
+              pthread_mutex_lock(&mutex);
+              if (order++ == 0) first = *(int*)number;
+              pthread_mutex_unlock(&mutex);
+              return 0;
+            }
+            int main(void) {
+              int numbers[] = {1, 2};
+              pthread_t threads[2];
+              for (int i = 0; i < 2; ++i) pthread_create(&threads[i], 0, come, &numbers[i]);
+              for (int i = 0; i < 2; ++i) pthread_join(threads[i], 0);
+              return first == 1;
+            }""")
+        subprocess.run(["gcc", "-g", "-pthread", source, "-o", program], check=True)
+        done = explore("--finding", self.file, "--", program)
+        self.assertTrue(done.stdout.startswith("the default order failed"), done.stdout)
+        self.assertEqual(done.stdout, explore("--", program).stdout)
+        finding = json.loads(self.file.read_text())
+        for schedule, tasks in ((0, ["thread 1#1", "thread 2#2"]), (1, ["thread 2#2", "thread 1#1"])):
+            pair = sorted((event(finding, schedule, pair) for pair in (0, 1)), key=lambda one: one[3])
+            self.assertEqual([(task, operation) for task, operation, *_ in pair], [(task, "lock") for task in tasks])
+
     def test_without_a_failure_nothing_is_written_and_a_line_says_so(self):
         done = explore("--page", self.page, "--finding", self.file, "--iterations", "20", "--", self.program, "locked")
         self.assertEqual(done.returncode, 0, done.stderr)

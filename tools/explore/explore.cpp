@@ -112,7 +112,8 @@ FailureReport report_of(Target& target, SearchProgress& progress, const Discover
     target.set_profile(gravest.finding.profile);
     target.switch_at(SwitchAt::accesses);
   }
-  FailureReport result = gravest.number ? report(target, progress, gravest) : report_default(target, gravest.finding);
+  FailureReport result =
+      gravest.number ? report(target, progress, gravest) : report_default(target, progress, gravest.finding);
   result.text += discoveries.besides(is_race ? result.races : std::vector<ToldRace>());
   return result;
 }
@@ -149,7 +150,7 @@ int search(Target& target, Files& files) {
   if (usual && goes_on_after(usual->kind, target.options())) {
     discoveries.take({std::nullopt, *usual});
   } else if (usual && !usual->passed() && files.results() == nullptr) {
-    tell(report_default(target, *usual), files);
+    tell(report_default(target, progress, *usual), files);
     return 1;
   }
   if (usual) target.set_profile(std::move(usual->profile));

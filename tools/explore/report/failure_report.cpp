@@ -23,6 +23,7 @@ using exploration::token_digest;
 constexpr std::uint64_t runs_to_minimize = 2000, runs_to_explain = 200;
 constexpr double seconds_to_minimize = 90, seconds_to_explain = 60;
 constexpr Duration traced = std::chrono::seconds(2);
+constexpr const char* no_passing_sought = "--no-minimize: no passing run is sought";
 
 // The trail of the run by this plan; empty for programs, runs from mid-run and killed runs.
 exploration::Trail trail_of(Target& target, const Plan& plan, const Finding& finding) {
@@ -58,7 +59,7 @@ void tell_replay(const Target& target, const Finding& least, const std::string& 
 std::string reason_without_pair(const ReversedEvents& reversed, bool is_noise, bool is_minimized) {
   if (reversed.pair) return "";
   if (is_noise) return "it is the noise, not the order: the passing run has the default order, and its own noise";
-  if (!is_minimized) return "--no-minimize: no passing run is sought";
+  if (!is_minimized) return no_passing_sought;
   return reversed.passing ? exploration::no_pair_in_words() : "no passing run was found in time";
 }
 
@@ -76,9 +77,27 @@ void tell_run(Target& target, const Plan& plan, const Finding& least, FailureRep
   report.trace = told->trace;
 }
 
+/// The default order, which fails, beside a run that passes by deviating from it. A scenario would need the same noise.
+void tell_default(Target& target, SearchProgress& progress, const Finding& failure, exploration::FindingFile& finding) {
+  const ExploreOptions& options = target.options();
+  ReversedEvents reversed;
+  if (options.minimize && !target.has_noise() && failure.kind != Finding::Kind::killed) {
+    Budget explaining(runs_to_explain, seconds_to_explain);
+    const LeastFailure least{0, failure};
+    if (const auto choice = last_choice(target, progress, explaining, least)) {
+      finding.choice = choice->words;
+      reversed = reversed_events(target, progress, explaining, least, *choice);
+    }
+  }
+  finding.note = target.has_noise() ? "the default order fails, with the scenario's own noise"
+                                    : reason_without_pair(reversed, false, options.minimize);
+  add_schedules(target, {.drawn = false}, failure, reversed, finding);
+  progress.finish();
+}
+
 }  // namespace
 
-FailureReport report_default(Target& target, const Finding& finding) {
+FailureReport report_default(Target& target, SearchProgress& progress, const Finding& finding) {
   FailureReport report;
   const ExploreOptions options = with_switches_at(finding.switch_at, target.options());
   report.text =
@@ -92,8 +111,7 @@ FailureReport report_default(Target& target, const Finding& finding) {
                      {},
                      trail_of(target, {.drawn = false}, finding)};
   tell_run(target, {.drawn = false}, finding, report);
-  report.finding.note = "the default order fails, beside which no passing one is sought";
-  if (options.tells_finding()) add_schedules(target, {.drawn = false}, finding, {}, report.finding);
+  if (options.tells_finding()) tell_default(target, progress, finding, report.finding);
   if (finding.digest != 0) report.text += "digest: " + digest_text(finding.digest) + "\n";
   const Token token{0, token_digest(finding.digest), "", 0, 0, {}, {}, options.memory};
   tell_replay(target, finding, to_text_with(token, report.schedule.trail), "the default order", report);
@@ -136,7 +154,8 @@ FailureReport report(Target& target, SearchProgress& progress, const FailedRun& 
     }
     Budget explaining(runs_to_explain, seconds_to_explain);
     const LeastFailure failure{plan.number, least};
-    if (const auto choice = last_choice(target, progress, explaining, failure)) {
+    const bool is_usual = least.deviations.empty();
+    if (const auto choice = is_usual ? std::nullopt : last_choice(target, progress, explaining, failure)) {
       report.finding.choice = choice->words;
       reversed = reversed_events(target, progress, explaining, failure, *choice);
       report.text += "the last choice from which it could still have passed: " + choice->words + "\n" + reversed.text;

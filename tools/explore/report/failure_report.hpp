@@ -24,7 +24,7 @@ struct FailureReport {
 };
 
 /// The report of a failing default order.
-FailureReport report_default(Target& target, const Finding& finding);
+FailureReport report_default(Target& target, SearchProgress& progress, const Finding& finding);
 /// The report of a failure found by a search. Takes at most a few minutes.
 FailureReport report(Target& target, SearchProgress& progress, const FailedRun& failed);
 

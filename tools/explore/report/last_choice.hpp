@@ -2,7 +2,8 @@
 // The last choice of a failing run from which it could still have passed.
 //
 // A run could still have passed at a choice if one of a few random continuations from there passes. Bisection finds the
-// choice between the last switch, without which the run passes, and the failure, after which no continuation does.
+// choice between the last switch, without which the run passes, and the failure, after which no continuation does. If
+// the default order fails, it begins with the run's first choice.
 #pragma once
 
 #include <optional>
@@ -31,7 +32,7 @@ struct LastChoice {
   std::string words;  ///< "number 1234, at 12.100000000 s: segloc.slam of rackham computes 33 ms in place of 95 ms"
 };
 
-/// Nothing if the budget is exhausted or the failure needs no switch.
+/// Nothing if the budget is exhausted, or the failure needs no switch and none of a few random runs passes.
 std::optional<LastChoice> last_choice(Target& target, SearchProgress& progress, Budget& budget,
                                       const LeastFailure& least);
 

@@ -34,11 +34,10 @@ class Beside {
 
   marksOf(line) {
     const {compared, source} = this.session,
-      found = compared?.difference;
-    return [
-      ...(source.marks?.(line) ?? []),
-      ...(found?.event ? [{time: found.time, number: found.event, text: "the first event that differs"}] : [])
-    ];
+      found = compared?.difference,
+      marks = source.marks?.(line) ?? [];
+    if (!found?.event || marks.some(({number}) => number === found.event)) return marks;
+    return [{time: found.time, number: found.event, text: "the first event that differs"}, ...marks];
   }
 
   make() {
