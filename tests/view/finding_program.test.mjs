@@ -2,11 +2,14 @@
 // A search and its finding, served by the program that WAITPOINT_PROGRAM names.
 import assert from 'node:assert/strict';
 import {spawn} from 'node:child_process';
+import fs from 'node:fs';
+import {createRequire} from 'node:module';
 import path from 'node:path';
 import {after, before, test} from 'node:test';
 import {fileURLToPath} from 'node:url';
 import {launch, openPage, settle} from './browser.mjs';
 
+const axe = fs.readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
 const program = process.env.WAITPOINT_PROGRAM,
   skip = program ? false : 'WAITPOINT_PROGRAM names no program';
 const scenario = path.resolve(path.dirname(fileURLToPath(import.meta.url)), '../../scenarios/office.yaml');
@@ -73,6 +76,9 @@ test('while it goes, the page tells how many schedules were tried', {skip}, asyn
     before
   );
   assert.match(await page.$eval('#connection', (state) => state.textContent), /^connected$/);
+  await page.evaluate(axe);
+  const {violations} = await page.evaluate(() => window.axe.run(document, {resultTypes: ['violations']}));
+  assert.deepEqual(violations.flatMap(({id, nodes}) => nodes.map((node) => `${id}: ${node.html.slice(0, 120)}`)), []);
   assert.equal((await end()).status, 130);
   assert.deepEqual(page.problems, []);
 });
