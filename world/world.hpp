@@ -145,6 +145,10 @@ class World {
   /// Back to the start, obstacles too, with the random streams of another seed (or the same).
   virtual void reset(std::uint64_t seed) = 0;
 
+  /// Errors of sensors and odometers drawn from now on are those of this seed, at the same ticks; the state stays, with
+  /// the biases and drifts so far.
+  virtual void reseed(std::uint64_t seed) = 0;
+
   // Interventions between two steps. Each returns the reason for a refusal, and then has changed nothing.
 
   /// Lifts the body and puts it down at `pose`, at its present height, at rest. Its odometer does not notice; its

@@ -15,6 +15,10 @@ kernel::Decisions* deciding_strategy(kernel::Scheduler& scheduler) {
   return kernel::running != nullptr ? scheduler.chooser().decisions() : nullptr;
 }
 
+RandomStream stream(kernel::Scheduler& scheduler, const kernel::Robot& from, const std::string& to) {
+  return {scheduler.chooser().seed(), from.name, "medium to " + to};
+}
+
 }  // namespace
 
 Link::Link(kernel::Scheduler& scheduler, kernel::Robot& from, std::string to, Receiver& receiver,
@@ -27,10 +31,12 @@ Link::Link(kernel::Scheduler& scheduler, kernel::Robot& from, std::string to, Re
       distance_(distance),
       in_flight_max_(in_flight_max),
       forward_(forward),
-      random_(scheduler.chooser().seed(), from.name, "medium to " + to_) {
+      random_(stream(scheduler, from, to_)) {
   range_check_.link = this;
   range_check_.fire = look_again;
 }
+
+void Link::reseed() { random_ = stream(scheduler_, from_, to_); }
 
 void Link::stop() {
   stopped_ = true;

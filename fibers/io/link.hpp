@@ -63,6 +63,9 @@ class Link {
   /// A packet that another process, with the sender's tasks, has sent over its own link and forwarded.
   void arrive_at(Time time, std::uint64_t count, Packet packet);
 
+  /// Messages sent from now on have the latencies and losses of the chooser's present seed.
+  void reseed();
+
   /// The network is destroyed: nothing arrives any more, and sending is a misuse.
   void stop();
 

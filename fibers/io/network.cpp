@@ -45,6 +45,10 @@ Link* Node::link_to(std::string_view robot) {
               .first->second;
 }
 
+void Node::reseed() {
+  for (auto& [to, link] : links_) link.reseed();
+}
+
 void Node::stop() {
   for (auto& [to, link] : links_) link.stop();
 }
@@ -125,6 +129,10 @@ const Medium* Network::medium(const std::string& from, const std::string& to) co
   const auto special = between_.find(in_order(from, to));
   if (special != between_.end()) return &special->second;
   return between_all_ ? &*between_all_ : nullptr;
+}
+
+void Network::reseed() {
+  for (const auto& [name, node] : nodes_) node->reseed();
 }
 
 LinkStatistics Network::statistics(const std::string& from, const std::string& to) {

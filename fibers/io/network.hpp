@@ -61,6 +61,8 @@ class Node final : public Receiver {
  public:
   Node(Network& network, kernel::Robot& robot) : network_(network), robot_(robot) {}
 
+  /// See Network::reseed().
+  void reseed();
   /// The network is destroyed: messages in transit never arrive.
   void stop();
 
@@ -107,6 +109,9 @@ class Network {
   void declare(const std::string& a, const std::string& b, const Medium& medium);
   /// The distance of two robots; zero if not set.
   void set_distance(Distance metres) { distance_ = std::move(metres); }
+
+  /// Messages sent from now on have the latencies and losses of the chooser's present seed.
+  void reseed();
 
   /// The tasks of these robots run in other processes: packets to them go to `forward`. Must precede all messages.
   void set_elsewhere(std::set<std::string, std::less<>> robots, Forward forward);

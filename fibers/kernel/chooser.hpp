@@ -32,6 +32,9 @@ class Chooser {
     insertions_ = 0;
   }
 
+  /// Choices from now on are those of this seed; what was chosen stays.
+  void reseed(std::uint64_t seed) { seed_ = seed; }
+
   Order order() const { return order_; }
   std::uint64_t seed() const { return seed_; }
   /// The strategy of the explored order; null before it is set.

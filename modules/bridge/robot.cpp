@@ -107,7 +107,13 @@ void Robot::make_executive(std::shared_ptr<const executive::KnownSpace> known, s
   start.pose = scenario_.body.start;
   if (scenario_.script) return make_scripted_executive(parameters, start, std::move(goals), std::move(known), seed);
   executive_ = std::make_unique<executive::Executive>(names_, parameters, std::move(known), start, goals,
-                                                      RandomStream(seed, scenario_.name, "executive"));
+                                                      executive_stream(seed));
+}
+
+RandomStream Robot::executive_stream(std::uint64_t seed) const { return {seed, scenario_.name, "executive"}; }
+
+void Robot::reseed(std::uint64_t seed) {
+  if (executive_ != nullptr) executive_->reseed(executive_stream(seed));
 }
 
 // Of a task without parameters of its own.
@@ -159,7 +165,7 @@ void Robot::make_scripted_executive(const executive::Parameters& parameters, con
   setup.plan_cost_us = parameters.plan_cost_us;
   setup.start = start;
   setup.goals = std::move(goals);
-  setup.seed = static_cast<std::uint32_t>(RandomStream(seed, scenario_.name, "executive").block(0)[0]);
+  setup.seed = tcl::seed_of_script(executive_stream(seed));
   if (scenario_.plan != nullptr) make_procedures(library);
   executive_ = std::make_unique<tcl::TclExecutive>(names_, library, std::move(setup), std::move(known), procedures_);
 }

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/occupancy_grid.hpp"
+#include "core/random.hpp"
 #include "modules/bridge/evaluation.hpp"
 #include "modules/bridge/kept_paths.hpp"
 #include "modules/bridge/robot_bridge.hpp"
@@ -89,6 +90,9 @@ class Robot {
   /// Before the run: the paths will be in the result.
   void keep_paths();
 
+  /// Draws from now on as with this seed; from another task.
+  void reseed(std::uint64_t seed);
+
   double position_error_max_m() const { return evaluation_.position_error_max_m(); }
 
   const std::string& name() const { return scenario_.name; }
@@ -120,6 +124,7 @@ class Robot {
   void make_modules(std::span<const genom::ModuleType> types, io::Network* network,
                     const std::shared_ptr<const OccupancyGrid>& known_map);
   void make_executive(std::shared_ptr<const executive::KnownSpace> known, std::uint64_t seed);
+  RandomStream executive_stream(std::uint64_t seed) const;
   bool has_script_below_plan() const { return plan_ != nullptr && executive_ != nullptr; }
   void make_procedures(const tcl::Library& library);
   void make_plan();

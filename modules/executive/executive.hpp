@@ -62,6 +62,7 @@ class Executive : public RobotExecutive {
   void run() override;
   /// From another task: run() stops the robot and returns soon, even with goals left.
   void stop() override { stopping_ = true; }
+  void reseed(const RandomStream& random) override { mission_.reseed(random); }
 
   const std::vector<GoalRecord>& goals() const override { return mission_.goals(); }
   std::size_t current_goal() const override { return mission_.current(); }

@@ -72,6 +72,9 @@ class Mission {
   Mission(RoutePlanner& planner, const MissionParameters& parameters, const std::vector<Point>& goals,
           const RandomStream& random);
 
+  /// Waits are drawn from this stream from now on.
+  void reseed(const RandomStream& random) { random_ = random; }
+
   /// The next order: at the start, after arrival at the last via point, or after a wait. Valid until the next call.
   const Order& start(Time now, Point robot);
   const Order& arrived(Time now, Point robot);

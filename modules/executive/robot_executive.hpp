@@ -19,6 +19,9 @@ class RobotExecutive {
   /// From another task: run() stops the robot and returns soon, even with goals left.
   virtual void stop() = 0;
 
+  /// From another task: what it draws from now on is of this stream, its own of another seed. Without draws: nothing.
+  virtual void reseed(const RandomStream&) {}
+
   /// The state of each goal. While run() is active, only from tasks that cannot run concurrently with it.
   virtual const std::vector<GoalRecord>& goals() const = 0;
   /// Index of the goal that it is on its way to; the number of goals when it has none.

@@ -142,6 +142,7 @@ world::BatteryState RemoteWorld::battery(world::BodyId id) const { return attach
 // --- what no robot of check_devices() asks for, and interventions, which are the run's ---
 
 void RemoteWorld::reset(std::uint64_t) { WAITPOINT_CHECK(false, "a world of another process is reset"); }
+void RemoteWorld::reseed(std::uint64_t) { WAITPOINT_CHECK(false, "a world of another process is given a seed"); }
 
 const world::ImuSample& RemoteWorld::imu(world::BodyId) const {
   static const world::ImuSample none;

@@ -30,6 +30,7 @@ class RemoteWorld final : public world::World {
   void step() override;
   std::uint64_t steps() const override { return steps_; }
   void reset(std::uint64_t seed) override;
+  void reseed(std::uint64_t seed) override;
 
   std::optional<std::string> move_body(world::BodyId id, const Pose& pose) override;
   std::optional<std::string> guide_body(world::BodyId id, const std::optional<Pose>& to,

@@ -98,7 +98,7 @@ void Experiment::make(const scenario::Scenario& scenario, std::span<const genom:
   if (robots_here >= crowd) grow_heap_on_large_pages(robots_here * robot_bytes);
   make_network(scenario);
   assembly_.emplace(scenario, types, &*network_, options_.seed, placement());
-  operator_.emplace(assembly_->world(), robots(), lanes_);
+  operator_.emplace(assembly_->world(), *network_, robots(), lanes_);
   simulation_.spawn(
       simulation_.environment(),
       {.name = "world", .stack = kernel::StackSize::large, .phase = kernel::Phase::world, .service = true},

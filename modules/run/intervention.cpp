@@ -100,6 +100,14 @@ What parse_push(std::string_view text, const scenario::Location& written) {
   return push;
 }
 
+What parse_seed(std::string_view text, const scenario::Location& written) {
+  const std::string word = require(text, "a seed", written);
+  SeedChange change;
+  if (!parse_number(word, change.seed)) throw written.bad("expected a seed from 0 to 2^64 - 1, found '" + word + "'");
+  scenario::require_end(text, written);
+  return change;
+}
+
 What parse_shell_command(std::string_view text, const scenario::Location& written) {
   ShellCommand command{require(text, "a robot", written), std::string(scenario::trimmed(text))};
   if (command.command.empty()) throw written.bad("expected a command in Tcl");
@@ -138,11 +146,17 @@ struct Verb {
   What (*parse)(std::string_view text, const scenario::Location& written);
 };
 
-constexpr Verb verbs[] = {{"request", parse_request},         {"move", parse_move},
-                          {"obstacle", parse_obstacle},       {"move-obstacle", parse_obstacle_move},
-                          {"remove-obstacle", parse_removal}, {"push", parse_push},
-                          {"tcl", parse_shell_command},       {"external", parse_external},
-                          {"report", parse_report_of},        {"command", parse_command}};
+constexpr Verb verbs[] = {{"request", parse_request},
+                          {"move", parse_move},
+                          {"obstacle", parse_obstacle},
+                          {"move-obstacle", parse_obstacle_move},
+                          {"remove-obstacle", parse_removal},
+                          {"push", parse_push},
+                          {"seed", parse_seed},
+                          {"tcl", parse_shell_command},
+                          {"external", parse_external},
+                          {"report", parse_report_of},
+                          {"command", parse_command}};
 
 }  // namespace
 
@@ -166,9 +180,10 @@ Intervention parse_intervention(std::string_view text, const scenario::Location&
     if (verb.name == word) return {std::string(scenario::trimmed(text)), written, verb.parse(rest, written)};
   const std::string hint = did_you_mean(word, intervention_verbs());
   throw written.bad("unknown intervention '" + word + "'" +
-                    (hint.empty() ? ", expected request, move, obstacle, move-obstacle, remove-obstacle, push, tcl, "
-                                    "external, report or command"
-                                  : hint));
+                    (hint.empty()
+                         ? ", expected request, move, obstacle, move-obstacle, remove-obstacle, push, seed, tcl, "
+                           "external, report or command"
+                         : hint));
 }
 
 }  // namespace waitpoint::run

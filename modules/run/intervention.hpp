@@ -7,6 +7,7 @@
 //   move-obstacle NAME X Y [HEADING_DEG]
 //   remove-obstacle NAME
 //   push NAME FX_N FY_N SECONDS                       a force on a robot or a loose obstacle; dynamic worlds only
+//   seed N                                            draws from here on are those of another seed
 //   tcl ROBOT COMMAND                                 evaluated by the robot's shell (modules/tcl); U+2424 is a newline
 //   external ROBOT [between=stay] [KEY=VALUE ...]     from now on its body is moved by reports: see external_robot.hpp
 //   report ROBOT date_s=T x_m=X y_m=Y heading_rad=A ...  of an external robot's position: see position_report.hpp
@@ -16,6 +17,7 @@
 // Words with spaces are in double quotes. operator.hpp describes when and how interventions are executed.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -60,6 +62,10 @@ struct Push {
   Duration time;
 };
 
+struct SeedChange {
+  std::uint64_t seed = 0;
+};
+
 struct ShellCommand {
   /// Stands for a newline in an intervention's text: SYMBOL FOR NEWLINE.
   static constexpr std::string_view newline = "\xE2\x90\xA4";
@@ -86,7 +92,7 @@ struct DriveCommand {
 struct Intervention {
   std::string text;
   scenario::Location written;
-  std::variant<ModuleRequest, RobotMove, ObstacleMove, ObstaclePut, ObstacleRemoval, Push, ShellCommand,
+  std::variant<ModuleRequest, RobotMove, ObstacleMove, ObstaclePut, ObstacleRemoval, Push, SeedChange, ShellCommand,
                ExternalDeclaration, ExternalReport, DriveCommand>
       what;
 };

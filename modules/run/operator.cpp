@@ -175,6 +175,15 @@ std::string Operator::carry_out(const DriveCommand& command, const Intervention&
   return "done";
 }
 
+// Streams have no state but these seeds; links and programs that begin later ask the chooser for its own.
+std::string Operator::carry_out(const SeedChange& change, const Intervention&) {
+  kernel::running->scheduler->chooser().reseed(change.seed);
+  network_.reseed();
+  world_.reseed(change.seed);
+  for (const auto& robot : robots_) robot->reseed(change.seed);
+  return "done";
+}
+
 std::optional<bridge::ExternalFigures> Operator::external_figures(std::size_t robot) const {
   const auto external = external_.find(robot);
   return external == external_.end() ? std::nullopt : std::optional(external->second->figures());

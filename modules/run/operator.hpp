@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "core/time.hpp"
+#include "fibers/io/network.hpp"
 #include "fibers/kernel/scheduler.hpp"
 #include "modules/bridge/robot.hpp"
 #include "modules/run/intervention.hpp"
@@ -39,9 +40,9 @@ struct InterventionOutcome {
 class Operator {
  public:
   /// All arguments must outlive the operator; lanes in the order of the robots.
-  Operator(world::World& world, const std::vector<std::unique_ptr<bridge::Robot>>& robots,
+  Operator(world::World& world, io::Network& network, const std::vector<std::unique_ptr<bridge::Robot>>& robots,
            const std::vector<kernel::Robot*>& lanes)
-      : world_(world), robots_(robots), lanes_(lanes) {}
+      : world_(world), network_(network), robots_(robots), lanes_(lanes) {}
 
   /// Schedules an intervention for a step of the world, which is returned: the next one, or the first at or after
   /// `date`. An unknown robot, obstacle, module, request or field, a date in the past, or exceeding interventions_max,
@@ -77,12 +78,14 @@ class Operator {
   std::string carry_out(const ObstaclePut& put, const Intervention& whole);
   std::string carry_out(const ObstacleRemoval& removal, const Intervention& whole);
   std::string carry_out(const Push& push, const Intervention& whole);
+  std::string carry_out(const SeedChange& change, const Intervention& whole);
   std::string carry_out(const ShellCommand& command, const Intervention& whole);
   std::string carry_out(const ExternalDeclaration& external, const Intervention& whole);
   std::string carry_out(const ExternalReport& report, const Intervention& whole);
   std::string carry_out(const DriveCommand& command, const Intervention& whole);
 
   world::World& world_;
+  io::Network& network_;
   const std::vector<std::unique_ptr<bridge::Robot>>& robots_;
   const std::vector<kernel::Robot*>& lanes_;
   std::deque<Planned> planned_;  // by date

@@ -89,6 +89,8 @@ class Interpreter {
   virtual Outcome run(const std::string& file, const std::string& script) = 0;
   /// Evaluates a command of a person.
   virtual Outcome evaluate(const std::string& command) = 0;
+  /// From any task, while the interpreter's blocks: rand() goes on from this seed.
+  virtual void reseed(std::uint32_t seed) = 0;
 };
 
 struct SyntaxError {
@@ -106,7 +108,7 @@ struct Procedure {
 /// The library, loaded.
 struct Library {
   static constexpr const char* file = "libwaitpoint-tcl.so";
-  static constexpr const char* symbol = "waitpoint_tcl_library_3";  ///< with the version of this struct
+  static constexpr const char* symbol = "waitpoint_tcl_library_4";  ///< with the version of this file
 
   /// Makes an interpreter, in a task that destroys it again. `seed` is that of rand(), `now` the clock of the running
   /// task.

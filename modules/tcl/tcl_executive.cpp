@@ -70,6 +70,9 @@ void TclExecutive::connect() {
 
 void TclExecutive::run() {
   const std::unique_ptr<Interpreter> interpreter = library_.make(*this, setup_.seed, &threads::now);
+  interpreter_ = interpreter.get();
+  const std::unique_ptr<Interpreter*, void (*)(Interpreter**)> until_the_end(
+      &interpreter_, [](Interpreter** running) { *running = nullptr; });
   try {
     const Outcome outcome = interpreter->run(setup_.script.file, setup_.script.text);
     if (!outcome.ok) throw std::runtime_error(error_of(setup_.script.file, outcome));
@@ -77,6 +80,11 @@ void TclExecutive::run() {
   } catch (const Stopped&) {
     if (procedures_ == nullptr) stop_modules();
   }
+}
+
+void TclExecutive::reseed(const RandomStream& random) {
+  setup_.seed = seed_of_script(random);
+  if (interpreter_ != nullptr) interpreter_->reseed(setup_.seed);
 }
 
 // The calls of procedures, until stop().

@@ -42,8 +42,11 @@ struct MissionSetup {
   Duration plan_cost_us;
   posters::KnownPose start;
   std::vector<Point> goals;
-  std::uint32_t seed = 0;  ///< of the script's rand()
+  std::uint32_t seed = 0;  ///< of the script's rand(): see seed_of_script()
 };
+
+/// The seed of rand() that follows from the executive's stream.
+inline std::uint32_t seed_of_script(const RandomStream& random) { return random.block(0)[0]; }
 
 class TclExecutive : public executive::RobotExecutive, private ModuleLink {
  public:
@@ -54,6 +57,8 @@ class TclExecutive : public executive::RobotExecutive, private ModuleLink {
   void connect() override;
   void run() override;
   void stop() override;
+  /// The script's rand() goes on from the seed that it would have had with this stream.
+  void reseed(const RandomStream& random) override;
   const std::vector<executive::GoalRecord>& goals() const override { return goals_; }
   /// The first of which the script has not told what became of it.
   std::size_t current_goal() const override;
@@ -94,6 +99,7 @@ class TclExecutive : public executive::RobotExecutive, private ModuleLink {
   std::map<std::uint32_t, Running> running_;  // by number
   std::deque<ReplyText> replies_;             // received, and not yet the script's
   std::atomic<bool> stopping_ = false;
+  Interpreter* interpreter_ = nullptr;  // of run()
 };
 
 }  // namespace waitpoint::tcl

@@ -44,6 +44,7 @@ const std::string meddling =
     "run 1\n"
     "obstacle {name: box, centre_m: [22, 6], size_m: [0.5, 0.5], height_m: 1}\n"
     "move-obstacle crate 7 18 30\n"
+    "seed 99\n"
     "at 1.505 move-obstacle box 18 4\n"
     "run 2\n"
     "remove-obstacle box\n"
@@ -89,10 +90,10 @@ TEST(Interactive, the_journal_of_what_was_done_replays_to_the_same_digest_in_a_n
   EXPECT_NE(done.digest(), free_digest());
   for (const char* told :
        {"GotoSpeed v_m_s=0.1 w_rad_s=0.2: sent", "move rackham 21 4.5 45: done", "move-obstacle crate 7 18 30: done",
-        "move-obstacle box 18 4: done", "remove-obstacle box: done", "request rackham ndd Stop: ok"})
+        "seed 99: done", "move-obstacle box 18 4: done", "remove-obstacle box: done", "request rackham ndd Stop: ok"})
     EXPECT_NE(done.errors.find(told), std::string::npos) << told << "\n" << done.errors;
   const std::string journal = folder.read("journal");
-  EXPECT_EQ(lines_of(journal), 4u + 7u + 1u) << journal;
+  EXPECT_EQ(lines_of(journal), 4u + 8u + 1u) << journal;
   EXPECT_NE(journal.find("at 0.500000000 request rackham rflex"), std::string::npos) << journal;
   EXPECT_NE(journal.find("at 1.510000000 move-obstacle box"), std::string::npos) << journal;
 

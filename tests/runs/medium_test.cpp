@@ -3,6 +3,7 @@
 // latency, loss and range apply, by the true distance.
 #include <gtest/gtest.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -127,13 +128,16 @@ T last(const run::Experiment& experiment, std::size_t robot, const std::string& 
 }
 
 // Ten seconds, in which robot one drives 5 m less the distance lost while accelerating.
-Transmission transmit(const std::string& medium, std::uint64_t seed = 1, const std::string& without = "") {
+// `reseed`: from the first step on.
+Transmission transmit(const std::string& medium, std::uint64_t seed = 1, const std::string& without = "",
+                      std::optional<std::uint64_t> reseed = std::nullopt) {
   const tools::Folder folder;
   folder.write("s.yaml", text + medium);
   scenario::Scenario scenario = scenario::read_scenario(folder / "s.yaml");
   std::erase_if(scenario.robots, [&](const auto& robot) { return robot.name == without; });
   const std::vector<genom::ModuleType> types = {genom::module_type<Beacon>("beacon")};
   run::Experiment experiment(scenario, types, {seed, kernel::Order::fifo, ""});
+  if (reseed) experiment.intervene(run::parse_intervention("seed " + std::to_string(*reseed), {"test", 0}));
   experiment.run_before(Time() + Duration(10s));
   Transmission outcome;
   outcome.heard = last<Heard>(experiment, 1, "beacon.heard");
@@ -184,6 +188,12 @@ TEST(MediumOfAScenario, TheSameSeedGivesTheSameDigestsAndAnotherOnlyOtherLosses)
   EXPECT_EQ(second.digest, first.digest);
   EXPECT_EQ(second.heard.count, first.heard.count);
   EXPECT_NE(other.digest, first.digest);
+}
+
+TEST(MediumOfAScenario, LosesAndDelaysAsWithAnotherSeedFromAnInstantOn) {
+  const std::string medium = "medium: {latency_ms: [5, 60], loss: 0.3}\n";
+  EXPECT_EQ(transmit(medium, 1, "", 2).digests, transmit(medium, 2).digests);
+  EXPECT_NE(transmit(medium, 1, "", 2).digests, transmit(medium, 1).digests);
 }
 
 TEST(MediumOfAScenario, ARobotThatNobodyTalksToIsNotNoticed) {

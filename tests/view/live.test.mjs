@@ -123,11 +123,12 @@ test('a branch with interventions is made, shown and compared', async () => {
   const line = await page.$eval('#panel-lines textarea', (area) => area.value),
     [x, y] = poseAt(3);
   assert.equal(line, `move ada ${x.toFixed(2)} ${y.toFixed(2)} 0`);
+  await page.type('[aria-label="Seed from here on"]', '7');
   await page.click('#panel-lines .primary');
   await until(() => window.waitpoint.session.line === 1);
   assert.deepEqual(
     program.asked.find(({ask}) => ask === 'branch'),
-    {ask: 'branch', line: 0, time: 3 * SECOND, interventions: [line], seed: null}
+    {ask: 'branch', line: 0, time: 3 * SECOND, interventions: ['seed 7', line]}
   );
   await settle(page);
   await page.click('[aria-label="Line 0 beside"]');

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <numeric>
+#include <optional>
 
 #include "tests/world/scenes.hpp"
 #include "world/kinematic/start_check.hpp"
@@ -254,6 +255,51 @@ TEST(World, ResetRunsTheSameAgainAndAnotherSeedDrawsOtherNoise) {
   EXPECT_EQ(run(), first);
   world->reset(2);
   EXPECT_NE(run(), first);
+}
+
+/// All readings of a body with every device whose errors have no state of the start.
+Digest noisy_readings(std::uint64_t seed, std::optional<std::uint64_t> other) {
+  WorldDescription description = wall_ahead();
+  BodyDescription& body = description.bodies[0];
+  body.lasers.emplace_back();
+  body.lasers[0].angle_noise_rad = 0.001;
+  body.lasers[0].dropout = 0.1;
+  body.sonars.push_back({});
+  body.infrareds.emplace();
+  body.imu.emplace();
+  for (InertialErrors* errors : {&body.imu->gyro, &body.imu->accelerometer})
+    errors->noise_per_sqrt_hz = errors->walk_per_sqrt_s = 0.01;
+  body.gps.emplace();
+  body.gps->noise_m = 0.3;
+  body.gps->dropout = 0.2;
+  body.gps->period = std::chrono::milliseconds(50);
+  body.base.odometry.turn_noise_rad_per_sqrt_m = body.base.odometry.wheel_noise_m_per_sqrt_m = 0.02;
+  body.base.odometry.slips_per_m = 5;
+  const auto world = make_kinematic_world(description, seed);
+  if (other) world->reseed(*other);
+  Digest digest;
+  LaserScan scan;
+  std::vector<double> ranges, volts;
+  for (std::uint64_t i = 0; i < 60; ++i) {
+    world->command(BodyId(0), {2, 0.3});
+    world->step();
+    world->scan(BodyId(0), 0, i, scan);
+    world->sonar(BodyId(0), 0, i, ranges);
+    world->infrareds(BodyId(0), i, volts);
+    for (const std::vector<double>* values : {&scan.range_m, &ranges, &volts})
+      for (const double value : *values) digest.add(value);
+    add_value(digest, world->odometer(BodyId(0)));
+    const ImuSample& imu = world->imu(BodyId(0));
+    for (const double value : {imu.turn_rad_s, imu.ahead_m_s2, imu.left_m_s2, imu.up_m_s2}) digest.add(value);
+    digest.add(world->position_fix(BodyId(0)).position.x);
+    digest.add(world->position_fix(BodyId(0)).number);
+  }
+  return digest;
+}
+
+TEST(World, AllErrorsAreDrawnAsWithAnotherSeedFromAnInstantOn) {
+  EXPECT_EQ(noisy_readings(1, 2), noisy_readings(2, {}));
+  EXPECT_NE(noisy_readings(1, 2), noisy_readings(1, {}));
 }
 
 TEST(World, StartsThatOverlapAreNamed) {

@@ -36,6 +36,7 @@ constexpr const char* help_text = R"(  step [N]                     execute the 
     move-obstacle NAME X Y [HEADING_DEG]
     remove-obstacle NAME
     push NAME FX_N FY_N SECONDS  apply a force to a robot or a loose body of a dynamic world
+    seed N                       from now on, draw random numbers and choices as with this seed
     tcl ROBOT COMMAND            evaluate a command of Tcl in the robot's shell
     external ROBOT [KEY=VALUE ...], report ROBOT KEY=VALUE ...
                                  move its body by reports of its position, as from outside

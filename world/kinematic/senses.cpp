@@ -68,6 +68,14 @@ Senses::Devices::Devices(const BodyDescription& body, double step_s, std::uint64
   if (body.gps) gps = std::make_unique<PositionReceiver>(*body.gps, seed, body.name);
 }
 
+void Senses::Devices::reseed(std::uint64_t seed, const std::string& body) {
+  for (std::size_t i = 0; i < lasers.size(); ++i) lasers[i].reseed(seed, body, i);
+  for (std::size_t i = 0; i < sonar_noise.size(); ++i) sonar_noise[i] = world::sonar_noise(seed, body, i);
+  infrared_noise = world::infrared_noise(seed, body);
+  if (imu) imu->reseed(seed, body);
+  if (gps) gps->reseed(seed, body);
+}
+
 Senses::Senses(const WorldDescription& description, std::span<const Shape> standing, std::span<const Shape> movers)
     : description_(description),
       surfaces_(description.meshes),
@@ -85,6 +93,10 @@ void Senses::restart(std::uint64_t seed) {
   for (const BodyDescription& body : description_.bodies)
     devices_.emplace_back(body, description_.step.seconds(), seed, kinds);
   expected_.restart(devices_.size());
+}
+
+void Senses::reseed(std::uint64_t seed) {
+  for (std::size_t i = 0; i < devices_.size(); ++i) devices_[i].reseed(seed, description_.bodies[i].name);
 }
 
 void Senses::moved(std::uint32_t body, const Vehicle& vehicle, std::uint64_t step) {

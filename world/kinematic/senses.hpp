@@ -38,6 +38,8 @@ class Senses {
 
   /// All devices as at the start, with the random streams of that seed.
   void restart(std::uint64_t seed);
+  /// See World::reseed().
+  void reseed(std::uint64_t seed);
 
   // The fixed solids and the movers.
 
@@ -95,6 +97,7 @@ class Senses {
     RandomStream infrared_noise;
 
     Devices(const BodyDescription& body, double step_s, std::uint64_t seed, LaserKinds& kinds);
+    void reseed(std::uint64_t seed, const std::string& body);
   };
 
   const WorldDescription& description_;

@@ -15,6 +15,10 @@ class VehicleWorld : public World {
   const WorldDescription& description() const final { return description_; }
   void command(BodyId id, Velocity velocity) final { vehicles_.at(index(id)).command(velocity, steps_); }
   std::uint64_t steps() const final { return steps_; }
+  void reseed(std::uint64_t seed) final {
+    for (Vehicle& vehicle : vehicles_) vehicle.reseed(seed);
+    senses_.reseed(seed);
+  }
 
   const BodyState& body(BodyId id) const final { return vehicles_.at(index(id)).state(); }
   const OdometerReading& odometer(BodyId id) const final { return vehicles_.at(index(id)).odometer(); }

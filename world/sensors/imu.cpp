@@ -8,13 +8,15 @@
 
 namespace waitpoint::world {
 
+Imu::Axis::Draws::Draws(std::uint64_t seed, std::string_view robot, const std::string& name)
+    : noise(seed, robot, name + ".noise"), walk(seed, robot, name + ".walk"), drift(seed, robot, name + ".drift") {}
+
 Imu::Axis::Axis(const InertialErrors& errors, std::uint64_t seed, std::string_view robot, const std::string& name)
     : errors_(errors),
-      noise_(seed, robot, name + ".noise"),
-      walk_(seed, robot, name + ".walk"),
-      drift_(seed, robot, name + ".drift"),
+      name_(name),
+      draws_(seed, robot, name),
       bias_(errors.bias * RandomStream(seed, robot, name + ".bias").normal(0)),
-      wandered_(errors.drift * drift_.normal(0)) {}
+      wandered_(errors.drift * draws_.drift.normal(0)) {}
 
 double Imu::Axis::take(std::uint64_t number, double elapsed_s) {
   WAITPOINT_FAST_CHECK(elapsed_s > 0, "a sample is a mean over no time");
@@ -22,11 +24,11 @@ double Imu::Axis::take(std::uint64_t number, double elapsed_s) {
   const double root_s = std::sqrt(elapsed_s);
   double reading = e.scale * (sum_ / elapsed_s) + bias_ + wandered_;
   sum_ = 0;
-  if (e.noise_per_sqrt_hz > 0) reading += e.noise_per_sqrt_hz / root_s * noise_.normal(number);
-  if (e.walk_per_sqrt_s > 0) bias_ += e.walk_per_sqrt_s * root_s * walk_.normal(number);
+  if (e.noise_per_sqrt_hz > 0) reading += e.noise_per_sqrt_hz / root_s * draws_.noise.normal(number);
+  if (e.walk_per_sqrt_s > 0) bias_ += e.walk_per_sqrt_s * root_s * draws_.walk.normal(number);
   if (e.drift > 0) {
     const double kept = exact::exp(-elapsed_s / e.drift_s);
-    wandered_ = kept * wandered_ + e.drift * std::sqrt(1 - kept * kept) * drift_.normal(number);
+    wandered_ = kept * wandered_ + e.drift * std::sqrt(1 - kept * kept) * draws_.drift.normal(number);
   }
   if (e.max > 0) reading = std::clamp(reading, -e.max, e.max);
   return e.resolution > 0 ? std::nearbyint(reading / e.resolution) * e.resolution : reading;
@@ -41,6 +43,10 @@ Imu::Imu(const ImuDescription& description, std::uint64_t seed, std::string_view
   WAITPOINT_CHECK(period_ > Duration(), "an inertial unit has no positive period");
   for (const InertialErrors& errors : {description.gyro, description.accelerometer})
     WAITPOINT_CHECK(!(errors.drift > 0) || errors.drift_s > 0, "a drift has no positive correlation time");
+}
+
+void Imu::reseed(std::uint64_t seed, std::string_view robot) {
+  for (Axis* axis : {&gyro_, &ahead_, &left_, &up_}) axis->reseed(seed, robot);
 }
 
 void Imu::add(Duration now, Duration step, const Arc& arc, const Velocity& velocity) {

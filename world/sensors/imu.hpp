@@ -36,6 +36,9 @@ class Imu {
   /// "imu.ahead", "imu.left" and "imu.up", at tick = number of the sample.
   Imu(const ImuDescription& description, std::uint64_t seed, std::string_view robot);
 
+  /// Draws from the streams of this seed from now on; the biases go on from where they are.
+  void reseed(std::uint64_t seed, std::string_view robot);
+
   /// Adds the body's motion in the step of length `step` that ends at `now` since the start: along `arc`, to
   /// `velocity`. With a period shorter than the step there is one sample per step.
   void add(Duration now, Duration step, const Arc& arc, const Velocity& velocity);
@@ -46,13 +49,21 @@ class Imu {
   class Axis {
    public:
     Axis(const InertialErrors& errors, std::uint64_t seed, std::string_view robot, const std::string& name);
+    void reseed(std::uint64_t seed, std::string_view robot) { draws_ = Draws(seed, robot, name_); }
     void add(double of_step) { sum_ += of_step; }
     /// The reading over the last `elapsed_s`; resets the integral.
     double take(std::uint64_t number, double elapsed_s);
 
    private:
+    struct Draws {
+      RandomStream noise, walk, drift;
+
+      Draws(std::uint64_t seed, std::string_view robot, const std::string& name);
+    };
+
     InertialErrors errors_;
-    RandomStream noise_, walk_, drift_;
+    std::string name_;
+    Draws draws_;
     double bias_, wandered_, sum_ = 0;
   };
 

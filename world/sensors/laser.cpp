@@ -85,12 +85,14 @@ std::shared_ptr<const LaserKind> LaserKinds::of(const LaserDescription& descript
   return latest_.emplace_back(std::make_shared<LaserKind>(description));
 }
 
+Laser::Draws::Draws(std::uint64_t seed, std::string_view robot, std::size_t number)
+    : range_noise(stream(seed, robot, number, "range")),
+      angle_noise(stream(seed, robot, number, "angle")),
+      mixed(stream(seed, robot, number, "mixed")),
+      dropout(stream(seed, robot, number, "dropout")) {}
+
 Laser::Laser(std::shared_ptr<const LaserKind> kind, std::uint64_t seed, std::string_view robot, std::size_t number)
-    : kind_(std::move(kind)),
-      range_noise_(stream(seed, robot, number, "range")),
-      angle_noise_(stream(seed, robot, number, "angle")),
-      mixed_(stream(seed, robot, number, "mixed")),
-      dropout_(stream(seed, robot, number, "dropout")) {}
+    : kind_(std::move(kind)), draws_(seed, robot, number) {}
 
 void Laser::look(std::uint64_t scan_number, const ArcTrail& body, const RayCaster& caster,
                  std::span<double> ranges_m) const {
@@ -102,7 +104,7 @@ void Laser::look(std::uint64_t scan_number, const ArcTrail& body, const RayCaste
     const Pose device = compose(body.at(span_s - beam_time_s(d, i)), d.mount);
     Point direction = turned(directions()[i], device.heading);
     if (d.angle_noise_rad > 0) {
-      const std::array<double, 2> normals = angle_noise_.normal_pair(scan_number, i / 2);
+      const std::array<double, 2> normals = draws_.angle_noise.normal_pair(scan_number, i / 2);
       direction = turned(direction, d.angle_noise_rad * normals[i % 2]);
     }
     ranges_m[i] = seen_m(scan_number, i, {device.position(), direction}, caster);
@@ -128,7 +130,7 @@ double Laser::seen_m(std::uint64_t scan_number, std::size_t beam, const Ray& mid
   if (near_m >= d.range_max_m) return d.range_max_m;
   const bool whole = near_m > 0 && std::max({middle_m, spot.left_m, spot.right_m}) < d.range_max_m;
   const bool jumps = far_m - near_m > d.mixed_jump_m && !(whole && spot.on_a_plane());
-  if (jumps) return wide ? near_m + (far_m - near_m) * mixed_.uniform(scan_number, beam) : middle_m;
+  if (jumps) return wide ? near_m + (far_m - near_m) * draws_.mixed.uniform(scan_number, beam) : middle_m;
   if (whole && spot.flatter_than(d.incidence_max_rad)) return d.range_max_m;
   return wide && middle_m >= d.range_max_m ? near_m : middle_m;
 }
@@ -142,12 +144,13 @@ void Laser::measure(std::uint64_t scan_number, double on_s, std::span<double> ra
   std::array<std::array<double, 2>, exact::batch> normals{};
   for (std::size_t first = 0; first < ranges_m.size(); first += 2 * normals.size()) {
     const std::span<double> part = ranges_m.subspan(first, std::min(2 * normals.size(), ranges_m.size() - first));
-    if (noisy) normal_pairs(range_noise_, scan_number, first / 2, std::span(normals).first((part.size() + 1) / 2));
+    if (noisy)
+      normal_pairs(draws_.range_noise, scan_number, first / 2, std::span(normals).first((part.size() + 1) / 2));
     for (std::size_t i = 0; i < part.size(); ++i) part[i] = measured(d, part[i], bias_m, normals[i / 2][i % 2]);
   }
   if (d.dropout <= 0) return;
   for (std::size_t i = 0; i < ranges_m.size(); ++i) {
-    if (dropout_.uniform(scan_number, i) < d.dropout) ranges_m[i] = d.range_max_m;
+    if (draws_.dropout.uniform(scan_number, i) < d.dropout) ranges_m[i] = d.range_max_m;
   }
 }
 

@@ -59,6 +59,9 @@ class Laser {
   Laser(const LaserDescription& description, std::uint64_t seed, std::string_view robot, std::size_t number)
       : Laser(std::make_shared<LaserKind>(description), seed, robot, number) {}
 
+  /// Draws from the streams of this seed from now on.
+  void reseed(std::uint64_t seed, std::string_view robot, std::size_t number) { draws_ = Draws(seed, robot, number); }
+
   const LaserDescription& description() const { return kind_->description; }
   double first_angle_rad() const { return kind_->first_angle_rad; }
   /// Between neighbouring beams; 0 for a single one.
@@ -77,10 +80,16 @@ class Laser {
   void measure(std::uint64_t scan_number, double on_s, std::span<double> ranges_m) const;
 
  private:
+  struct Draws {
+    RandomStream range_noise, angle_noise, mixed, dropout;
+
+    Draws(std::uint64_t seed, std::string_view robot, std::size_t number);
+  };
+
   double seen_m(std::uint64_t scan_number, std::size_t beam, const Ray& middle, const RayCaster& caster) const;
 
   std::shared_ptr<const LaserKind> kind_;
-  RandomStream range_noise_, angle_noise_, mixed_, dropout_;
+  Draws draws_;
 };
 
 }  // namespace waitpoint::world

@@ -12,21 +12,22 @@ constexpr std::uint64_t height_axis = 2;
 
 }  // namespace
 
+PositionReceiver::Draws::Draws(std::uint64_t seed, std::string_view robot)
+    : drift(seed, robot, "gps.drift"), noise(seed, robot, "gps.noise"), dropout(seed, robot, "gps.dropout") {}
+
 PositionReceiver::PositionReceiver(const PositionReceiverDescription& description, std::uint64_t seed,
                                    std::string_view robot)
     : description_(description),
-      drift_(seed, robot, "gps.drift"),
-      noise_(seed, robot, "gps.noise"),
-      dropout_(seed, robot, "gps.dropout"),
+      draws_(seed, robot),
       kept_(exact::exp(-description.period.seconds() / description.drift_s)) {
   WAITPOINT_CHECK(0 <= kept_ && kept_ <= 1, "a receiver's drift grows: its period or its correlation time is negative");
   for (std::uint64_t axis = 0; axis < wandered_m_.size(); ++axis)
-    wandered_m_[axis] = description_.drift_m * drift_.normal(0, axis);
+    wandered_m_[axis] = description_.drift_m * draws_.drift.normal(0, axis);
 }
 
 double PositionReceiver::measured(std::uint64_t axis, double true_m) const {
   const PositionReceiverDescription& d = description_;
-  const double error_m = wandered_m_[axis] + d.noise_m * noise_.normal(tries_, axis);
+  const double error_m = wandered_m_[axis] + d.noise_m * draws_.noise.normal(tries_, axis);
   const double position_m = true_m + (axis == height_axis ? d.height_factor * error_m : error_m);
   return d.resolution_m > 0 ? std::nearbyint(position_m / d.resolution_m) * d.resolution_m : position_m;
 }
@@ -40,9 +41,9 @@ void PositionReceiver::add(Duration now, Duration step, const Pose& pose, double
     ++tries_;
     for (std::uint64_t axis = 0; axis < wandered_m_.size(); ++axis)
       wandered_m_[axis] =
-          kept_ * wandered_m_[axis] + d.drift_m * std::sqrt(1 - kept_ * kept_) * drift_.normal(tries_, axis);
+          kept_ * wandered_m_[axis] + d.drift_m * std::sqrt(1 - kept_ * kept_) * draws_.drift.normal(tries_, axis);
   }
-  if (due == 0 || dropout_.uniform(tries_) < d.dropout) return;
+  if (due == 0 || draws_.dropout.uniform(tries_) < d.dropout) return;
   const auto [s, c] = exact::sincos(pose.heading);
   const Point antenna = {pose.x + c * d.antenna.x - s * d.antenna.y, pose.y + s * d.antenna.x + c * d.antenna.y};
   ++fix_.number;

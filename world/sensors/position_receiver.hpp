@@ -25,15 +25,24 @@ class PositionReceiver {
   /// the try, index = axis.
   PositionReceiver(const PositionReceiverDescription& description, std::uint64_t seed, std::string_view robot);
 
+  /// Draws from the streams of this seed from now on; the drift goes on from where it is.
+  void reseed(std::uint64_t seed, std::string_view robot) { draws_ = Draws(seed, robot); }
+
   /// The body is at `pose` and `height_m` at the end of the step of length `step` that ends at `now` since the start.
   void add(Duration now, Duration step, const Pose& pose, double height_m);
   const PositionFix& fix() const { return fix_; }
 
  private:
+  struct Draws {
+    RandomStream drift, noise, dropout;
+
+    Draws(std::uint64_t seed, std::string_view robot);
+  };
+
   double measured(std::uint64_t axis, double true_m) const;
 
   PositionReceiverDescription description_;
-  RandomStream drift_, noise_, dropout_;
+  Draws draws_;
   double kept_;  // the correlation p of the drift from try to try
   std::array<double, 3> wandered_m_{};
   std::uint64_t tries_ = 0;

@@ -28,14 +28,15 @@ std::int64_t UnitCounter::add(double units) {
   return static_cast<std::int64_t>(whole);
 }
 
+Odometer::Draws::Draws(std::uint64_t seed, std::string_view robot)
+    : noise(seed, robot, "odometry"), wheel_noise(seed, robot, "odometry.wheels"), slip(seed, robot, "odometry.slip") {}
+
 Odometer::Odometer(const BaseDescription& base, std::uint64_t seed, std::string_view robot)
     : errors_(base.odometry),
       axle_m_(base.axle_m),
       wheels_err_(wheels_err(base.odometry)),
       random_(walks_at_random(base.odometry)),
-      noise_(seed, robot, "odometry"),
-      wheel_noise_(seed, robot, "odometry.wheels"),
-      slip_(seed, robot, "odometry.slip") {}
+      draws_(seed, robot) {}
 
 void Odometer::add(std::uint64_t step, double step_s, const Arc& moved) {
   if (!moved.moves()) {
@@ -46,7 +47,7 @@ void Odometer::add(std::uint64_t step, double step_s, const Arc& moved) {
   Motion counted = {moved.distance_m, moved.turn_rad};
   if (wheels_err_) counted = of_wheels(step, counted);
   const double d = std::fabs(counted.travel_m), a = std::fabs(counted.turn_rad);
-  const auto [travel_noise, turn_noise] = random_ ? noise_.normal_pair(step) : std::array<double, 2>{};
+  const auto [travel_noise, turn_noise] = random_ ? draws_.noise.normal_pair(step) : std::array<double, 2>{};
   double travel_m = e.travel_scale * counted.travel_m + e.travel_noise_m_per_sqrt_m * std::sqrt(d) * travel_noise;
   const double turn_variance = e.turn_noise_rad_per_sqrt_m * e.turn_noise_rad_per_sqrt_m * d +
                                e.turn_noise_rad_per_sqrt_rad * e.turn_noise_rad_per_sqrt_rad * a;
@@ -59,7 +60,7 @@ void Odometer::add(std::uint64_t step, double step_s, const Arc& moved) {
   }
   double side_m = 0;
   if (moved.side_m != 0) {
-    const double side_noise = noise_.normal(step, 1);
+    const double side_noise = draws_.noise.normal(step, 1);
     side_m =
         e.travel_scale * moved.side_m + e.travel_noise_m_per_sqrt_m * std::sqrt(std::fabs(moved.side_m)) * side_noise;
   }
@@ -75,7 +76,7 @@ Odometer::Motion Odometer::of_wheels(std::uint64_t step, Motion moved) {
   const double wheels[] = {moved.travel_m - across, moved.travel_m + across};
   const double scales[] = {0.5 * (e.wheel_diameter_ratio + 1),
                            0.5 * (e.wheel_diameter_ratio + 1) / e.wheel_diameter_ratio};
-  const std::array<double, 2> noise = wheel_noise_.normal_pair(step);
+  const std::array<double, 2> noise = draws_.wheel_noise.normal_pair(step);
   double measured[2];
   for (std::size_t i = 0; i < 2; ++i) {
     measured[i] = scales[i] * wheels[i] + e.wheel_noise_m_per_sqrt_m * std::sqrt(std::fabs(wheels[i])) * noise[i];
@@ -88,14 +89,14 @@ Odometer::Motion Odometer::of_wheels(std::uint64_t step, Motion moved) {
 // The excess motion counted by spinning wheels in a step of that distance. The number of slips is drawn by inversion.
 Odometer::Motion Odometer::slipped(std::uint64_t step, double distance_m) const {
   const double expected = errors_.slips_per_m * std::fabs(distance_m);
-  double left = slip_.uniform(step), probability = exact::exp(-expected);
+  double left = draws_.slip.uniform(step), probability = exact::exp(-expected);
   Motion slip = {0, 0};
   for (std::uint64_t k = 1; left >= probability && k <= slips_max; ++k) {
     left -= probability;
     probability *= expected / static_cast<double>(k);
-    const double longer_m = -errors_.slip_m * exact::log(1 - slip_.uniform(step, 2 * k));
+    const double longer_m = -errors_.slip_m * exact::log(1 - draws_.slip.uniform(step, 2 * k));
     slip.travel_m += distance_m < 0 ? -longer_m : longer_m;
-    slip.turn_rad += errors_.slip_turn_rad * slip_.normal(step, 2 * k + 1);
+    slip.turn_rad += errors_.slip_turn_rad * draws_.slip.normal(step, 2 * k + 1);
   }
   return slip;
 }

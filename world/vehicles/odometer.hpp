@@ -42,11 +42,19 @@ class Odometer {
   /// Draws from streams (seed, robot, "odometry...") at tick = number of the step.
   Odometer(const BaseDescription& base, std::uint64_t seed, std::string_view robot);
 
+  /// Draws from the streams of this seed from now on; what it has counted stays.
+  void reseed(std::uint64_t seed, std::string_view robot) { draws_ = Draws(seed, robot); }
+
   /// Counts the base's motion in a step of `step_s` seconds; `moved` is from as_wheels_count().
   void add(std::uint64_t step, double step_s, const Arc& moved);
   const OdometerReading& reading() const { return reading_; }
 
  private:
+  struct Draws {
+    RandomStream noise, wheel_noise, slip;
+
+    Draws(std::uint64_t seed, std::string_view robot);
+  };
   struct Motion {
     double travel_m, turn_rad;
   };
@@ -56,7 +64,7 @@ class Odometer {
   OdometryErrors errors_;
   double axle_m_;
   bool wheels_err_, random_;
-  RandomStream noise_, wheel_noise_, slip_;
+  Draws draws_;
   UnitCounter travel_, turn_, side_;
   std::array<UnitCounter, 2> ticks_;  // left, right
   OdometerReading reading_;

@@ -48,6 +48,8 @@ class Vehicle {
   /// tenth of the tried motion is stalled. The wheels count travel along their direction and turns, driven or pushed;
   /// sideways drag is not counted.
   void publish(std::uint64_t step, Duration period, const Arc& tried, const BodyMotion& motion);
+  /// See World::reseed().
+  void reseed(std::uint64_t seed) { odometer_.reseed(seed, description_->name); }
   /// An intervention puts it there, at rest.
   void put(const Pose& pose);
   /// See World::guide_body(); NaN is a bug.

@@ -109,10 +109,16 @@ void set_up_interpreter(Tcl_Interp* tcl, std::uint32_t seed) {
   for (const Function& function : functions)
     Tcl_CreateObjCommand(tcl, (std::string("::tcl::mathfunc::") + function.name).c_str(), call_function,
                          const_cast<Function*>(&function), nullptr);
+  set_seed(tcl, seed);
+}
+
+// Tcl keeps it where only a script can reach it: the state of the script that is under way is put aside.
+void set_seed(Tcl_Interp* tcl, std::uint32_t seed) {
   // From 1 to 2^31 - 2.
   constexpr std::uint32_t seeds = 2147483646;
-  Tcl_Eval(tcl, ("expr {srand(" + std::to_string(1 + seed % seeds) + ")}").c_str());
-  Tcl_ResetResult(tcl);
+  const Tcl_InterpState state = Tcl_SaveInterpState(tcl, TCL_OK);
+  Tcl_Eval(tcl, ("::tcl::mathfunc::srand " + std::to_string(1 + seed % seeds)).c_str());
+  Tcl_RestoreInterpState(tcl, state);
 }
 
 }  // namespace waitpoint::tcl

@@ -15,5 +15,7 @@ namespace waitpoint::tcl {
 void set_up_process(Time (*now)());
 /// In a new interpreter.
 void set_up_interpreter(Tcl_Interp* tcl, std::uint32_t seed);
+/// The seed of rand(), from now on.
+void set_seed(Tcl_Interp* tcl, std::uint32_t seed);
 
 }  // namespace waitpoint::tcl

@@ -150,6 +150,6 @@ Outcome TaskInterpreter::outcome(int result) {
 
 }  // namespace waitpoint::tcl
 
-extern "C" [[gnu::visibility("default")]] const waitpoint::tcl::Library waitpoint_tcl_library_3 = {
+extern "C" [[gnu::visibility("default")]] const waitpoint::tcl::Library waitpoint_tcl_library_4 = {
     waitpoint::tcl::make, waitpoint::tcl::check, waitpoint::tcl::procedures_of, waitpoint::tcl::check_call,
     waitpoint::tcl::is_complete};

@@ -20,6 +20,7 @@
 #include <span>
 
 #include "modules/tcl/interpreter.hpp"
+#include "modules/tcl/library/surroundings.hpp"
 #include "modules/tcl/library/syntax.hpp"
 
 namespace waitpoint::tcl {
@@ -33,6 +34,7 @@ class TaskInterpreter : public Interpreter {
 
   Outcome run(const std::string& file, const std::string& script) override;
   Outcome evaluate(const std::string& command) override;
+  void reseed(std::uint32_t seed) override { set_seed(tcl_, seed); }
 
  private:
   using Words = std::span<Tcl_Obj* const>;

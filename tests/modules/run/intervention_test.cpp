@@ -51,13 +51,20 @@ TEST(Intervention, APushIsAForceForATime) {
   EXPECT_EQ(complaint("push box 1 2 1 1"), "run.journal:7: expected the end of the line, found '1'");
 }
 
+TEST(Intervention, ASeedIsAWholeNumberOf64Bits) {
+  EXPECT_EQ(std::get<SeedChange>(parse("seed 18446744073709551615").what).seed, 18446744073709551615u);
+  EXPECT_EQ(complaint("seed"), "run.journal:7: expected a seed");
+  EXPECT_EQ(complaint("seed -1"), "run.journal:7: expected a seed from 0 to 2^64 - 1, found '-1'");
+  EXPECT_EQ(complaint("seed 1 2"), "run.journal:7: expected the end of the line, found '2'");
+}
+
 TEST(Intervention, WhatIsNoneIsOneLineAtItsPlace) {
   EXPECT_EQ(complaint("mve rackham 1 2"), "run.journal:7: unknown intervention 'mve', did you mean 'move'?");
   EXPECT_EQ(complaint("move rackham 1"), "run.journal:7: expected a place, X Y [HEADING_DEG], found ''");
   EXPECT_EQ(complaint("move rackham 1,5 2"), "run.journal:7: expected a place, X Y [HEADING_DEG], found '1,5'");
   EXPECT_EQ(complaint("dance"),
             "run.journal:7: unknown intervention 'dance', expected request, move, obstacle, move-obstacle, "
-            "remove-obstacle, push, tcl, external, report or command");
+            "remove-obstacle, push, seed, tcl, external, report or command");
   EXPECT_EQ(complaint("move rackham 1 2 3 4"), "run.journal:7: expected the end of the line, found '4'");
   EXPECT_EQ(complaint("move \"rackham 1 2"), "run.journal:7: expected a closing quote");
   EXPECT_EQ(complaint("request rackham ndd GoTo 3"), "run.journal:7: expected FIELD=VALUE, found '3'");

@@ -41,6 +41,25 @@ TEST(Mission, RepeatsBitForBit) {
   EXPECT_EQ(result_of(scenario).digest, result_of(scenario).digest);
 }
 
+// What a script that waits in a procedure writes afterwards.
+std::string written(std::uint64_t seed, const std::string& intervention) {
+  const scenario::Scenario scenario =
+      with_script("proc late {} { after 1000; return \"late \" }\nputs \"[late][expr {rand()}]\"\n");
+  run::Experiment experiment(scenario, tools::papers_modules(), {seed, kernel::Order::fifo, ""});
+  if (!intervention.empty())
+    experiment.intervene(run::parse_intervention(intervention, {"test", 0}), Time::from_ns(500'000'000));
+  testing::internal::CaptureStderr();
+  experiment.run_before(Time::from_ns(1'500'000'000));
+  return testing::internal::GetCapturedStderr();
+}
+
+TEST(Mission, DrawsAsWithAnotherSeedFromAnInstantOn) {
+  const std::string changed = written(1, "seed 2");
+  EXPECT_NE(changed.find("rackham: late 0."), std::string::npos) << changed;
+  EXPECT_EQ(changed, written(2, ""));
+  EXPECT_NE(changed, written(1, ""));
+}
+
 TEST(Mission, WithASyntaxErrorIsBadInput) {
   const scenario::Scenario scenario = with_script("connect\nproc f {} {\n");
   try {

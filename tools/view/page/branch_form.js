@@ -165,10 +165,10 @@ class BranchForm {
         .map((line) => line.trim())
         .filter(Boolean),
       seed = this.seed.value.trim();
-    if (seed && !/^\d+$/.test(seed)) return setText(this.note, "A seed is a whole number.");
+    if (seed) interventions.unshift(`seed ${seed}`);
     setText(this.note, "…");
     try {
-      const {line} = await session.source.branch(session.line, session.time, interventions, seed ? Number(seed) : null);
+      const {line} = await session.source.branch(session.line, session.time, interventions);
       setText(this.note, `Line ${line} is shown now.`);
       this.lines.value = "";
       this.branched(line);

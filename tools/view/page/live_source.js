@@ -165,8 +165,8 @@ class LiveSource {
     return this.connection.ask("stack", {line, event});
   }
 
-  branch(line, time, interventions, seed) {
-    return this.connection.ask("branch", {line, time, interventions, seed});
+  branch(line, time, interventions) {
+    return this.connection.ask("branch", {line, time, interventions});
   }
 
   journal(line) {
