@@ -11,7 +11,9 @@ import random
 import re
 import signal
 import subprocess
+import sys
 import tempfile
+import time
 import unittest
 from urllib.parse import urlsplit
 
@@ -38,7 +40,7 @@ class Viewed:
 
     def __init__(self, *options, scenario=OFFICE):
         self.process = subprocess.Popen([WAITPOINT, "run", scenario, "--serve", *options], stdout=subprocess.PIPE,
-                                        stderr=subprocess.PIPE, text=True)
+                                        stderr=subprocess.PIPE, text=True, start_new_session=True)
         self.url = re.search(r"http://\S+", self.process.stderr.readline())[0]
 
     def __enter__(self):
@@ -61,6 +63,15 @@ class Viewed:
         connection.request(method, path if path is not None else f"/?{address.query}", headers=headers)
         answer = connection.getresponse()
         return answer.status, answer.read().decode(), dict(answer.getheaders())
+
+    def processes(self):
+        """Those of the run that are left, soon after its end."""
+        for _ in range(100):
+            left = subprocess.run(["pgrep", "-s", str(self.process.pid)], capture_output=True, text=True).stdout.split()
+            if not left:
+                break
+            time.sleep(0.05)
+        return left
 
     def end(self):
         """Returns the status of the run."""
@@ -138,6 +149,8 @@ class View(unittest.TestCase):
             self.assertTrue(lines[events["first"] - 1].startswith("9.0"))
             stack = client.ask("stack", line=0, event=events["first"] + 5)
             self.assertIn(stack["task"].split(" of ")[0], lines[events["first"] + 4])
+            world = next(i for i, line in enumerate(lines[before:], before + 1) if " world sleep" in line)
+            self.assertIn("run_world", client.ask("stack", line=0, event=world)["frames"][-1]["function"])
             tasks = client.ask("tasks", line=0)["tasks"]
             self.assertIn("executive", [task["name"] for task in tasks])
             self.assertEqual(viewed.end(), 0, viewed.errors)
@@ -170,6 +183,76 @@ class View(unittest.TestCase):
         again = run(*PART, "--replay-journal", self.folder / "journal")
         self.assertNotIn("not the run of the journal", again.stderr)
         self.assertIn(digest_in(again.stdout), journal["text"])
+
+    def test_lines_of_one_run_are_compared_and_before_its_start_a_branch_is_the_line_that_it_leaves(self):
+        def floor(line, second):
+            frame = client.ask("seek", line=line, time=round(second * SECOND))
+            return frame["events"], frame["robots"]
+
+        with Viewed(*PART, "--until", "12", "--serve-control") as viewed:
+            viewed.wait_for_end_of_run()
+            client = viewed.client()
+            branch = lambda line, second, *texts: client.ask("branch", line=line, time=second * SECOND,
+                                                             interventions=list(texts))["line"]
+            apart = lambda one, two: client.ask("compare", line=one, **{"with": two})
+            stops = branch(0, 4, "request rackham ndd Stop")
+            turns = branch(0, 6, "request rackham rflex GotoSpeed w_rad_s=0.5")
+            later = branch(stops, 8, "request rackham rflex GotoSpeed w_rad_s=0.5")
+            for line in (stops, turns, later):
+                self.assertEqual(floor(line, 3), floor(0, 3))
+                floor(line, 12)
+            self.assertEqual(floor(later, 7), floor(stops, 7))
+            self.assertNotEqual(floor(later, 7), floor(0, 7))
+            self.assertNotEqual(floor(later, 9), floor(stops, 9))
+            across = client.ask("events", line=later, **{"from": 3 * SECOND, "to": 9 * SECOND})
+            self.assertEqual(across["first"] + len(across["t"]) - 1,
+                             client.ask("seek", line=later, time=9 * SECOND - 1)["events"])
+            for one, two, second in ((stops, turns, 4), (turns, later, 4), (later, stops, 8), (later, 0, 4)):
+                self.assertTrue(second * SECOND < apart(one, two)["time"] < (second + 0.02) * SECOND, (one, two))
+            self.assertIn("expected two lines", apart(stops, stops)["error"])
+            early = client.ask("branch", line=later, time=2 * SECOND, interventions=[])
+            self.assertEqual(client.receive_until(lambda pushed: len(pushed.get("lines", [])) > 4)["lines"][-1]["parent"], 0)
+            self.assertEqual(early["line"], 4)
+            client.ask("seek", line=later, time=3 * SECOND)
+            self.assertNotIn("GotoSpeed", client.ask("journal", line=later)["text"])
+
+    def test_a_branch_with_another_seed_is_another_run_which_its_journal_repeats(self):
+        with Viewed(*PART, "--until", "12", "--serve-control") as viewed:
+            viewed.wait_for_end_of_run()
+            client = viewed.client()
+            for seed in (7, 7, 8):
+                client.ask("branch", line=0, time=5 * SECOND, interventions=[f"seed {seed}"])
+            poses = [client.ask("seek", line=line, time=12 * SECOND)["robots"][0]["estimate"] for line in range(4)]
+            self.assertEqual(poses[1], poses[2])
+            self.assertEqual(len({tuple(pose) for pose in poses}), 3)
+            self.assertEqual(client.ask("compare", line=1, **{"with": 2})["event"], None)
+            journal = client.ask("journal", line=1)["text"]
+        self.assertIn("at 5.010000000 seed 7", journal)
+        (self.folder / "journal").write_text(journal)
+        again = run(*PART, "--replay-journal", self.folder / "journal")
+        self.assertNotIn("not the run of the journal", again.stderr)
+        self.assertIn(digest_in(again.stdout), journal)
+
+    def test_a_viewer_that_comes_late_gets_what_has_changed_before(self):
+        with Viewed(*PART, "--until", "8", "--serve-control") as viewed:
+            viewed.wait_for_end_of_run()
+            client = viewed.client()
+            line = client.ask("branch", line=0, time=2 * SECOND, interventions=["move-obstacle crate 7 18 30"])["line"]
+            crate = lambda line, second: next(
+                (o for o in client.ask("seek", line=line, time=second * SECOND).get("obstacles", []) if o["name"] == "crate"),
+                None)
+            self.assertIsNone(crate(0, 6), "as in the header")
+            self.assertIsNone(crate(line, 1))
+            self.assertIsNotNone(crate(line, 6))
+        with Viewed(*PART, "--until", "300", "--speed", "3") as viewed:
+            early, late = viewed.client(), viewed.client()
+            is_frame = lambda pushed: pushed.get("kind") == "frame"
+            early.ask("follow", on=True)
+            early.receive_until(lambda pushed: is_frame(pushed) and pushed["time"] > 4 * SECOND)
+            late.ask("follow", on=True)
+            first = late.receive_until(is_frame)
+            self.assertTrue(first["whole"])
+            self.assertTrue(first["robots"][0]["segments"] and first["robots"][0]["route"])
 
     def test_clients_that_come_and_go_leave_the_digest_alone(self):
         plain = run(*PART, "--until", "60")
@@ -247,6 +330,48 @@ class View(unittest.TestCase):
             client = viewed.client()
             client.send(b"\x03\xe8", CLOSE)
             self.assertEqual(viewed.end(), 0, viewed.errors)
+
+    def test_requests_that_are_none_are_refused_and_reach_no_run(self):
+        chance = random.Random(3)
+        known = {"header": {}, "follow": {"on": True, "rate": 30, "view": [0, 0, 9, 9], "scans": True, "robot": 0},
+                 "seek": {"line": 0, "time": SECOND}, "step": {"line": 0, "count": 1, "task": 2}, "tasks": {"line": 0},
+                 "modules": {"line": 0, "robot": 0}, "journal": {"line": 0}, "counts": {"line": 0},
+                 "events": {"line": 0, "from": 0, "to": SECOND // 100, "most": 10}, "stack": {"line": 0, "event": 99},
+                 "plot": {"line": 0, "robot": 0, "poster": "pom.position", "field": "position.pose.x", "from": 0,
+                          "to": SECOND, "points": 3},
+                 "digests": {"line": 0, "from": 0, "times": [SECOND]}, "compare": {"line": 0, "with": 1},
+                 "branch": {"line": 0, "time": SECOND, "interventions": []}, "pause": {"on": False}, "speed": {"value": 0}}
+        deep = []
+        for _ in range(2000):
+            deep = [deep]
+        strange = ["x", "", -1, -SECOND, 2**63, 2**64 - 1, 1e300, -1e300, 0.5, None, True, [], {}, [[]], ["x"], [1, 2], {"a": []},
+                   "\ud800", "a" * 5000, deep, [None] * 4, 99, SECOND * 10**9]
+        plain = run(*PART, "--until", "3")
+        sys.setrecursionlimit(10_000)
+        with Viewed(*PART, "--until", "3", "--speed", "3", "--serve-control") as viewed:
+            client = viewed.client()
+            client.receive_until(lambda pushed: pushed.get("kind") == "status" and pushed["time"] > SECOND)
+            for number in range(1, 400):
+                what = chance.choice(list(known))
+                request = {"id": number, "ask": what, **known[what]}
+                for key in chance.sample(list(request), chance.choice((1, 1, 2))):
+                    if chance.random() < 0.2 and key != "id":
+                        del request[key]
+                    else:
+                        request[key] = chance.choice(strange)
+                if what == "pause" and request.get("on") is True:
+                    continue  # it would wait for ever
+                client.send(json.dumps(request).encode())
+                client.receive_until(lambda pushed: "id" in pushed)
+            client.ask("speed", value=0)
+            viewed.wait_for_end_of_run()
+            self.assertEqual(client.ask("seek", line=0, time=2 * SECOND)["time"], 2 * SECOND)
+            client.send(json.dumps({"ask": "seek", "line": 0, "time": deep}).encode())
+            self.assertIn("few levels", client.receive_until(lambda pushed: "id" in pushed)["error"])
+            self.assertIn("whole number", client.ask("modules", line=0, robot=99)["error"])
+            self.assertEqual(viewed.end(), 0, viewed.errors)
+        self.assertEqual(digest_in(viewed.output), digest_in(plain.stdout))
+        self.assertEqual(viewed.processes(), [])
 
     def test_mistakes_in_the_options_are_one_line(self):
         with Viewed(*PART, "--until", "2") as viewed:

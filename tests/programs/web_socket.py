@@ -81,5 +81,14 @@ class WebSocket:
             self.pushed.append(reply)
         return reply
 
+    def receive_until(self, is_it):
+        """The first text, pushed before or from now on, of which `is_it` is true."""
+        for pushed in self.pushed:
+            if is_it(pushed):
+                return pushed
+        while not is_it(pushed := self.receive()):
+            pass
+        return pushed
+
     def close(self):
         self.socket.close()

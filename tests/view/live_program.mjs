@@ -168,7 +168,6 @@ export class LiveProgram {
           local: 4.5e9,
           operation: 'acquire',
           object: {kind: 'semaphore', number: 2, label: 'mailbox event', robot: 'ada', owner: null},
-          deadline: 5e9,
           work: '',
           events: 12
         }

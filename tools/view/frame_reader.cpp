@@ -5,7 +5,9 @@
 
 #include <algorithm>
 
+#include "core/error.hpp"
 #include "modules/genom/module.hpp"
+#include "tools/view/request.hpp"
 #include "tools/view/scene.hpp"
 #include "tools/view/view_json.hpp"
 
@@ -19,13 +21,6 @@ const posters::FollowedRoute* follower_of_routes(const genom::NameSpace& names) 
   return nullptr;
 }
 
-std::vector<world::Shape> shapes_of(const std::vector<world::Obstacle>& obstacles) {
-  std::vector<world::Shape> shapes;
-  shapes.reserve(obstacles.size());
-  for (const world::Obstacle& obstacle : obstacles) shapes.push_back(obstacle.shape);
-  return shapes;
-}
-
 void append_pose(std::string& text, const Pose& pose) {
   const double values[] = {pose.x, pose.y, pose.heading};
   append_numbers(text, values);
@@ -33,15 +28,39 @@ void append_pose(std::string& text, const Pose& pose) {
 
 }  // namespace
 
+FrameOptions frame_options(const Json& request, std::size_t robots) {
+  FrameOptions options;
+  options.scans = flag_in(request, "scans", true);
+  options.whole = flag_in(request, "whole", false);
+  const std::int64_t last = static_cast<std::int64_t>(robots) - 1;
+  if (const std::int64_t robot = whole_number_in(request, "robot", -1, last, -1); robot >= 0)
+    options.robot = static_cast<std::size_t>(robot);
+  const Json view = request.value("view", Json());
+  if (view.is_null()) return options;
+  if (!view.is_array() || view.size() != 4 ||
+      !std::all_of(view.begin(), view.end(), [](const Json& side) { return side.is_number(); }))
+    throw BadInput("the view", "'view': expected [left, bottom, right, top] in metres");
+  options.section = Section{{view[0], view[1]}, {view[2], view[3]}};
+  return options;
+}
+
 FrameReader::FrameReader(const scenario::Scenario& scenario, const run::Experiment& experiment)
-    : experiment_(experiment), drawn_(shapes_of(experiment.world().description().obstacles)) {
-  for (std::size_t i = 0; i < scenario.robots.size(); ++i) {
-    const bridge::Robot& robot = *experiment.robots()[i];
+    : scenario_(scenario), experiment_(experiment) {
+  for (const world::Obstacle& obstacle : experiment.world().description().obstacles)
+    at_start_.push_back(obstacle.shape);
+  drawn_ = at_start_;
+  take_up_robots();
+}
+
+void FrameReader::take_up_robots() {
+  robots_.clear();
+  for (std::size_t i = 0; i < scenario_.robots.size(); ++i) {
+    const bridge::Robot& robot = *experiment_.robots()[i];
     const genom::NameSpace& names = robot.names();
     robots_.push_back(OfRobot{robot,
                               world::BodyId(i),
-                              recorded_lasers(scenario.robots[i]),
-                              {scenario.robots[i], robot},
+                              recorded_lasers(scenario_.robots[i]),
+                              {scenario_.robots[i], robot},
                               {names, "rflex.sonars"},
                               {names, "segloc.map"},
                               follower_of_routes(names)});
@@ -49,26 +68,43 @@ FrameReader::FrameReader(const scenario::Scenario& scenario, const run::Experime
 }
 
 std::string FrameReader::read(Time now, const FrameOptions& options) {
-  std::string text = fmt::format("{{\"kind\":\"frame\",\"line\":{},\"time\":{},\"events\":{},\"robots\":[",
-                                 options.line, now.ns(), experiment_.events());
+  if (options.whole) {
+    take_up_robots();
+    drawn_ = at_start_;
+  }
+  has_news_ = options.whole;
+  std::string text = fmt::format("{{\"kind\":\"frame\",\"line\":{},\"time\":{},\"events\":{},\"whole\":{},\"robots\":[",
+                                 options.line, now.ns(), experiment_.events(), options.whole);
   for (OfRobot& robot : robots_) {
     if (&robot != &robots_.front()) text += ',';
     add(robot, options, text);
   }
   text += ']';
   add_obstacles(text);
-  return text;
+  return text + (has_news_ ? ",\"news\":true" : ",\"news\":false");
 }
 
 void FrameReader::add(OfRobot& robot, const FrameOptions& options, std::string& text) {
   const world::BodyState& body = experiment_.world().body(robot.body);
-  if (options.section && !options.section->holds(body.pose.position())) {
+  const bool is_chosen = options.robot && *options.robot == static_cast<std::size_t>(robot.body);
+  if (options.section && !is_chosen && !options.section->holds(body.pose.position())) {
     text += "null";
     return;
   }
   const double truth[] = {body.pose.x, body.pose.y, body.pose.heading, body.height_m};
   text += "{\"truth\":";
   append_numbers(text, truth);
+  if (!options.robot || is_chosen) {
+    add_poses(robot, text);
+    if (options.scans) add_scans(robot, text);
+    add_news(robot, text);
+  }
+  const auto goal = robot.robot.current_goal();
+  text += fmt::format(",\"goal\":{},\"goals_reached\":{},\"collisions\":{}}}",
+                      goal ? static_cast<std::int64_t>(*goal) : -1, robot.robot.goals_reached(), body.collisions);
+}
+
+void FrameReader::add_poses(OfRobot& robot, std::string& text) {
   if (const auto odometry = robot.posters.odometry()) robot.odometry = odometry->position.pose;
   if (const auto fused = robot.posters.position()) robot.position = fused->position;
   if (robot.position) {
@@ -83,11 +119,6 @@ void FrameReader::add(OfRobot& robot, const FrameOptions& options, std::string& 
     text += ",\"odometry\":";
     append_pose(text, *robot.odometry);
   }
-  if (options.scans) add_scans(robot, text);
-  add_news(robot, text);
-  const auto goal = robot.robot.current_goal();
-  text += fmt::format(",\"goal\":{},\"goals_reached\":{},\"collisions\":{}}}",
-                      goal ? static_cast<std::int64_t>(*goal) : -1, robot.robot.goals_reached(), body.collisions);
 }
 
 void FrameReader::add_scans(OfRobot& robot, std::string& text) {
@@ -120,6 +151,7 @@ void FrameReader::add_news(OfRobot& robot, std::string& text) {
   if (robot.module != nullptr) {
     const std::span<const Point> ahead = robot.module->route_ahead();
     if (!robot.route || !std::equal(ahead.begin(), ahead.end(), robot.route->begin(), robot.route->end())) {
+      has_news_ = true;
       robot.route.emplace(ahead.begin(), ahead.end());
       text += ",\"route\":[";
       for (const Point& p : ahead) {
@@ -132,6 +164,7 @@ void FrameReader::add_news(OfRobot& robot, std::string& text) {
   }
   const auto map = robot.segments.take([](const posters::SegmentMap& segments) { return segments.date; });
   if (!map) return;
+  has_news_ = true;
   text += ",\"segments\":[";
   for (const posters::MapSegment& segment : map->items) {
     const double values[] = {segment.start.x, segment.start.y, segment.end.x, segment.end.y};
@@ -141,10 +174,18 @@ void FrameReader::add_news(OfRobot& robot, std::string& text) {
   text += ']';
 }
 
+// They are many, and seldom change.
+bool FrameReader::shows_as_drawn() const {
+  const std::vector<world::Obstacle>& obstacles = experiment_.world().description().obstacles;
+  return std::equal(obstacles.begin(), obstacles.end(), drawn_.begin(), drawn_.end(),
+                    [](const world::Obstacle& obstacle, const world::Shape& drawn) { return obstacle.shape == drawn; });
+}
+
 void FrameReader::add_obstacles(std::string& text) {
-  std::vector<world::Shape> shapes = shapes_of(experiment_.world().description().obstacles);
-  if (shapes == drawn_) return;
-  drawn_ = std::move(shapes);
+  if (shows_as_drawn()) return;
+  has_news_ = true;
+  drawn_.clear();
+  for (const world::Obstacle& obstacle : experiment_.world().description().obstacles) drawn_.push_back(obstacle.shape);
   Json list = Json::array();
   for (const world::Obstacle& shown : obstacles_shown(experiment_)) list.push_back(obstacle(shown));
   text += ",\"obstacles\":" + text_of(list);

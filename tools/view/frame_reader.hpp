@@ -13,6 +13,7 @@
 #include "modules/posters/followed_route.hpp"
 #include "modules/run/experiment.hpp"
 #include "tools/record/robot_posters.hpp"
+#include "tools/view/view_json.hpp"
 
 namespace waitpoint::tools::view {
 
@@ -24,17 +25,24 @@ struct Section {
 };
 
 struct FrameOptions {
-  int line = 0;                      ///< the line of time that it is of
-  bool scans = true;                 ///< of lasers and sonars
-  std::optional<Section> section{};  ///< robots elsewhere are left out
+  int line = 0;                        ///< the line of time that it is of
+  bool scans = true;                   ///< of lasers and sonars
+  std::optional<Section> section{};    ///< robots elsewhere are left out
+  std::optional<std::size_t> robot{};  ///< of the others there is only where they are and how far they have come
+  bool whole = false;                  ///< for a reader that has no frame before it
 };
+
+/// {"scans", "view": [left, bottom, right, top], "robot", "whole"} of a request for frames; BadInput for others.
+FrameOptions frame_options(const Json& request, std::size_t robots);
 
 class FrameReader {
  public:
-  /// The scenario, which is the experiment's, and the experiment must outlive this.
+  /// Before the run. The scenario, which is the experiment's, and the experiment must outlive this.
   FrameReader(const scenario::Scenario& scenario, const run::Experiment& experiment);
 
-  /// {"kind":"frame","line":0,"time":...}, without the last brace, for the state at `now`; between events of the run.
+  /// {"kind":"frame","line":0,"time":...,"news":...}, without the last brace, for the state at `now`; between events
+  /// of the run. "news": it has what further frames leave out as unchanged. A whole frame without obstacles has those
+  /// of the scene.
   std::string read(Time now, const FrameOptions& options);
 
  private:
@@ -51,14 +59,19 @@ class FrameReader {
     std::optional<posters::PositionEstimate> position = {};
   };
 
+  void take_up_robots();
+  bool shows_as_drawn() const;
   void add(OfRobot& robot, const FrameOptions& options, std::string& text);
+  static void add_poses(OfRobot& robot, std::string& text);
   static void add_scans(OfRobot& robot, std::string& text);
-  static void add_news(OfRobot& robot, std::string& text);
+  void add_news(OfRobot& robot, std::string& text);
   void add_obstacles(std::string& text);
 
+  const scenario::Scenario& scenario_;
   const run::Experiment& experiment_;
   std::deque<OfRobot> robots_;
-  std::vector<world::Shape> drawn_;  // the obstacles of the last frame
+  std::vector<world::Shape> at_start_, drawn_;  // the obstacles of the scene, and of the last frame
+  bool has_news_ = false;                       // the frame that is being made
 };
 
 }  // namespace waitpoint::tools::view

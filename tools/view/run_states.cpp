@@ -28,7 +28,6 @@ Json task_state(const kernel::Task& task, const kernel::Scheduler& scheduler) {
                {"local", task.local_time.ns()},
                {"operation", kernel::name(task.operation)},
                {"object", nullptr},
-               {"deadline", nullptr},
                {"work", task.work.what != nullptr ? std::string(task.work.what) + " " + task.work.of : ""},
                {"events", task.sequence}};
   const kernel::Object* const at = task.blocked_on != nullptr ? task.blocked_on : task.at;

@@ -2,7 +2,9 @@
 #include "tools/view/scene.hpp"
 
 #include <algorithm>
+#include <map>
 #include <numbers>
+#include <typeinfo>
 
 #include "modules/genom/module.hpp"
 #include "modules/run/plan.hpp"
@@ -79,17 +81,45 @@ Json module(const genom::Module& module) {
   return {{"name", module.name()}, {"requests", requests}, {"tasks", tasks}};
 }
 
-Json robot_scene(const scenario::RobotScenario& robot, const bridge::Robot& software) {
+/// What robots of a crowd have in common, once for all that have the same.
+class RobotTypes {
+ public:
+  /// The number of the robot's type.
+  std::size_t number(const scenario::RobotScenario& robot, const bridge::Robot& software) {
+    Json devices = {{"lasers", lasers(robot)}, {"sonars", sonars(robot)}};
+    std::string key = text_of(devices);
+    for (const auto& [name, of_robot] : software.names().modules()) {
+      key += name + ' ' + typeid(*of_robot).name();
+      for (const genom::RequestType& request : of_robot->requests()) key += ' ' + request.name;
+      key += '\n';
+    }
+    for (const auto& [name, poster] : software.names().posters())
+      key += name + ' ' + poster->writer() + ' ' + typeid(*poster).name() + '\n';
+    const auto [found, is_new] = numbers_.try_emplace(std::move(key), types_.size());
+    if (is_new) types_.push_back(described(std::move(devices), software));
+    return found->second;
+  }
+  const Json& types() const { return types_; }
+
+ private:
+  static Json described(Json type, const bridge::Robot& software) {
+    type["modules"] = type["posters"] = Json::array();
+    for (const auto& [name, of_robot] : software.names().modules()) type["modules"].push_back(module(*of_robot));
+    for (const auto& [name, poster] : software.names().posters())
+      type["posters"].push_back({{"name", name}, {"writer", poster->writer()}, {"fields", fields(poster->shape())}});
+    return type;
+  }
+
+  std::map<std::string, std::size_t> numbers_;
+  Json types_ = Json::array();
+};
+
+Json robot_scene(const scenario::RobotScenario& robot) {
   Json json = {{"name", robot.name}};
   json.update(body(robot.body.shape));
-  json["lasers"] = lasers(robot);
-  json["sonars"] = sonars(robot);
-  json["goals"] = json["modules"] = json["posters"] = Json::array();
+  json["goals"] = Json::array();
   for (const scenario::Goal& goal : robot.goals)
     json["goals"].push_back({{"x", rounded(goal.position.x)}, {"y", rounded(goal.position.y)}, {"name", goal.name}});
-  for (const auto& [name, of_robot] : software.names().modules()) json["modules"].push_back(module(*of_robot));
-  for (const auto& [name, poster] : software.names().posters())
-    json["posters"].push_back({{"name", name}, {"writer", poster->writer()}, {"fields", fields(poster->shape())}});
   return json;
 }
 
@@ -105,6 +135,7 @@ std::vector<world::Obstacle> obstacles_shown(const run::Experiment& experiment) 
 
 Json scene(const scenario::Scenario& scenario, const run::Experiment& experiment, const SceneOptions& options) {
   Bounds bounds;
+  RobotTypes types;
   Json obstacles = Json::array(), robots = Json::array();
   for (const world::Obstacle& shown : obstacles_shown(experiment)) {
     bounds.add(shown.shape);
@@ -114,7 +145,8 @@ Json scene(const scenario::Scenario& scenario, const run::Experiment& experiment
     const scenario::RobotScenario& robot = scenario.robots[i];
     bounds.add(robot.body.start.position(), 0.5);
     for (const scenario::Goal& goal : robot.goals) bounds.add(goal.position);
-    robots.push_back(robot_scene(robot, *experiment.robots()[i]));
+    robots.push_back(robot_scene(robot));
+    robots.back()["type"] = types.number(robot, *experiment.robots()[i]);
   }
   constexpr const char* orders[] = {"fifo", "seeded", "explored"};
   return {{"kind", "header"},
@@ -128,6 +160,7 @@ Json scene(const scenario::Scenario& scenario, const run::Experiment& experiment
           {"bounds", bounds.json()},
           {"operations", operations()},
           {"obstacles", obstacles},
+          {"types", types.types()},
           {"robots", robots},
           {"control", options.is_controlled}};
 }

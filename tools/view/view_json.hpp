@@ -13,7 +13,6 @@
 
 #include "core/field_text.hpp"
 #include "core/pose.hpp"
-#include "core/time.hpp"
 #include "modules/bridge/run_result.hpp"
 
 namespace waitpoint::tools::view {
@@ -34,9 +33,6 @@ Json obstacle(const world::Obstacle& obstacle);
 Json body(const world::Shape& shape);
 /// {"name", "kind", "parts"}.
 Json fields(const FieldShape& shape);
-
-/// A time in nanoseconds that a request has.
-inline Time time_in(const Json& request, const char* key) { return Time::from_ns(request.at(key).get<std::int64_t>()); }
 
 /// Texts of a run may have any bytes: what is no UTF-8 is replaced.
 std::string text_of(const Json& json);

@@ -28,7 +28,7 @@ class Comparison : public std::enable_shared_from_this<Comparison> {
   History& history_;
   History::Owner owner_;
   std::array<std::size_t, 2> lines_;
-  History::Span part_;  // that has the difference
+  TimeLines::Span part_;  // that has the difference
   Time end_, values_differ_;
   History::Reply reply_;
 };

@@ -9,14 +9,16 @@
 #include "tools/output/summary.hpp"
 #include "tools/view/history/run_copy.hpp"
 #include "tools/view/module_lines.hpp"
-#include "tools/view/view_json.hpp"
+#include "tools/view/request.hpp"
 
 namespace waitpoint::tools::view {
 namespace {
 
-// Processor time between snapshots at first, which bounds the time that a look at the past takes. A fork costs the run
-// about a millisecond, and a copy of each page that it then writes.
+// Processor time between snapshots at first, which bounds the time that a look at the past takes.
 constexpr double snapshot_period_s = 0.1;
+// Of a crowd, much is written between two snapshots, and each page of it copied: that may take this share of the run's
+// time. The first guess is of a copy of everything.
+constexpr double copying_share = 0.1, copying_s_per_byte = 5e-10;
 constexpr double status_period_s = 0.1;
 constexpr int pause_ms = 50;
 
@@ -25,7 +27,6 @@ constexpr int pause_ms = 50;
 LiveRun::LiveRun(Channel& viewer, const scenario::Scenario& scenario, run::Experiment& experiment,
                  const SceneOptions& options, std::string journal)
     : viewer_(viewer),
-      scenario_(scenario),
       experiment_(experiment),
       journal_(std::move(journal)),
       frames_(scenario, experiment),
@@ -40,11 +41,23 @@ LiveRun::LiveRun(Channel& viewer, const scenario::Scenario& scenario, run::Exper
 }
 
 void LiveRun::make_snapshot() {
-  const RunCopy here(scenario_, experiment_, journal_, reached_, counts_);
+  const MemoryUse use = memory_use();
+  const double wanted_s = (use.system_s - at_snapshot_.system_s) / copying_share;
+  if (copying_period_s_ == 0)
+    copying_period_s_ = copying_s_per_byte / copying_share * static_cast<double>(use.bytes);
+  else if (wanted_s > copying_period_s_)
+    copying_period_s_ *= 2;
+  else if (wanted_s < copying_period_s_ / 2)
+    copying_period_s_ /= 2;
+  const RunCopy here(frames_, experiment_, journal_, reached_, counts_);
   const Channel copy = here.fork();
-  viewer_.send(text_of(Json{{"kind", "snapshot"}, {"time", reached_.ns()}, {"events", experiment_.events()}}),
+  viewer_.send(text_of(Json{{"kind", "snapshot"},
+                            {"time", reached_.ns()},
+                            {"events", experiment_.events()},
+                            {"copied", use.copied_bytes - at_snapshot_.copied_bytes}}),
                copy.number());
-  next_snapshot_s_ = run::processor_s() + snapshot_period_s_;
+  at_snapshot_ = use;
+  next_snapshot_s_ = run::processor_s() + std::max(snapshot_period_s_, copying_period_s_);
 }
 
 void LiveRun::after_window(Time reached, const std::function<bool()>& is_over) {
@@ -54,10 +67,7 @@ void LiveRun::after_window(Time reached, const std::function<bool()>& is_over) {
   take_requests();
   send_topics();
   if (run::processor_s() >= next_snapshot_s_) make_snapshot();
-  if (wanted_) {
-    viewer_.send(frames_.read(reached, *wanted_) + "}");
-    wanted_.reset();
-  }
+  send_frame();
   if (wall_clock_s() >= next_status_s_) {
     send_status();
     send_log();
@@ -66,10 +76,13 @@ void LiveRun::after_window(Time reached, const std::function<bool()>& is_over) {
     viewer_.has_news(pause_ms);
     take_requests();
     send_topics();
-    if (!wanted_) continue;
-    viewer_.send(frames_.read(reached, *wanted_) + "}");
-    wanted_.reset();
+    send_frame();
   }
+}
+
+void LiveRun::send_frame() {
+  if (wanted_) viewer_.send(frames_.read(reached_, *wanted_) + "}");
+  wanted_.reset();
 }
 
 void LiveRun::take_requests() {
@@ -79,14 +92,7 @@ void LiveRun::take_requests() {
 void LiveRun::heed(const std::string& text) {
   const Json request = Json::parse(text);
   const std::string what = request.at("do");
-  if (what == "frame") {
-    FrameOptions& options = wanted_.emplace();
-    options.scans = request.value("scans", true);
-    if (request.contains("view") && request["view"].is_array()) {
-      const auto view = request["view"].get<std::vector<double>>();
-      if (view.size() == 4) options.section = Section{{view[0], view[1]}, {view[2], view[3]}};
-    }
-  }
+  if (what == "frame") wanted_ = frame_options(request, experiment_.robots().size());
   if (what == "pause") {
     is_paused_ = request.at("on");
     send_status();

@@ -18,6 +18,7 @@
 #include "tools/view/foxglove/live_topics.hpp"
 #include "tools/view/frame_reader.hpp"
 #include "tools/view/history/channel.hpp"
+#include "tools/view/history/memory_use.hpp"
 #include "tools/view/scene.hpp"
 
 namespace waitpoint::tools::view {
@@ -45,12 +46,12 @@ class LiveRun {
   void take_requests();
   void heed(const std::string& text);
   void make_snapshot();
+  void send_frame();
   void send_status();
   void send_log();
   void send_topics();
 
   Channel& viewer_;
-  const scenario::Scenario& scenario_;
   run::Experiment& experiment_;
   std::string journal_;
   FrameReader frames_;
@@ -62,6 +63,8 @@ class LiveRun {
   std::optional<double> speed_;
   bool is_paused_ = false;
   double next_snapshot_s_ = 0, snapshot_period_s_, next_status_s_ = 0;  // processor time; wall clock
+  double copying_period_s_ = 0;  // the least, for copies of pages; 0: not known yet
+  MemoryUse at_snapshot_;        // when the last one was made
 };
 
 }  // namespace waitpoint::tools::view

@@ -15,9 +15,9 @@
 #include "modules/run/journal.hpp"
 #include "tools/output/recorders.hpp"
 #include "tools/view/event_trace.hpp"
-#include "tools/view/frame_reader.hpp"
 #include "tools/view/history/private_files.hpp"
 #include "tools/view/poster_plots.hpp"
+#include "tools/view/request.hpp"
 #include "tools/view/run_states.hpp"
 
 namespace waitpoint::tools::view {
@@ -25,7 +25,8 @@ namespace {
 
 // A copy goes on in windows, between which it looks if it is still wanted.
 constexpr Duration window = std::chrono::seconds(1);
-constexpr std::size_t frames_of_stack = 64, points_max = 100'000, events_max = 1'000'000;
+constexpr std::size_t frames_of_stack = 64;
+constexpr std::int64_t points_max = 100'000, points_usual = 1'000, events_max = 1'000'000;
 
 /// "function at file:line" in its parts.
 Json frame_of_stack(const std::string& line) {
@@ -45,7 +46,7 @@ Channel RunCopy::fork() const {
   if (child < 0) throw std::system_error(errno, std::generic_category(), "a copy of the run");
   if (child > 0) return std::move(here);
   here = Channel(Descriptor());
-  RunCopy copy(scenario_, experiment_, journal_, reached_, counts_);
+  RunCopy copy(*this);
   copy.serve(std::move(there));
 }
 
@@ -86,19 +87,15 @@ std::string RunCopy::answer(const Json& request) {
   line_ = request.value("line", 0);
   if (what == "to") {
     go_to(time_in(request, "time") + Duration::from_ns(1));
-    return floor();
+    return floor(request);
   }
-  if (what == "look") return floor();
-  if (what == "to_event") return to_event(request.at("event"));
+  if (what == "look") return floor(request);
+  if (what == "to_event") return to_event(request);
   if (what == "event_before") return event_before(request);
   if (what == "events_so_far") return text_of({{"events", experiment_.events()}});
   if (what == "step") return step(request);
   if (what == "tasks") return text_of(task_states(experiment_));
-  if (what == "modules") {
-    const std::size_t robot = request.at("robot");
-    if (robot >= experiment_.robots().size()) throw BadInput("the view", "expected the number of a robot");
-    return text_of(module_states(experiment_, robot));
-  }
+  if (what == "modules") return text_of(module_states(experiment_, robot_in(request)));
   if (what == "events") return events(request);
   if (what == "plot") return plot(request);
   if (what == "stack") return stack(request);
@@ -109,9 +106,16 @@ std::string RunCopy::answer(const Json& request) {
   throw BadInput("the view", "there is no request '" + what + "'");
 }
 
-std::string RunCopy::floor(const Json& more) {
-  FrameReader reader(scenario_, experiment_);  // a new one: the whole floor
-  std::string text = reader.read(now(), {.line = line_});
+std::size_t RunCopy::robot_in(const Json& request) const {
+  const auto last = static_cast<std::int64_t>(experiment_.robots().size()) - 1;
+  return static_cast<std::size_t>(whole_number_in(request, "robot", 0, last));
+}
+
+std::string RunCopy::floor(const Json& request, const Json& more) {
+  FrameOptions options = frame_options(request, experiment_.robots().size());
+  options.line = line_;
+  options.whole = true;
+  const std::string text = frames_.read(now(), options);
   return text + (more.empty() ? "}" : "," + text_of(more).substr(1));
 }
 
@@ -136,34 +140,41 @@ RunEnd RunCopy::go_on(Time time, const std::function<bool(const kernel::EventRec
   return end;
 }
 
+// An event that is looked for may never come: a run may have no end.
+bool RunCopy::may_search(Time until) const {
+  constexpr Duration ahead = std::chrono::minutes(1);
+  return !is_over_ && reached_ < until + ahead && channel_->is_wanted();
+}
+
 std::string RunCopy::step(const Json& request) {
-  const std::uint64_t count = request.value("count", std::uint64_t{1});
-  const Json& of = request.contains("task") ? request.at("task") : Json();
-  const std::optional<std::uint32_t> task = of.is_number() ? std::optional(of.get<std::uint32_t>()) : std::nullopt;
+  const auto count = static_cast<std::uint64_t>(whole_number_in(request, "count", 0, INT64_MAX, 1));
+  const std::int64_t task = whole_number_in(request, "task", 0, UINT32_MAX, -1);
+  const Time until = std::max(time_in(request, "until"), reached_);
   std::uint64_t seen = 0, all = experiment_.events();
   Json event = nullptr;
   const auto enough = [&](const kernel::EventRecord& record) {
     ++all;
-    if (task && record.task->number != *task) return false;
+    if (task >= 0 && record.task->number != task) return false;
     if (++seen < count) return false;
     event = {{"number", all}, {"time", record.time.ns()}, {"task", record.task->number}, {"text", event_text(record)}};
     return true;
   };
-  while (event.is_null() && !is_over_ && channel_->is_wanted()) go_on(reached_ + window, enough);
-  return floor({{"event", event}});
+  while (event.is_null() && may_search(until)) go_on(reached_ + window, enough);
+  return floor(request, {{"event", event}});
 }
 
-std::string RunCopy::to_event(std::uint64_t event) {
+std::string RunCopy::to_event(const Json& request) {
+  const std::uint64_t event = request.at("event");
   std::uint64_t seen = experiment_.events();
   while (seen < event && !is_over_ && channel_->is_wanted())
     go_on(reached_ + window, [&](const kernel::EventRecord&) { return ++seen == event; });
-  return floor();
+  return floor(request);
 }
 
 // 0: there is none.
 std::string RunCopy::event_before(const Json& request) {
   const std::uint64_t last = request.at("event"), count = request.at("count");
-  const std::uint32_t task = request.at("task");
+  const std::int64_t task = whole_number_in(request, "task", 0, UINT32_MAX);
   std::uint64_t seen = experiment_.events();
   std::deque<std::uint64_t> numbers;
   while (seen < last && !is_over_ && channel_->is_wanted())
@@ -178,7 +189,7 @@ std::string RunCopy::event_before(const Json& request) {
 
 std::string RunCopy::events(const Json& request) {
   const Time from = time_in(request, "from"), to = time_in(request, "to");
-  const std::size_t most = std::min(request.value("most", events_max), events_max);
+  const auto most = static_cast<std::size_t>(whole_number_in(request, "most", 0, events_max, events_max));
   go_to(from);
   const EventTrace trace(experiment_.simulation().scheduler(), most);
   constexpr std::int64_t parts = 256;
@@ -191,14 +202,13 @@ std::string RunCopy::events(const Json& request) {
 }
 
 std::string RunCopy::plot(const Json& request) {
-  const std::size_t robot = request.at("robot");
-  if (robot >= experiment_.robots().size()) throw BadInput("the view", "expected the number of a robot");
+  const std::size_t robot = robot_in(request);
   const std::string name = request.at("poster"), field = request.at("field");
   const genom::PosterBase* const poster = experiment_.robots()[robot]->names().find_poster(name);
   if (poster == nullptr || !poster->has_number(field))
     throw BadInput("the view", "there is no number '" + field + "' of a poster '" + name + "'");
   const Time from = time_in(request, "from"), to = time_in(request, "to");
-  const auto points = static_cast<std::int64_t>(std::clamp<std::size_t>(request.value("points", 1000), 1, points_max));
+  const std::int64_t points = whole_number_in(request, "points", 1, points_max, points_usual);
   const Duration step = std::max(Duration::from_ns(1), (to - from) / points);
   std::string times, values;
   for (Time at = from; at <= to; at = at + step) {
@@ -216,7 +226,8 @@ std::string RunCopy::plot(const Json& request) {
 }
 
 std::string RunCopy::stack(const Json& request) {
-  const std::uint64_t last = request.at("event");
+  const auto last = static_cast<std::uint64_t>(whole_number_in(request, "event", 1, INT64_MAX));
+  const Time until = time_in(request, "until");
   std::uint64_t seen = experiment_.events();
   if (last <= seen) throw BadInput("the view", "expected an event after this instant");
   sync::ReturnAddresses addresses(frames_of_stack);
@@ -227,15 +238,15 @@ std::string RunCopy::stack(const Json& request) {
     addresses.resize(kernel::capture_call_stack(addresses.data(), addresses.size()));
     return true;
   };
-  while (task.empty() && !is_over_ && channel_->is_wanted()) go_on(reached_ + window, enough);
-  if (task.empty()) throw BadInput("the view", "the run ends before this event");
+  while (task.empty() && may_search(until)) go_on(reached_ + window, enough);
+  if (task.empty()) throw BadInput("the view", "the run has not come to this event");
   const sync::ReturnAddresses stacks[] = {addresses};
   Json frames = Json::array();
   const std::vector<std::vector<std::string>> lines = sync::user_source_lines(stacks, frames_of_stack);
   // The innermost frames are of the observer that stopped the run.
   const auto is_observer = [](const std::string& line) {
     return line.find("view/history/run_copy.cpp") != std::string::npos ||
-           line.find("modules/run/experiment.cpp") != std::string::npos;
+           line.find("PauseWatch::") != std::string::npos;
   };
   bool is_inside = true;
   for (const std::string& line : lines.front())
@@ -246,7 +257,7 @@ std::string RunCopy::stack(const Json& request) {
 std::string RunCopy::digests(const Json& request) {
   Json list = Json::array();
   for (const Json& time : request.at("times")) {
-    go_to(Time::from_ns(time.get<std::int64_t>()));
+    go_to(time_of(time, "times"));
     list.push_back(to_string(experiment_.simulation().digest()));
   }
   return text_of({{"digests", list}});
@@ -255,14 +266,19 @@ std::string RunCopy::digests(const Json& request) {
 std::string RunCopy::intervene(const Json& request) {
   const run::Intervention intervention =
       run::parse_intervention(request.at("text").get<std::string>(), {"the view", 0});
-  const Time date = experiment_.intervene(intervention);
-  journal_ += run::to_text(date, intervention);
+  const Time date = experiment_.intervene(
+      intervention, request.contains("date") ? std::optional(time_in(request, "date")) : std::nullopt);
+  interventions_.push_back({date, run::to_text(date, intervention)});
   return text_of({{"date", date.ns()}});
 }
 
+// Those of a line of time that this copy has not come to are not part of it.
 std::string RunCopy::journal() const {
   const run::JournalEnd here{now(), experiment_.events(), to_string(experiment_.simulation().digest())};
-  return text_of({{"text", journal_ + run::to_text(here)}});
+  std::string text = journal_;
+  for (const auto& [date, line] : interventions_)
+    if (date <= now() + experiment_.world().description().step) text += line;
+  return text_of({{"text", text + run::to_text(here)}});
 }
 
 }  // namespace waitpoint::tools::view

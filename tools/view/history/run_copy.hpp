@@ -3,7 +3,9 @@
 // is closed. Threads of the run are fibers, so that a fork copies all of them: what the copy does from here on is what
 // the run does, or would do after an intervention, and the run itself is not touched.
 //
-// Requests are JSON: {"do": ..., "line": its line of time, ...}; each has one reply, with "error" if it is refused:
+// Requests are JSON: {"do": ..., "line": its line of time, ...}; each has one reply, with "error" if it is refused.
+// Those that show the floor have the members of frame_options(). "until": a search for an event gives up a minute after
+// it.
 //
 //   fork                       a copy of the copy: its channel comes as the reply's descriptor
 //   to {time}                  goes on to that time, everything at it included, and shows the floor
@@ -17,15 +19,18 @@
 //   plot {robot, poster, field, from, to, points}     samples of a poster's number
 //   stack {event}              goes on to the event of this number, and shows the call stack of its task there
 //   digests {times}            goes on to each of the times, and shows the digest there
-//   intervene {text}           modules/run/intervention.hpp, at the next step of the world
+//   intervene {text, date}     modules/run/intervention.hpp, at that step of the world, or the next one
 //   counts                     event_counts.hpp, from the start of the run to here
 //   journal                    what was intervened so far, and where this is
 #pragma once
 
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "modules/run/experiment.hpp"
 #include "tools/view/event_counts.hpp"
+#include "tools/view/frame_reader.hpp"
 #include "tools/view/history/channel.hpp"
 #include "tools/view/view_json.hpp"
 
@@ -35,13 +40,8 @@ class RunCopy {
  public:
   /// The run as it is now, everything before `reached` done and counted; `journal` has its head and the interventions
   /// so far.
-  RunCopy(const scenario::Scenario& scenario, run::Experiment& experiment, std::string journal, Time reached,
-          EventCounts& counts)
-      : scenario_(scenario),
-        experiment_(experiment),
-        counts_(counts),
-        journal_(std::move(journal)),
-        reached_(reached) {}
+  RunCopy(FrameReader& frames, run::Experiment& experiment, std::string journal, Time reached, EventCounts& counts)
+      : frames_(frames), experiment_(experiment), counts_(counts), journal_(std::move(journal)), reached_(reached) {}
 
   /// Forks: returns the channel of the new copy. Between windows of the run. Throws std::system_error.
   Channel fork() const;
@@ -50,11 +50,13 @@ class RunCopy {
   [[noreturn]] void serve(Channel channel);
   void answer_requests();
   std::string answer(const Json& request);
-  std::string floor(const Json& more = Json::object());
+  std::string floor(const Json& request, const Json& more = Json::object());
+  bool may_search(Time until) const;
+  std::size_t robot_in(const Json& request) const;
   void go_to(Time time);
   RunEnd go_on(Time time, const std::function<bool(const kernel::EventRecord&)>& enough = nullptr);
   std::string step(const Json& request);
-  std::string to_event(std::uint64_t event);
+  std::string to_event(const Json& request);
   std::string event_before(const Json& request);
   std::string events(const Json& request);
   std::string plot(const Json& request);
@@ -64,13 +66,14 @@ class RunCopy {
   std::string journal() const;
   Time now() const;
 
-  const scenario::Scenario& scenario_;
+  FrameReader& frames_;
   run::Experiment& experiment_;
   EventCounts& counts_;
   std::string journal_;
-  Channel* channel_ = nullptr;  // in the copy
-  Time reached_;                // everything before it is done
-  int line_ = 0;                // of time, for frames
+  std::vector<std::pair<Time, std::string>> interventions_;  // in copies, with their lines of the journal
+  Channel* channel_ = nullptr;                               // in the copy
+  Time reached_;                                             // everything before it is done
+  int line_ = 0;                                             // of time, for frames
   bool is_over_ = false;
 };
 

@@ -25,7 +25,7 @@ class Clock {
 
   seek(time) {
     this.setLive(false);
-    return this.want({time: Math.max(this.session.lineState.from, Math.min(Math.round(time), this.end))});
+    return this.want({time: Math.max(0, Math.min(Math.round(time), this.end))});
   }
 
   step(count, task = null) {

@@ -10,7 +10,7 @@ class LiveSource {
       () => source.connectionChanged()
     );
     await source.connection.open();
-    source.header = await source.connection.ask("header");
+    source.header = withTypes(await source.connection.ask("header"));
     source.control = source.header.control === true;
     source.known = true;
     return source;
@@ -37,6 +37,7 @@ class LiveSource {
     this.places = new Map(); // by line: places that frames had, for trails
     this.obstacles = new Map();
     this.following = null;
+    this.detail = {};
   }
 
   on(name, listener) {
@@ -70,9 +71,13 @@ class LiveSource {
     this.tell("connection");
   }
 
-  /** Has frames pushed, of what is in view only, or no longer. */
-  follow(on, {view = null, scans = true, rate = 30} = {}) {
-    const wanted = {on, rate, view, scans};
+  /**
+   * Has frames pushed, of what is in view only, or no longer. robot: the only one whose measurements and intentions are
+   * wanted; null: all of them.
+   */
+  follow(on, {view = null, scans = true, robot = null, rate = 30} = {}) {
+    const wanted = {on, rate, view, scans, robot};
+    this.detail = {robot};
     if (JSON.stringify(wanted) === JSON.stringify(this.following)) return;
     this.following = wanted;
     this.connection.ask("follow", wanted).catch(() => {});
@@ -89,6 +94,10 @@ class LiveSource {
           line,
           this.header.robots.map(() => [])
         ));
+    if (frame.whole) {
+      this.obstacles.delete(line);
+      for (const kept of this.kept.get(line)) for (const name of Object.keys(kept)) delete kept[name];
+    }
     if (frame.obstacles) this.obstacles.set(line, frame.obstacles);
     else frame.obstacles = this.obstacles.get(line) ?? this.header.obstacles;
     frame.robots.forEach((robot, index) => {
@@ -110,11 +119,11 @@ class LiveSource {
   }
 
   async frame(line, time) {
-    return this.completed(await this.connection.ask("seek", {line, time}));
+    return this.completed(await this.connection.ask("seek", {line, time, ...this.detail}));
   }
 
   async step(line, count, task) {
-    const frame = this.completed(await this.connection.ask("step", {line, count, task}));
+    const frame = this.completed(await this.connection.ask("step", {line, count, task, ...this.detail}));
     return {...frame, event: frame.event ?? null};
   }
 

@@ -34,17 +34,22 @@ function connectSource(session, clock, parts) {
     session.changed("source");
     if (source.connection.state !== "open") return;
     timeline.data.need();
-    if (!clock.live) clock.seek(session.time);
+    if (!clock.live && !clock.busy) clock.seek(session.time);
   });
+  const few = session.header.robots.length <= FEW_ROBOTS;
   const follow = () =>
     source.follow(clock.live, {
       view: session.header.robots.length > 50 && !session.following ? widened(camera.bounds()) : null,
-      scans: session.header.robots.length <= 12
+      robot: few ? null : session.robot
     });
   const followSoon = seldom(250, follow);
   clock.listeners.push(follow);
   session.on("time follow layers", followSoon);
   session.on("line", () => timeline.data.forget());
+  session.on("robot", () => {
+    follow();
+    if (!few && !clock.live) clock.seek(session.time);
+  });
   follow();
 }
 

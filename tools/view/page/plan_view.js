@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The plan: floor, obstacles and robots at the cursor of a line of time.
 
+const FEW_ROBOTS = 12; // of more, the measurements and intentions of one are shown
+
 class PlanView {
   /**
    * frame_of: the frame to show, which is another line's beside the first one. camera: shared by plans side by side.
@@ -82,7 +84,7 @@ class PlanView {
   /** The robots whose measurements and intentions are drawn: all if they are few, else the one that is selected. */
   detailed(seen) {
     const {robot, header} = this.session;
-    return header.robots.length <= 12 ? seen : seen.filter((index) => index === robot);
+    return header.robots.length <= FEW_ROBOTS ? seen : seen.filter((index) => index === robot);
   }
 
   drawBelow(pen, frame, indices) {

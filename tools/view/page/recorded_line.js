@@ -72,6 +72,12 @@ class RecordedLine {
   }
 }
 
+/** The header with each robot's type in the robot: what robots of a crowd have in common comes once. */
+function withTypes(header) {
+  for (const robot of header.robots) Object.assign(robot, header.types?.[robot.type]);
+  return header;
+}
+
 /** Gives a robot's frame what it leaves out as unchanged. A scan keeps the pose at which it was taken. */
 function carryOver(kept, robot) {
   if (robot.scans) robot.scans.forEach((scan) => (scan.pose ??= robot.truth));

@@ -13,7 +13,7 @@ class RecordedSource {
   constructor(run) {
     this.run = run;
     this.kind = "recorded";
-    this.header = run.header;
+    this.header = withTypes(run.header);
     this.control = false;
     this.finding = run.finding ?? null;
     this.lines = [run, ...(run.others ?? [])].map((one) => new RecordedLine(one, run.header));

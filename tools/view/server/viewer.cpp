@@ -6,8 +6,10 @@
 
 #include "core/error.hpp"
 #include "tools/output/progress.hpp"
+#include "tools/view/frame_reader.hpp"
 #include "tools/view/history/comparison.hpp"
 #include "tools/view/page.hpp"
+#include "tools/view/request.hpp"
 #include "tools/view/server/token.hpp"
 
 namespace waitpoint::tools::view {
@@ -112,13 +114,14 @@ void Viewer::take(Channel::Message& message) {
     return send_frame(message.text);
   }
   if (message.text.starts_with("{\"kind\":\"header\"")) {
+    robots_ = Json::parse(message.text).at("robots").size();
     scene_ = std::move(message.text);
     return;
   }
   Json json = Json::parse(message.text);
   if (json["kind"] == "snapshot") {
     const std::size_t before = history_.snapshots();
-    history_.add_snapshot(Time::from_ns(json["time"].get<std::int64_t>()), json["events"],
+    history_.add_snapshot(Time::from_ns(json["time"].get<std::int64_t>()), json["events"], json["copied"],
                           Channel(std::move(message.descriptor)));
     if (history_.snapshots() < before) run_.queue(R"({"do":"thin"})");
   } else if (json["kind"] == "status") {
@@ -134,28 +137,45 @@ void Viewer::take(Channel::Message& message) {
   }
 }
 
-// One frame at a time is asked for, when a client that follows is ready for it. Of several sections the whole is shown.
+bool Viewer::is_ready(ClientNumber number, const Client& client, double now_s) const {
+  return client.follows && now_s >= client.next_s && server_.queued(number) <= queued_max;
+}
+
+// One frame at a time is asked for, when a client that follows is ready for it. What several want differently is shown
+// in full.
 void Viewer::ask_for_frame() {
   run_.flush();
   if (frame_is_due_ || run_is_over_) return;
   const double now_s = wall_clock_s();
-  bool any = false, scans = false;
-  Json section = nullptr;
+  Json request = nullptr;
+  bool whole = false;
   for (const auto& [number, client] : clients_) {
-    if (!client.follows || now_s < client.next_s || server_.queued(number) > queued_max) continue;
-    section = !any || section == client.section ? client.section : Json(nullptr);
-    any = true;
-    scans = scans || client.scans;
+    if (!is_ready(number, client, now_s)) continue;
+    whole = whole || client.is_behind;
+    if (request.is_null()) {
+      request = client.wants;
+      continue;
+    }
+    request["scans"] = request["scans"] == true || client.wants["scans"] == true;
+    for (const char* key : {"view", "robot"})
+      if (request[key] != client.wants[key]) request[key] = nullptr;
   }
-  if (!any) return;
+  if (request.is_null()) return;
+  request["whole"] = whole;
+  request["do"] = "frame";
   frame_is_due_ = true;
-  run_.queue(text_of(Json{{"do", "frame"}, {"scans", scans}, {"view", section}}));
+  run_.queue(text_of(request));
 }
 
 void Viewer::send_frame(const std::string& text) {
   const double now_s = wall_clock_s();
+  const bool whole = text.find("\"whole\":true") != std::string::npos, news = text.ends_with("\"news\":true}");
   for (auto& [number, client] : clients_) {
-    if (!client.follows || now_s < client.next_s || server_.queued(number) > queued_max) continue;
+    if (!is_ready(number, client, now_s) || (client.is_behind && !whole)) {
+      client.is_behind = client.is_behind || news;
+      continue;
+    }
+    client.is_behind = false;
     client.next_s = now_s + client.frame_s;
     server_.send(number, text);
   }
@@ -178,8 +198,7 @@ void Viewer::send_to_all(const std::string& text) {
 void Viewer::received(ClientNumber client, const std::string& text) {
   Json id = nullptr;
   try {
-    const Json request = Json::parse(text);
-    if (!request.is_object() || !request.contains("ask")) throw BadInput("the view", "expected {\"id\", \"ask\", ...}");
+    const Json request = read_request(text);
     id = request.value("id", Json(nullptr));
     answer(client, request, [this, client, id](const std::string& reply) { server_.send(client, with_id(id, reply)); });
   } catch (const std::exception& refusal) {
@@ -212,7 +231,7 @@ void Viewer::answer(ClientNumber client, const Json& request, const History::Rep
 }
 
 void Viewer::compare(ClientNumber client, const Json& request, const History::Reply& reply) {
-  const std::size_t line = request.at("line"), other = request.at("with");
+  const std::size_t line = history_.line_in(request, "line"), other = history_.line_in(request, "with");
   std::make_shared<Comparison>(history_, client, line, other)->begin(reply);
 }
 
@@ -226,10 +245,14 @@ void Viewer::answer_journal(ClientNumber client, const Json& request, const Hist
 }
 
 void Viewer::follow(Client& client, const Json& request) {
-  client.follows = request.value("on", true);
-  client.scans = request.value("scans", true);
-  client.section = request.value("view", Json(nullptr));
-  client.frame_s = 1 / std::clamp(request.value("rate", 30.0), 0.1, frames_s_max);
+  (void)frame_options(request, robots_);
+  const Json rate = request.value("rate", Json(30.0));
+  if (!rate.is_number()) throw BadInput("the view", "'rate': expected a number of frames a second");
+  client.follows = flag_in(request, "on", true);
+  client.is_behind = true;
+  for (const char* key : {"view", "robot"}) client.wants[key] = request.value(key, Json(nullptr));
+  client.wants["scans"] = flag_in(request, "scans", true);
+  client.frame_s = 1 / std::clamp(rate.get<double>(), 0.1, frames_s_max);
 }
 
 void Viewer::control(const Json& request, const History::Reply& reply) {
@@ -237,10 +260,11 @@ void Viewer::control(const Json& request, const History::Reply& reply) {
   Json passed = request;
   passed["do"] = request["ask"];
   if (request["ask"] == "speed") {
-    const double speed = request.at("value");
-    if (!(speed >= 0 && speed <= 1e6)) throw BadInput("the view", "expected a speed from 0 to 1000000");
-  } else if (!request.at("on").is_boolean()) {
-    throw BadInput("the view", "expected true or false");
+    const Json speed = request.value("value", Json());
+    if (!speed.is_number() || !(speed >= 0 && speed <= 1e6))
+      throw BadInput("the view", "expected a speed from 0 to 1000000");
+  } else {
+    (void)flag_in(request, "on");
   }
   run_.queue(text_of(passed));
   reply("{}");

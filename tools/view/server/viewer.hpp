@@ -39,10 +39,11 @@ class Viewer {
 
  private:
   struct Client {
-    bool follows = false, scans = true;
-    Json section = nullptr;
-    double frame_s = 0;  // least time between frames
-    double next_s = 0;   // when it may get the next one
+    bool follows = false;
+    bool is_behind = false;       // it has not got all that further frames leave out
+    Json wants = Json::object();  // members of frame_options()
+    double frame_s = 0;           // least time between frames
+    double next_s = 0;            // when it may get the next one
   };
 
   static constexpr const char* foxglove_path = "/foxglove";
@@ -52,6 +53,7 @@ class Viewer {
   void tell_of_stranger(const std::string& origin);
   void take_from_run();
   void take(Channel::Message& message);
+  bool is_ready(ClientNumber number, const Client& client, double now_s) const;
   void ask_for_frame();
   void received(ClientNumber client, const std::string& text);
   void answer(ClientNumber client, const Json& request, const History::Reply& reply);
@@ -71,6 +73,7 @@ class Viewer {
   std::set<std::string> strangers_;  // origins that were refused
   std::map<ClientNumber, Client> clients_;
   std::string scene_, log_;  // as the run sent them
+  std::size_t robots_ = 0;
   Json status_ = Json::object();
   std::string told_;  // the last status that clients got
   bool frame_is_due_ = false, run_is_over_ = false;
