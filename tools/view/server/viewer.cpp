@@ -116,6 +116,8 @@ void Viewer::take(Channel::Message& message) {
   if (message.text.starts_with("{\"kind\":\"header\"")) {
     robots_ = Json::parse(message.text).at("robots").size();
     scene_ = std::move(message.text);
+    for (auto& [number, client] : clients_)
+      if (client.header) send_header(number, std::exchange(client.header, nullptr));
     return;
   }
   Json json = Json::parse(message.text);
@@ -210,11 +212,11 @@ void Viewer::answer(ClientNumber client, const Json& request, const History::Rep
   const std::string what = request.at("ask");
   const auto is_one_of = [&what](auto... names) { return ((what == names) || ...); };
   if (what == "header") {
-    if (scene_.empty()) throw BadInput("the view", "the run has not begun");
-    reply(scene_);
-    server_.send(client, "{\"kind\":\"log\",\"lines\":[" + log_ + "]}");
-    told_.clear();
-    return send_status();
+    if (scene_.empty())
+      clients_[client].header = reply;
+    else
+      send_header(client, reply);
+    return;
   }
   if (what == "follow") {
     follow(clients_[client], request);
@@ -228,6 +230,13 @@ void Viewer::answer(ClientNumber client, const Json& request, const History::Rep
   if (!options_.is_controlled) throw BadInput("the view", "expected waitpoint run --serve-control for '" + what + "'");
   if (what == "branch") return history_.branch(request, reply);
   control(request, reply);
+}
+
+void Viewer::send_header(ClientNumber client, const History::Reply& reply) {
+  reply(scene_);
+  server_.send(client, "{\"kind\":\"log\",\"lines\":[" + log_ + "]}");
+  told_.clear();
+  send_status();
 }
 
 void Viewer::compare(ClientNumber client, const Json& request, const History::Reply& reply) {

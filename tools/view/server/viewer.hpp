@@ -44,6 +44,7 @@ class Viewer {
     Json wants = Json::object();  // members of frame_options()
     double frame_s = 0;           // least time between frames
     double next_s = 0;            // when it may get the next one
+    History::Reply header;        // that it waits for, before the run has begun
   };
 
   static constexpr const char* foxglove_path = "/foxglove";
@@ -58,6 +59,7 @@ class Viewer {
   void received(ClientNumber client, const std::string& text);
   void answer(ClientNumber client, const Json& request, const History::Reply& reply);
   void answer_journal(ClientNumber client, const Json& request, const History::Reply& reply);
+  void send_header(ClientNumber client, const History::Reply& reply);
   void compare(ClientNumber client, const Json& request, const History::Reply& reply);
   void follow(Client& client, const Json& request);
   void control(const Json& request, const History::Reply& reply);
