@@ -89,12 +89,15 @@ class RobotTypes {
     Json devices = {{"lasers", lasers(robot)}, {"sonars", sonars(robot)}};
     std::string key = text_of(devices);
     for (const auto& [name, of_robot] : software.names().modules()) {
-      key += name + ' ' + typeid(*of_robot).name();
-      for (const genom::RequestType& request : of_robot->requests()) key += ' ' + request.name;
+      const genom::Module& module = *of_robot;
+      key += name + ' ' + typeid(module).name();
+      for (const genom::RequestType& request : module.requests()) key += ' ' + request.name;
       key += '\n';
     }
-    for (const auto& [name, poster] : software.names().posters())
-      key += name + ' ' + poster->writer() + ' ' + typeid(*poster).name() + '\n';
+    for (const auto& [name, written] : software.names().posters()) {
+      const genom::PosterBase& poster = *written;
+      key += name + ' ' + poster.writer() + ' ' + typeid(poster).name() + '\n';
+    }
     const auto [found, is_new] = numbers_.try_emplace(std::move(key), types_.size());
     if (is_new) types_.push_back(described(std::move(devices), software));
     return found->second;

@@ -16,8 +16,8 @@ namespace {
 
 // Processor time between snapshots at first, which bounds the time that a look at the past takes.
 constexpr double snapshot_period_s = 0.1;
-// Of a crowd, much is written between two snapshots, and each page of it copied: that may take this share of the run's
-// time. The first guess is of a copy of everything.
+// Of a crowd, much is written between two snapshots, and each page of it copied, in some two microseconds: that may
+// take this share of the run's time. The first guess is of a copy of everything.
 constexpr double copying_share = 0.1, copying_s_per_byte = 5e-10;
 constexpr double status_period_s = 0.1;
 constexpr int pause_ms = 50;
@@ -42,20 +42,22 @@ LiveRun::LiveRun(Channel& viewer, const scenario::Scenario& scenario, run::Exper
 
 void LiveRun::make_snapshot() {
   const MemoryUse use = memory_use();
-  const double wanted_s = (use.system_s - at_snapshot_.system_s) / copying_share;
+  const auto period_for = [](std::uint64_t bytes) {
+    return copying_s_per_byte / copying_share * static_cast<double>(bytes);
+  };
+  const std::uint64_t copied = use.copied_bytes - at_snapshot_.copied_bytes;
   if (copying_period_s_ == 0)
-    copying_period_s_ = copying_s_per_byte / copying_share * static_cast<double>(use.bytes);
-  else if (wanted_s > copying_period_s_)
+    copying_period_s_ = period_for(use.bytes);
+  else if (period_for(copied) > copying_period_s_)
     copying_period_s_ *= 2;
-  else if (wanted_s < copying_period_s_ / 2)
+  else if (period_for(copied) < copying_period_s_ / 2)
     copying_period_s_ /= 2;
   const RunCopy here(frames_, experiment_, journal_, reached_, counts_);
   const Channel copy = here.fork();
-  viewer_.send(text_of(Json{{"kind", "snapshot"},
-                            {"time", reached_.ns()},
-                            {"events", experiment_.events()},
-                            {"copied", use.copied_bytes - at_snapshot_.copied_bytes}}),
-               copy.number());
+  viewer_.send(
+      text_of(
+          Json{{"kind", "snapshot"}, {"time", reached_.ns()}, {"events", experiment_.events()}, {"copied", copied}}),
+      copy.number());
   at_snapshot_ = use;
   next_snapshot_s_ = run::processor_s() + std::max(snapshot_period_s_, copying_period_s_);
 }

@@ -12,7 +12,6 @@ namespace waitpoint::tools::view {
 struct MemoryUse {
   std::uint64_t bytes = 0;         ///< present
   std::uint64_t copied_bytes = 0;  ///< so far, of pages that were copied, or taken for the first time
-  double system_s = 0;             ///< the system's processor time so far: that for copies, above all
 };
 
 inline MemoryUse memory_use() {
@@ -21,8 +20,7 @@ inline MemoryUse memory_use() {
   getrusage(RUSAGE_SELF, &usage);
   std::uint64_t mapped = 0, resident = 0;
   std::ifstream("/proc/self/statm") >> mapped >> resident;
-  return {resident * page_bytes, static_cast<std::uint64_t>(usage.ru_minflt) * page_bytes,
-          static_cast<double>(usage.ru_stime.tv_sec) + 1e-6 * static_cast<double>(usage.ru_stime.tv_usec)};
+  return {resident * page_bytes, static_cast<std::uint64_t>(usage.ru_minflt) * page_bytes};
 }
 
 }  // namespace waitpoint::tools::view
