@@ -16,11 +16,13 @@ constexpr std::size_t queued_max = 1 << 20;
 
 PageServer::PageServer(const ServeAddress& at, std::string page)
     : page_(std::move(page)), server_({at.address, at.port, view::make_token(), page_}, "--serve") {
-  server_.opened = [this](view::ClientNumber client) {
+  view::SocketService pages{.path = "/live"};
+  pages.opened = [this](view::ClientNumber client) {
     clients_.insert(client);
     if (!news_.empty()) server_.send(client, news_);
   };
-  server_.closed = [this](view::ClientNumber client) { clients_.erase(client); };
+  pages.closed = [this](view::ClientNumber client) { clients_.erase(client); };
+  server_.offer(std::move(pages));
 }
 
 void PageServer::replace(std::string page) {
