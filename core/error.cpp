@@ -16,6 +16,11 @@ BadInput::BadInput(const std::string& file, int line, const std::string& message
 
 BadInput::BadInput(const std::string& where, const std::string& message) : BadInput(where, 0, message) {}
 
+BadInput::BadInput(const BadInput& other, const std::string& note)
+    : std::runtime_error(other.what() + printable_line(note)), file_(other.file_), line_(other.line_) {}
+
+BadInput BadInput::with_note(const std::string& note) const { return {*this, note}; }
+
 void bug(const char* file, int line, const char* condition, const char* message) {
   std::fflush(stdout);
   std::fprintf(stderr, "waitpoint: bug: %s (%s) at %s:%d\n", message, condition, file, line);

@@ -23,10 +23,15 @@ class BadInput : public std::runtime_error {
   /// For input without a file: `where` is the option or key at fault.
   BadInput(const std::string& where, const std::string& message);
 
+  /// The same with `note` at the end of its line: " (included at a.launch:3)".
+  BadInput with_note(const std::string& note) const;
+
   const std::string& file() const { return file_; }
   int line() const { return line_; }
 
  private:
+  BadInput(const BadInput& other, const std::string& note);
+
   std::string file_;
   int line_;
 };

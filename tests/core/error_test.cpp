@@ -11,6 +11,13 @@ TEST(BadInput, IsOneLineWhateverStoodInTheFile) {
   EXPECT_STREQ(BadInput("a", 0, "pas trouv\xc3\xa9").what(), "a: pas trouv\xc3\xa9");
 }
 
+TEST(BadInput, CanBeNoted) {
+  const BadInput noted = BadInput("b", 3, "expected 'c'").with_note(" (included at a\n:7)");
+  EXPECT_STREQ(noted.what(), "b:3: expected 'c' (included at a?:7)");
+  EXPECT_EQ(noted.file(), "b");
+  EXPECT_EQ(noted.line(), 3);
+}
+
 TEST(BadInput, IsOneLineWithTheFileAndTheLine) {
   EXPECT_STREQ(BadInput("office.yaml", 12, "step_ms should be positive").what(),
                "office.yaml:12: step_ms should be positive");
