@@ -9,7 +9,7 @@
 
 #include "core/error.hpp"
 
-namespace waitpoint::scenario {
+namespace waitpoint {
 
 /// A file's name, stored once for the million values of a file that are copied with their places.
 class FileName {
@@ -44,4 +44,4 @@ struct Location {
   std::string text() const { return line > 0 ? file.text() + ":" + std::to_string(line) : file.text(); }
 };
 
-}  // namespace waitpoint::scenario
+}  // namespace waitpoint
