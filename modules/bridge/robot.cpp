@@ -53,7 +53,8 @@ Robot::Robot(const scenario::RobotScenario& scenario, std::span<const genom::Mod
     : scenario_(scenario), world_(world), body_(body), bridge_(std::in_place, scenario, world, body, names_) {
   for (const std::string& name : scenario.processors) names_.add_processor(name);
   make_modules(types, network, {known, &known->map()});
-  if (!scenario.goals.empty() || scenario.script) make_executive(std::move(known), seed);
+  if ((!scenario.goals.empty() && !scenario.goals_are_for_nodes()) || scenario.script)
+    make_executive(std::move(known), seed);
   if (scenario.plan != nullptr) make_plan();
   if (scenario.trajectory) make_follower();
   connect();
@@ -298,7 +299,7 @@ RobotResult Robot::result() const {
   result.name = scenario_.name;
   result.shape = scenario_.body.shape;
   if (presence() == Presence::elsewhere) return result;
-  for (std::size_t i = 0; i < scenario_.goals.size(); ++i)
+  for (std::size_t i = 0; executive_ && i < scenario_.goals.size(); ++i)
     result.goals.push_back(goal_result(scenario_.goals[i].position, scenario_.goals[i].name, executive_->goals()[i]));
   if (scenario_.trajectory) {
     const executive::GoalRecord& end = executive_->goals().front();

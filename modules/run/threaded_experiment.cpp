@@ -13,10 +13,13 @@ constexpr Duration look_period = std::chrono::milliseconds(100);  // of polling 
 ThreadedExperiment::ThreadedExperiment(const scenario::Scenario& scenario, std::span<const genom::ModuleType> types,
                                        std::uint64_t seed, const MakeWorld& make)
     : assembly_(scenario, types, nullptr, seed, {}, make), has_steps_of_its_own_(make != nullptr), seed_(seed) {
-  for (const scenario::RobotScenario& robot : scenario.robots)
+  for (const scenario::RobotScenario& robot : scenario.robots) {
     if (!robot.programs.empty())
       throw robot.programs.front().written.bad(
           "expected no programs: they run only in virtual time, by `waitpoint run`");
+    if (robot.nodes)
+      throw robot.nodes->written.bad("expected no nodes of ROS: they run only in virtual time, by `waitpoint run`");
+  }
 }
 
 void ThreadedExperiment::run_for(Duration limit, const std::function<bool()>& interrupted) {

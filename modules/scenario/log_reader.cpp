@@ -80,6 +80,7 @@ RobotScenario read_robot_of_log(const YamlNode& list, const YamlNode* types) {
   RobotScenario robot = read_robot_without_body(node, types);
   // Nothing commands the modules.
   robot.programs.clear();
+  robot.nodes.reset();
   robot.control.reset();
   robot.script.reset();
   return robot;

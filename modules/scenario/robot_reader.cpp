@@ -7,7 +7,9 @@
 #include "core/file_contents.hpp"
 #include "core/nearest_name.hpp"
 #include "modules/scenario/body_reader.hpp"
+#include "modules/scenario/command_reader.hpp"
 #include "modules/scenario/control_reader.hpp"
+#include "modules/scenario/nodes_reader.hpp"
 #include "modules/scenario/shape_reader.hpp"
 #include "modules/scenario/yaml_override.hpp"
 
@@ -100,15 +102,6 @@ std::vector<std::string> read_processors(const YamlNode& node) {
       throw item.written.bad("there are two processors called '" + names.back() + "'");
   }
   return names;
-}
-
-// A program with a '/' in its name is a file, relative to the scenario's.
-std::vector<std::string> read_command(const YamlNode& node) {
-  std::vector<std::string> words;
-  for (const YamlNode& word : read_list(node, "command")) words.push_back(read_lines(word, "a word of a command"));
-  if (words.empty() || words.front().empty()) throw node.written.bad("expected a program in the command, got none");
-  if (words.front().find('/') != std::string::npos) words.front() = node.written.resolve(words.front()).string();
-  return words;
 }
 
 std::vector<StartCondition> read_conditions(const YamlNode& node) {
@@ -219,10 +212,11 @@ std::shared_ptr<const YamlNode> read_plan_document(const YamlNode& node) {
 
 /// An element of `robots`, alone or laid over its type.
 YamlMap map_of_robot(const YamlNode& node) {
-  return YamlMap(node, name_of(node).empty() ? "a robot" : "robot '" + std::string(name_of(node)) + "'",
-                 {"name",    "type",   "start",     "goals",      "shape",          "base",    "lasers",    "sonars",
-                  "modules", "bridge", "executive", "processors", "start_height_m", "bumpers", "infrareds", "urdf",
-                  "imu",     "gps",    "battery",   "programs",   "control",        "plan",    "trajectory"});
+  return YamlMap(
+      node, name_of(node).empty() ? "a robot" : "robot '" + std::string(name_of(node)) + "'",
+      {"name",    "type",      "start",      "goals",          "shape",      "base",      "lasers", "sonars", "modules",
+       "bridge",  "executive", "processors", "start_height_m", "bumpers",    "infrareds", "urdf",   "imu",    "gps",
+       "battery", "programs",  "control",    "plan",           "trajectory", "ros",       "launch", "nodes"});
 }
 
 /// The keys of a robot type: all but name, start and goals.
@@ -245,6 +239,7 @@ RobotScenario read_equipment(const YamlMap& map, const BodyReading* given = null
     if (const YamlNode* script = executive->find("tcl")) robot.script = read_script(*script);
   }
   if (const YamlNode* control = map.find("control")) robot.control = read_control(*control);
+  robot.nodes = take_nodes(map);
   return robot;
 }
 
@@ -312,7 +307,8 @@ RobotScenario read_robot_of_map(const YamlNode& node, const YamlNode* types, con
                      std::string_view("infrareds"), std::string_view("imu"),        std::string_view("gps"),
                      std::string_view("battery"),   std::string_view("modules"),    std::string_view("bridge"),
                      std::string_view("executive"), std::string_view("processors"), std::string_view("programs"),
-                     std::string_view("control")};
+                     std::string_view("control"),   std::string_view("ros"),        std::string_view("launch"),
+                     std::string_view("nodes")};
   const YamlMap own(node, title, keys);
   const YamlNode whole = own.has("type") ? laid_over(type_of(own, types), node) : node;
   RobotScenario robot = read_equipment(YamlMap(whole, title, keys), &given);
@@ -332,10 +328,11 @@ std::string fitting_name(const std::string& name) {
 
 void check_robot_type(const YamlEntry& type, bool for_map) {
   const BodyReading of_map;
-  read_equipment(YamlMap(type.value, "robot type '" + type.key + "'",
-                         {"shape", "urdf", "base", "lasers", "sonars", "bumpers", "infrareds", "imu", "gps", "battery",
-                          "modules", "bridge", "executive", "processors", "programs", "control"}),
-                 for_map ? &of_map : nullptr);
+  read_equipment(
+      YamlMap(type.value, "robot type '" + type.key + "'",
+              {"shape", "urdf", "base", "lasers", "sonars", "bumpers", "infrareds", "imu", "gps", "battery", "modules",
+               "bridge", "executive", "processors", "programs", "control", "ros", "launch", "nodes"}),
+      for_map ? &of_map : nullptr);
 }
 
 }  // namespace waitpoint::scenario

@@ -26,6 +26,10 @@
 #include "world/description.hpp"
 #include "world/formats/world_file.hpp"
 
+namespace waitpoint::ros1 {
+struct Launch;
+}
+
 namespace waitpoint::scenario {
 
 /// Expected results of a run; omitted ones are not checked.
@@ -122,6 +126,24 @@ struct TrajectoryScenario {
   Location written;
 };
 
+/// The nodes of ROS that are a robot's software, and the names of what it publishes to them.
+struct NodesScenario {
+  std::string ns = "/";   ///< global, without a '/' at its end: of the robot's topics and nodes
+  std::string tf_prefix;  ///< in front of the names of its frames, with a '/' between; may be empty
+  std::shared_ptr<const ros1::Launch> launch;  ///< modules/ros1/launch.hpp: of the launch file, then of `nodes`
+  std::shared_ptr<const YamlNode> document;    ///< the keys, as written
+  Location written;
+};
+
+/// What the nodes of all robots have in common.
+struct RosScenario {
+  enum class Master : unsigned char { inside, outside };
+
+  bool publishes_clock = false;    ///< the topic /clock
+  Master master = Master::inside;  ///< outside: the one of ROS_MASTER_URI
+  Location written;
+};
+
 struct RobotScenario {
   std::string name;
   world::BodyDescription body;           ///< including the robot's name
@@ -137,7 +159,11 @@ struct RobotScenario {
   std::shared_ptr<const YamlNode> plan;  ///< the document of its temporal plan, in the place of goals; null: none
   std::optional<ScriptScenario> script;
   std::optional<TrajectoryScenario> trajectory;
+  std::optional<NodesScenario> nodes;
   Location written, start_written;
+
+  /// True if its goals are not the executive's: with nodes, and no enabled module.
+  bool goals_are_for_nodes() const;
 };
 
 struct Scenario {
@@ -149,7 +175,8 @@ struct Scenario {
   world::Engine engine = world::Engine::fcl;
   Location engine_written;  ///< valid if given
   std::optional<MapFile> map;
-  std::optional<LogFile> log;               ///< then the world is empty, and there is one robot
+  std::optional<LogFile> log;  ///< then the world is empty, and there is one robot
+  RosScenario ros;
   std::optional<io::Medium> medium;         ///< between robots; none: no communication between robots
   std::vector<world::Obstacle> shapes;      ///< without those of the map
   std::vector<Location> shapes_written;     ///< of each shape

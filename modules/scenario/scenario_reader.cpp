@@ -11,6 +11,7 @@
 #include "modules/scenario/log_reader.hpp"
 #include "modules/scenario/map_robots.hpp"
 #include "modules/scenario/medium_reader.hpp"
+#include "modules/scenario/nodes_reader.hpp"
 #include "modules/scenario/robot_reader.hpp"
 #include "modules/scenario/scenario_document.hpp"
 #include "modules/scenario/shape_reader.hpp"
@@ -168,7 +169,7 @@ Scenario read_scenario(const std::filesystem::path& file, const std::vector<std:
   const YamlNode document = scenario_document(file, assignments);
   const YamlMap map(document, "the scenario",
                     {"format", "name", "description", "expect", "until_s", "world", "medium", "robot_types", "robots",
-                     "robots_from_map", "control", "log"});
+                     "robots_from_map", "control", "log", "ros"});
   Scenario scenario;
   scenario.file = file.string();
   scenario.fingerprint = fingerprint(document);
@@ -199,6 +200,8 @@ Scenario read_scenario(const std::filesystem::path& file, const std::vector<std:
     read_robots(map.require("robots"), types, scenario);
   if (from_map != nullptr) read_robots_from_map(*from_map, types, scenario);
   if (const YamlNode* control = map.find("control")) read_common_control(*control, scenario);
+  if (const YamlNode* ros = map.find("ros")) scenario.ros = read_ros(*ros);
+  read_nodes(scenario);
   add_rules_to_fingerprint(scenario);
   for (const RobotScenario& robot : scenario.robots)
     if (robot.plan != nullptr) scenario.fingerprint = scenario.fingerprint * 31 + fingerprint(*robot.plan);
