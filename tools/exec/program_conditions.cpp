@@ -75,6 +75,7 @@ ClockOptions clock_of(const std::string& where, const std::string& text) {
 void ProgramConditions::apply_to(posix::Settings& settings) const {
   settings.has_clock = clock.has_value();
   settings.clock = clock.value_or(kernel::ClockOptions());
+  if (call_cost) settings.call_cost = *call_cost;
   settings.isolate = isolate;
   settings.trap_rdtsc = trap_rdtsc || strict;
   settings.strict = strict;
@@ -95,6 +96,7 @@ void ProgramConditions::check(const std::vector<std::string>& programs) const {
 std::string ProgramConditions::words() const {
   std::string all;
   if (clock) all += " --clock " + clock_text;
+  if (call_cost) all += fmt::format(" --call-cost {}", call_cost->ns());
   if (isolate) all += " --isolate";
   if (trap_rdtsc) all += " --trap-rdtsc";
   if (trap_library) all += " --trap-libc";
@@ -111,6 +113,9 @@ void ConditionArguments::add_to(Command& command) {
                  "seed), counted[:NS] (NS nanoseconds, 1 by default, for each basic block of a program\n"
                  "compiled with -fsanitize-coverage=trace-pc), or measured, hence not repeatable: cpu[:xFACTOR],\n"
                  "proportional[:xFACTOR] (default: no cost)");
+  command.option("--call-cost", call_cost_, "NS",
+                 "virtual time of a use of a primitive and of reading a clock, in nanoseconds (default: 50); more\n"
+                 "lets loops that poll end after fewer rounds");
   command.option("--children", children_, "KIND",
                  "mode of programs that it starts (exec, posix_spawn, system, popen): simulated, in one\n"
                  "schedule with it as its forked children are, or native (default: simulated)");
@@ -136,6 +141,11 @@ ProgramConditions ConditionArguments::conditions(bool is_repeated) const {
   ProgramConditions conditions;
   if (!clock_.empty()) conditions.clock = clock_of("--clock", clock_);
   conditions.clock_text = clock_;
+  if (!call_cost_.empty()) {
+    Duration cost;
+    if (!parse_block_cost(call_cost_, cost)) refuse("--call-cost", "nanoseconds from 1 to 1000000000", call_cost_);
+    conditions.call_cost = cost;
+  }
   conditions.isolate = isolate_;
   conditions.trap_rdtsc = trap_rdtsc_;
   conditions.trap_library = trap_library_;

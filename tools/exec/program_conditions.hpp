@@ -15,6 +15,7 @@ namespace waitpoint::tools {
 struct ProgramConditions {
   std::optional<kernel::ClockOptions> clock;  ///< cost of computing; default: none
   std::string clock_text;                     ///< as given
+  std::optional<Duration> call_cost;          ///< of a use of a primitive and of reading a clock
   bool isolate = false;                       ///< calls that would leave the machine fail
   bool trap_rdtsc = false;                    ///< the time-stamp counter shows virtual time
   bool strict = false;                        ///< what does not repeat ends the run
@@ -40,7 +41,7 @@ class ConditionArguments {
   std::string first_given() const;
 
  private:
-  std::string clock_, idle_limit_, speed_;
+  std::string clock_, call_cost_, idle_limit_, speed_;
   std::string children_ = "simulated";
   bool isolate_ = false, trap_rdtsc_ = false, trap_library_ = false, strict_ = false;
 };

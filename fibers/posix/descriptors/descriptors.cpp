@@ -47,6 +47,7 @@ Waiter* last = nullptr;
 int waiting_outside = 0;
 int waiting_for_no_descriptor = 0;  // these must be polled
 int waiting_for_input = 0;          // for descriptors outside
+int waiting_for_streams = 0;        // of these, for terminals and standard input
 int waiting_for_outsiders = 0;
 
 kernel::Object descriptors_object{"descriptor"};
@@ -85,6 +86,7 @@ void count_outside(const Waiter& waiter, int by) {
   waiting_outside += by;
   if (awaits_outsiders(waiter)) waiting_for_outsiders += by;
   (waiter.count == 0 ? waiting_for_no_descriptor : waiting_for_input) += by;
+  if (waiter.partner == Partner::input) waiting_for_streams += by;
   WAITPOINT_CHECK(waiting_for_no_descriptor >= 0 && waiting_outside >= waiting_for_no_descriptor,
                   "the counts of threads that wait outside disagree");
 }
@@ -228,11 +230,12 @@ bool may_be_served_by_natives() { return first != nullptr && !has_host && family
 }  // namespace
 
 bool anybody_waits_outside() { return waiting_outside > 0 || may_be_served_by_natives(); }
+bool anybody_awaits_stream() { return waiting_for_streams > 0; }
 bool anybody_awaits_outsiders() { return waiting_for_outsiders > 0 || may_be_served_by_natives(); }
 
 void forget_waiters() {
   first = last = nullptr;
-  waiting_outside = waiting_for_no_descriptor = waiting_for_input = waiting_for_outsiders = 0;
+  waiting_outside = waiting_for_no_descriptor = waiting_for_input = waiting_for_streams = waiting_for_outsiders = 0;
 }
 
 const pollfd* awaited_descriptors(const kernel::Task& task, nfds_t& count) {

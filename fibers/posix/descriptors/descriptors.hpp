@@ -22,6 +22,8 @@ namespace waitpoint::posix {
 
 /// True if a thread waits for something outside.
 bool anybody_waits_outside();
+/// True if a thread waits for a terminal or a standard input from outside.
+bool anybody_awaits_stream();
 /// True if the wait of one may be ended by somebody who is not of the family. Waits at sockets whose both ends are of
 /// the family are not, though the system delivers; while schedules are explored, nor are those at sockets that nobody
 /// is connected to, and for signals.

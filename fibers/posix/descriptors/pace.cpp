@@ -110,7 +110,7 @@ void report_if_ahead(const kernel::Scheduler& scheduler) {
   static std::int64_t real_at_ns = 0;
   constexpr double far_s = 10;
   if (is_told || record->settings.asked != nullptr) return;
-  const bool waited = std::exchange(waits, family::own->awaits_input);
+  const bool waited = std::exchange(waits, anybody_awaits_stream());
   if (!waits) return;
   if (!waited) {
     virtual_at = scheduler.global_time();

@@ -28,8 +28,8 @@ Duration left_until(Time time);
 /// that time; if it is not before `next`, returns `next`.
 Time look_at_pace(kernel::Scheduler& scheduler, Time next);
 
-/// Between windows: says so, once, if virtual time is far ahead of real time while a thread waits for input from
-/// outside.
+/// Between windows: says so, once, if virtual time is far ahead of real time while a thread waits for a terminal or a
+/// standard input from outside.
 void report_if_ahead(const kernel::Scheduler& scheduler);
 
 }  // namespace waitpoint::posix

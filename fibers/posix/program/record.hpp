@@ -55,14 +55,15 @@ struct Settings {
   Time until = Time::max();  ///< the run is cut off then
   bool has_clock = false;    ///< threads have a clock; else computing takes no time
   kernel::ClockOptions clock;
-  bool isolate = false;               ///< traffic beyond this machine is rejected
-  bool trap_rdtsc = false;            ///< reading the processor's counter shows virtual time
-  bool traced = false;                ///< all events are recorded
-  bool fast_paths = true;             ///< see SimulationOptions::fast_paths
-  const Asked* asked = nullptr;       ///< the exploration's request, in Order::explored
-  std::uint32_t looks_at_once = 1;    ///< uses of clocks and of sched_yield() that are charged together
-  std::uint32_t batches_at_once = 1;  ///< the same for batches of uses of primitives: see waiting.hpp
-  double speed = 1;                   ///< of virtual time by real time, with partners outside; 0: it does not wait
+  bool isolate = false;                               ///< traffic beyond this machine is rejected
+  bool trap_rdtsc = false;                            ///< reading the processor's counter shows virtual time
+  bool traced = false;                                ///< all events are recorded
+  bool fast_paths = true;                             ///< see SimulationOptions::fast_paths
+  const Asked* asked = nullptr;                       ///< the exploration's request, in Order::explored
+  std::uint32_t looks_at_once = 1;                    ///< uses of clocks and of sched_yield() that are charged together
+  std::uint32_t batches_at_once = 1;                  ///< the same for batches of uses of primitives: see waiting.hpp
+  Duration call_cost = std::chrono::nanoseconds(50);  ///< of a use of a primitive, and of reading a clock
+  double speed = 1;  ///< of virtual time by real time, with partners outside; 0: it does not wait
   Duration idle_limit = std::chrono::hours(1);  ///< 0: none; see exec/idle_watch.hpp
   bool strict = false;                          ///< what does not repeat ends the run
   bool trap_library = false;                    ///< waits within the C library are simulated

@@ -19,8 +19,6 @@ inline constexpr std::uint32_t operations_at_once = 128;
 static_assert(operations_at_once < Thread::in_kernel, "a thread in the kernel never passes at once");
 /// After as many, other tasks due at this instant get a turn.
 inline constexpr std::uint32_t clock_readings_at_most = 100;
-inline constexpr Duration cost_of_operation = Duration(std::chrono::nanoseconds(50));
-inline constexpr Duration cost_of_clock_reading = Duration(std::chrono::nanoseconds(50));
 inline constexpr Duration cost_of_giving_way = Duration(std::chrono::microseconds(1));
 /// Of 100 000 accesses to memory, as long as they take: after as many without a call, instrumented code yields.
 inline constexpr Duration cost_of_accesses = Duration(std::chrono::milliseconds(1));
@@ -55,7 +53,7 @@ inline void spend_for_operations(Thread& thread) {
   WAITPOINT_FAST_CHECK(batches > 0 && thread.batches < batches, "uses of primitives were not charged when due");
   if (++thread.batches < batches) return;
   thread.batches = 0;
-  spend(cost_of_operation * operations_at_once * batches);
+  spend(record->settings.call_cost * operations_at_once * batches);
 }
 
 /// The running thread, whose accesses to memory are seen, has made many of them without a call: it may wait for another

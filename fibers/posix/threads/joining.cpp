@@ -19,7 +19,7 @@ namespace waitpoint::posix {
 bool are_equal(pthread_t one, pthread_t other) {
   if (is_simulated() && ++this_thread().comparisons >= operations_at_once) {
     this_thread().comparisons = 0;
-    spend(cost_of_operation * operations_at_once);
+    spend(record->settings.call_cost * operations_at_once);
     pass(kernel::Operation::poll, nullptr);
   }
   return one == other;

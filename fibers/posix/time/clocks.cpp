@@ -107,7 +107,7 @@ int read_clock(clockid_t clock, timespec& time) {
 }
 
 Time read_clock() {
-  spend_for_look(cost_of_clock_reading);
+  spend_for_look(record->settings.call_cost);
   Thread& thread = this_thread();
   if (++thread.clock_readings >= clock_readings_at_most || (thread.task->attention & kernel::attention::signal) != 0) {
     thread.clock_readings = 0;

@@ -47,7 +47,7 @@ bool emulate_processor_counter(void* context) {
   if (length == 0) return false;
   Time now;
   if (is_simulated()) {
-    spend(cost_of_clock_reading);
+    spend(record->settings.call_cost);
     now = kernel::local_time(*kernel::running);
   }
   const auto count = static_cast<std::uint64_t>(reading_ns(CLOCK_MONOTONIC, now));

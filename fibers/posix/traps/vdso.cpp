@@ -31,7 +31,7 @@ Time now_for(const void* caller) {
   if (kernel::running == nullptr || !is_thread(*kernel::running)) return Time();
   if (!is_simulated()) return kernel::local_time(*kernel::running);
   if (!code_of_c_library.contains(reinterpret_cast<std::uintptr_t>(caller))) return read_clock();
-  spend(cost_of_clock_reading);
+  spend(record->settings.call_cost);
   return kernel::local_time(*kernel::running);
 }
 
