@@ -14,6 +14,7 @@ ServeAddress serve_address(const std::string& text) {
   if (!parse_number(port, found.port))
     refuse("--serve", "an address and a port from 0 to 65535, as 127.0.0.1:8080", text);
   if (colon != std::string::npos && colon > 0) found.address = text.substr(0, colon);
+  if (found.address == "localhost") found.address = "127.0.0.1";
   if (found.address.front() == '[' && found.address.back() == ']')
     found.address = found.address.substr(1, found.address.size() - 2);
   return found;

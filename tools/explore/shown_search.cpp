@@ -77,6 +77,7 @@ int show_search(const ExploreOptions& options, const std::function<int(view::Cha
   const pid_t process = fork();
   if (process < 0) throw std::system_error(errno, std::generic_category(), "a process for the search");
   if (process == 0) {
+    ShownProcess::end_with_parent();
     here = view::Channel(view::Descriptor());
     if (!there.receive()) _exit(0);  // the server cannot listen, and says so
     return search(there);
@@ -94,6 +95,7 @@ int show_search(const ExploreOptions& options, const std::function<int(view::Cha
   server.serve([&] {
     return of_search.is_done(url) || (of_search.has_ended() && of_search.status() == refused && !sent.any());
   });
+  ShownProcess::end_others();
   return of_search.status();
 }
 

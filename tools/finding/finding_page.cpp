@@ -29,15 +29,20 @@ bool is_schedule(const Json& schedule) {
 std::string read_finding(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
   std::ostringstream text;
-  if (!in || !(text << in.rdbuf()))
-    throw BadInput(file.string(), std::string("cannot be read: ") + std::strerror(errno));
   const std::string expected = "expected a finding, as explore --finding writes it";
+  if (!in) throw BadInput(file.string(), std::string("cannot be read: ") + std::strerror(errno));
+  if (!(text << in.rdbuf())) throw BadInput(file.string(), expected + ", found nothing");
   const Json json = Json::parse(text.view(), nullptr, false);
   if (json.is_discarded()) throw BadInput(file.string(), expected + ", found no whole JSON");
   if (!json.is_object() || !json.contains("finding") || !json["finding"].is_object() || !json.contains("header"))
     throw BadInput(file.string(), expected + ", found other JSON");
   if (const Json number = json["finding"].value("format", Json()); number != known_format)
     throw BadInput(file.string(), "expected a finding of format 1, found " + number.dump());
+  const Json robots = json["header"].is_object() ? json["header"].value("robots", Json()) : Json();
+  if (!robots.is_array()) throw BadInput(file.string(), expected + ", found no robots or processes in its header");
+  for (const char* const list : {"marks", "frames"})
+    if (json.contains(list) && !json[list].is_array() && !json[list].is_null())
+      throw BadInput(file.string(), expected + ", found '" + list + "' that is no list");
   const Json others = json.value("others", Json::array());
   if (!is_schedule(json) || !others.is_array() || !std::ranges::all_of(others, is_schedule))
     throw BadInput(file.string(), expected + ", found one without events");

@@ -18,8 +18,8 @@ ViewArguments::ViewArguments(CommandLine& line)
                     "file that `waitpoint explore --finding` has written, or a test with WAITPOINT_FINDING",
                     Command::Presence::required);
   command_.option("--page", page_, "FILE.html", "write a page that opens offline, and end");
-  command_.option("--serve", serve_, "ADDRESS:PORT",
-                  "serve at this address, until Ctrl-C (default: at a free port of the loopback)");
+  command_.option_or_flag("--serve", serve_, "ADDRESS:PORT", "127.0.0.1:0",
+                          "serve at this address, until Ctrl-C (default: at a free port of the loopback)");
 }
 
 ViewOptions ViewArguments::options() const {

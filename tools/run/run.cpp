@@ -256,7 +256,7 @@ int run(const RunOptions& options, std::span<const genom::ModuleType> types) {
     return run_alone(options, scenario, types, nullptr, viewer);
   };
   if (options.serve) check_can_be_viewed(scenario);
-  if (options.serve) return run_viewed(options, [&](view::Channel& viewer) { return run_here(&viewer); });
+  if (options.serve) return run_viewed(options, scenario, [&](view::Channel& viewer) { return run_here(&viewer); });
   if (!options.seeds) return run_here(nullptr);
   const RunWatchdog watchdog(options.watchdog_s);
   return run_seeds(options, scenario, [&](std::uint64_t seed, const std::string& replay) {

@@ -20,6 +20,7 @@ void check_can_be_viewed(const scenario::Scenario& scenario);
 /// Divides this process. The new one calls `run` with its connection to the viewer, and this returns its status there.
 /// The old one, which the terminal knows, is the viewer: it serves the page until Ctrl-C, also when the run is over,
 /// and returns the status of the run. BadInput, before the run begins, if it cannot listen.
-int run_viewed(const RunOptions& options, const std::function<int(view::Channel& viewer)>& run);
+int run_viewed(const RunOptions& options, const scenario::Scenario& scenario,
+               const std::function<int(view::Channel& viewer)>& run);
 
 }  // namespace waitpoint::tools

@@ -11,7 +11,7 @@ namespace waitpoint::tools::view {
 namespace {
 
 // A client with more than the first of these to take gets no further messages until it has less than the second.
-constexpr std::size_t queued_max = 4 << 20, queued_again = 1 << 20;
+constexpr std::size_t foxglove_queued_max = 4 << 20, queued_again = 1 << 20;
 constexpr char message_code = 1, time_code = 2;
 constexpr const char* slow = "slow";  // a status of an id takes the place of the one before
 
@@ -61,7 +61,7 @@ void FoxgloveClients::received(Client client, const std::string& data, bool is_t
     if (!is_text) throw BadInput("the request", "this server takes no binary messages");
     answer(client, Json::parse(data, nullptr, false));
   } catch (const std::exception& refusal) {
-    if (wires_.queued(client) <= queued_max) tell(client, Level::error, refusal.what());
+    if (wires_.queued(client) <= foxglove_queued_max) tell(client, Level::error, refusal.what());
   }
 }
 
@@ -156,7 +156,7 @@ void FoxgloveClients::send_step(Client client, Session& session, const TopicNews
 
 bool FoxgloveClients::has_room(Client client, Session& session) {
   const std::size_t queued = wires_.queued(client);
-  if (queued <= (session.is_slow ? queued_again : queued_max)) {
+  if (queued <= (session.is_slow ? queued_again : foxglove_queued_max)) {
     if (std::exchange(session.is_slow, false))
       tell(client, Level::warning,
            std::to_string(session.left_out) + " messages were left out: this client does not take them fast enough",
@@ -197,7 +197,7 @@ void FoxgloveClients::send_time(Client client, Session& session, Time time) {
 
 void FoxgloveClients::tell_time() {
   for (auto& [client, session] : sessions_)
-    if (!session.is_slow && wires_.queued(client) <= queued_max) send_time(client, session, time_);
+    if (!session.is_slow && wires_.queued(client) <= foxglove_queued_max) send_time(client, session, time_);
 }
 
 void FoxgloveClients::end_run(const std::string& outcome, Level level) {

@@ -23,7 +23,8 @@ class History {
   using Reply = view::Reply;
   using Owner = view::Owner;
 
-  explicit History(Loop loop) : copies_(std::move(loop)) {}
+  /// The run ends at `limit` at the latest.
+  History(Loop loop, Time limit) : copies_(std::move(loop)), lines_(limit) {}
   ~History();
   History(const History&) = delete;
   History& operator=(const History&) = delete;

@@ -42,7 +42,9 @@ Origin Questions::origin_of(const Json& request, std::size_t line) const {
 void Questions::ask_now(const Question& question) {
   const std::size_t line = lines_.number_in(question.request);
   const Origin origin = origin_of(question.request, line);
-  const std::string text = text_for_copy(question.request, question.request.at("ask"), lines_.end(line));
+  Json request = question.request;
+  if (request.at("ask") == "counts" && line > 0) request["time"] = lines_[line].reached.ns();
+  const std::string text = text_for_copy(request, request.at("ask"), lines_.end(line));
   const auto end = [this, reply = question.reply](const std::string& answer) {
     --under_way_;
     reply(answer);

@@ -101,7 +101,10 @@ std::string RunCopy::answer(const Json& request) {
   if (what == "stack") return stack(request);
   if (what == "digests") return digests(request);
   if (what == "intervene") return intervene(request);
-  if (what == "counts") return counts_.text();
+  if (what == "counts") {
+    if (request.contains("time")) go_to(time_in(request, "time") + Duration::from_ns(1));
+    return counts_.text();
+  }
   if (what == "journal") return journal();
   throw BadInput("the view", "there is no request '" + what + "'");
 }

@@ -20,7 +20,7 @@
 //   stack {event}              goes on to the event of this number, and shows the call stack of its task there
 //   digests {times}            goes on to each of the times, and shows the digest there
 //   intervene {text, date}     modules/run/intervention.hpp, at that step of the world, or the next one
-//   counts                     event_counts.hpp, from the start of the run to here
+//   counts {time}              event_counts.hpp, from the start of the run to that time, if given, or to here
 //   journal                    what was intervened so far, and where this is
 #pragma once
 

@@ -76,7 +76,7 @@ TimeLines::Span TimeLines::apart(std::size_t line, std::size_t other) const {
   if (leaves_one != one.end()) from = lines_[*leaves_one].from;
   if (leaves_two != two.end()) from = std::min(from, lines_[*leaves_two].from);
   from = from + Duration::from_ns(1);  // a branch has all events of the instant at which it leaves
-  return {from, std::max(from, std::min(lines_[line].reached, lines_[other].reached))};
+  return {from, std::max(from, std::min(end(line), end(other)))};
 }
 
 Json TimeLines::status() const {
@@ -85,7 +85,7 @@ Json TimeLines::status() const {
     const TimeLine& line = lines_[i];
     list.push_back({{"line", i},
                     {"from", line.from.ns()},
-                    {"to", line.reached.ns()},
+                    {"to", end(i).ns()},
                     {"parent", line.parent >= 0 ? Json(line.parent) : Json(nullptr)},
                     {"name", line.name}});
   }

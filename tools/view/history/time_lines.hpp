@@ -29,7 +29,8 @@ struct TimeLine {
 
 class TimeLines {
  public:
-  TimeLines() { lines_.push_back({.name = "run"}); }
+  /// The run ends at `limit` at the latest; so do branches.
+  explicit TimeLines(Time limit) : limit_(limit) { lines_.push_back({.name = "run"}); }
 
   std::size_t size() const { return lines_.size(); }
   TimeLine& operator[](std::size_t number) { return lines_[number]; }
@@ -40,8 +41,8 @@ class TimeLines {
   std::size_t add(TimeLine line);
   /// BadInput if there are too many lines.
   void check_room() const;
-  /// How far the line can be looked at: a branch goes on when it is asked, at least as far as the run has come.
-  Time end(std::size_t line) const { return std::max(lines_.front().reached, lines_[line].reached); }
+  /// How far the line can be looked at: a branch goes on when it is asked.
+  Time end(std::size_t line) const { return line == 0 ? lines_.front().reached : limit_; }
 
   /// A snapshot of line 0, later than those before, until which the run has written `copied_bytes` of the one before.
   /// `leave` is called with those that are given up for it: see thin_out().
@@ -64,12 +65,13 @@ class TimeLines {
   /// have in common, to where both have come. BadInput for one line twice.
   Span apart(std::size_t line, std::size_t other) const;
 
-  /// For the status: [{"line", "from", "to", "parent", "name"}].
+  /// For the status: [{"line", "from", "to", "parent", "name"}]; "to": its end().
   Json status() const;
 
  private:
   std::vector<std::size_t> way_to(std::size_t line) const;
 
+  Time limit_;
   std::vector<TimeLine> lines_;
   std::uint64_t bytes_max_ = snapshot_bytes_max();
 };

@@ -2,6 +2,7 @@
 #include "tools/view/server/request_rules.hpp"
 
 #include <algorithm>
+#include <boost/asio/ip/address.hpp>
 
 namespace waitpoint::tools::view {
 
@@ -40,6 +41,20 @@ std::string_view RequestRules::path(const Request& request) {
   return target.substr(0, target.find('?'));
 }
 
+// Names other than localhost are refused: a page of another site could give its own name this machine's address.
+bool RequestRules::knows(std::string_view text) const {
+  if (text == host || text == local_host) return true;
+  const std::size_t port = text.rfind(':');
+  if (!is_any_address || port == std::string_view::npos ||
+      text.substr(port) != std::string_view(host).substr(host.rfind(':')))
+    return false;
+  std::string_view address = text.substr(0, port);
+  if (address.starts_with('[') && address.ends_with(']')) address = address.substr(1, address.size() - 2);
+  boost::system::error_code bad;
+  (void)boost::asio::ip::make_address(std::string(address), bad);
+  return !bad;
+}
+
 bool RequestRules::has_token(const Request& request) const {
   const std::string_view target(request.target().data(), request.target().size());
   const std::size_t query = target.find('?');
@@ -68,7 +83,7 @@ Response RequestRules::answer(const Request& request) const {
   response.set("Content-Security-Policy",
                "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data:; "
                "connect-src 'self' ws://" +
-                   host + " ws://" + local_host +
+                   std::string(field(request, http::field::host)) +
                    "; base-uri 'none'; form-action 'none'; "
                    "frame-ancestors 'none'");
   response.body() = page;

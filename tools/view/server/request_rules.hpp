@@ -16,6 +16,7 @@ using Response = boost::beast::http::response<boost::beast::http::string_body>;
 
 struct RequestRules {
   std::string host, local_host;  ///< "127.0.0.1:1234", "localhost:1234"
+  bool is_any_address = false;   ///< it listens at all of the machine's addresses: each may be the host
   std::string token;
   std::string_view page;
 
@@ -32,7 +33,7 @@ struct RequestRules {
   static std::string subprotocol(const Request& request, const SocketService& service);
 
  private:
-  bool knows(std::string_view text) const { return text == host || text == local_host; }
+  bool knows(std::string_view text) const;
   bool has_token(const Request& request) const;
   bool is_own(std::string_view origin) const;
 };

@@ -34,7 +34,8 @@ Viewer::Viewer(const ViewerOptions& options, Channel run)
       run_(std::move(run)),
       server_({options.address, options.port, make_token(), page()}, "--serve"),
       history_({[this](int descriptor, std::function<void()> ready) { server_.watch(descriptor, std::move(ready)); },
-                [this](int descriptor) { server_.forget(descriptor); }}),
+                [this](int descriptor) { server_.forget(descriptor); }},
+               options.until),
       foxglove_(options.replay_command, make_token(),
                 {[this](ClientNumber client, std::string data, bool is_text) {
                    server_.send(client, std::move(data), is_text);

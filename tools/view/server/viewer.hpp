@@ -19,6 +19,7 @@ namespace waitpoint::tools::view {
 struct ViewerOptions {
   std::string address = "127.0.0.1";
   std::uint16_t port = 0;
+  Time until;                          ///< the end of the run at the latest
   bool is_controlled = false;          ///< clients may pause and pace the run, and make branches
   std::string replay_command;          ///< of a journal, which the page shows: "waitpoint run S.yaml --seed 1"
   std::vector<std::string> origins{};  ///< of pages from elsewhere with Foxglove in them

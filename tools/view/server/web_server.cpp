@@ -133,7 +133,7 @@ WebServer::WebServer(const WebServerOptions& options, const std::string& option)
   const std::string port = std::to_string(all_->acceptor.local_endpoint().port());
   const bool is_v6 = all_->acceptor.local_endpoint().address().is_v6();
   all_->rules = {(is_v6 ? "[" + options.address + "]" : options.address) + ":" + port, "localhost:" + port,
-                 options.token, options.page};
+                 all_->acceptor.local_endpoint().address().is_unspecified(), options.token, options.page};
   all_->accept();
 }
 
