@@ -10,6 +10,7 @@
 #include "modules/control/controller.hpp"
 #include "modules/control/parser.hpp"
 #include "modules/executive/executive.hpp"
+#include "modules/executive/goals_for_others.hpp"
 #include "modules/executive/known_space.hpp"
 #include "modules/executive/trajectory_follower.hpp"
 #include "modules/genom/module.hpp"
@@ -53,7 +54,9 @@ Robot::Robot(const scenario::RobotScenario& scenario, std::span<const genom::Mod
     : scenario_(scenario), world_(world), body_(body), bridge_(std::in_place, scenario, world, body, names_) {
   for (const std::string& name : scenario.processors) names_.add_processor(name);
   make_modules(types, network, {known, &known->map()});
-  if ((!scenario.goals.empty() && !scenario.goals_are_for_nodes()) || scenario.script)
+  if (scenario.goals_are_for_nodes() && !scenario.goals.empty())
+    make_goals_for_nodes();
+  else if (!scenario.goals.empty() || scenario.script)
     make_executive(std::move(known), seed);
   if (scenario.plan != nullptr) make_plan();
   if (scenario.trajectory) make_follower();
@@ -132,6 +135,16 @@ void Robot::make_follower() {
   start.pose = scenario_.body.start;
   at(scenario_.start_written,
      [&] { executive_ = std::make_unique<executive::TrajectoryFollower>(names_, std::move(trajectory), start); });
+}
+
+void Robot::make_goals_for_nodes() {
+  read_computing();
+  std::vector<Point> goals;
+  goals.reserve(scenario_.goals.size());
+  for (const scenario::Goal& goal : scenario_.goals) goals.push_back(goal.position);
+  auto executive = std::make_unique<executive::GoalsForOthers>(goals);
+  goals_for_nodes_ = executive.get();
+  executive_ = std::move(executive);
 }
 
 // With a script, the keys of `executive` are the script's.
@@ -281,6 +294,12 @@ std::optional<std::size_t> Robot::current_goal() const {
   return executive_->current_goal();
 }
 
+bool Robot::end_goal(bool is_reached) {
+  if (goals_for_nodes_ == nullptr || !current_goal()) return false;
+  goals_for_nodes_->end_goal(is_reached ? executive::GoalState::reached : executive::GoalState::given_up);
+  return true;
+}
+
 void Robot::set_goals(std::uint64_t goals, std::uint64_t reached) {
   goals_elsewhere_ = goals;
   reached_elsewhere_ = reached;
@@ -309,8 +328,9 @@ RobotResult Robot::result() const {
   const world::BodyState& body = world_.body(body_);
   result.collisions = body.collisions;
   result.distance_m = body.travelled_m;
-  result.present.motion = std::any_of(scenario_.bridge.begin(), scenario_.bridge.end(),
-                                      [](const auto& row) { return row.device.starts_with("base."); });
+  result.present.motion =
+      scenario_.nodes.has_value() || std::any_of(scenario_.bridge.begin(), scenario_.bridge.end(),
+                                                 [](const auto& row) { return row.device.starts_with("base."); });
   if (scenario_.body.battery) {
     const world::BatteryState battery = world_.battery(body_);
     result.battery = {.charge = battery.charge, .volts = battery.volts};

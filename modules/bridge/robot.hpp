@@ -28,6 +28,7 @@ class Controller;
 namespace waitpoint::executive {
 struct Parameters;
 class KnownSpace;
+class GoalsForOthers;
 class RobotExecutive;
 }  // namespace waitpoint::executive
 namespace waitpoint::plan {
@@ -110,6 +111,8 @@ class Robot {
   std::uint64_t goals_reached() const;
   /// Index of the goal that the executive is on its way to; nothing if there is none.
   std::optional<std::size_t> current_goal() const;
+  /// Ends the present goal of a robot whose nodes drive it; false if there is none.
+  bool end_goal(bool is_reached);
   /// Of a robot that is elsewhere.
   void set_goals(std::uint64_t goals, std::uint64_t reached);
   /// Name, clock and processor of the task of run().
@@ -129,6 +132,7 @@ class Robot {
   void make_procedures(const tcl::Library& library);
   void make_plan();
   void make_follower();
+  void make_goals_for_nodes();
   void read_computing();
   void check_calls() const;
   void run_script_below_plan();
@@ -151,6 +155,7 @@ class Robot {
   genom::TaskComputing script_computing_;                 // of a script below a plan
   tcl::Procedures* procedures_ = nullptr;                 // of a script below a plan
   std::unique_ptr<executive::RobotExecutive> executive_;  // null without goals, script and trajectory
+  executive::GoalsForOthers* goals_for_nodes_ = nullptr;  // the executive, if it is that
   std::unique_ptr<control::Controller> controller_;       // null without rules
   std::unique_ptr<plan::Executor> plan_;                  // null without a plan
   Evaluation evaluation_;

@@ -20,6 +20,8 @@ class Host {
   virtual void tell(const std::string& of, const std::string& text) = 0;
   /// Tells it too; ends the run if faults are to.
   virtual void tell_fault(const std::string& of, const std::string& text) = 0;
+  /// The run ends here.
+  virtual void finish() = 0;
 
   /// The virtual time of the world's next step, where interventions act.
   Time next_step() {

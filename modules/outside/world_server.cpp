@@ -9,6 +9,7 @@
 
 #include "core/number_text.hpp"
 #include "core/printable_line.hpp"
+#include "modules/outside/sensor_times.hpp"
 #include "modules/outside/words.hpp"
 #include "modules/run/intervention.hpp"
 #include "modules/scenario/words.hpp"
@@ -17,11 +18,6 @@ namespace waitpoint::outside {
 namespace {
 
 constexpr const char* server = "world";
-
-bool is_due(Duration period, Duration step, std::uint64_t steps) {
-  const Duration now = step * static_cast<std::int64_t>(steps);
-  return steps == 0 || now / period > (now - step) / period;
-}
 
 std::string base(const world::World& world, world::BodyId id) {
   const world::OdometerReading& odometer = world.odometer(id);

@@ -98,8 +98,6 @@ void Experiment::make(const scenario::Scenario& scenario, std::span<const genom:
   if (robots_here >= crowd) grow_heap_on_large_pages(robots_here * robot_bytes);
   make_network(scenario);
   assembly_.emplace(scenario, types, &*network_, options_.seed, placement());
-  for (const scenario::RobotScenario& robot : scenario.robots)
-    if (robot.nodes) throw robot.nodes->written.bad("expected no nodes of ROS: they are read, but not run");
   operator_.emplace(assembly_->world(), *network_, robots(), lanes_);
   simulation_.spawn(
       simulation_.environment(),

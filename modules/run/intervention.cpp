@@ -141,6 +141,15 @@ What parse_command(std::string_view text, const scenario::Location& written) {
   return command;
 }
 
+What parse_goal_end(std::string_view text, const scenario::Location& written) {
+  GoalEnd end{require(text, "a robot", written)};
+  const std::string how = scenario::take_word(text, written);
+  scenario::require_end(text, written);
+  if (how != "reached" && how != "given-up") throw written.bad("expected reached or given-up, found '" + how + "'");
+  end.is_reached = how == "reached";
+  return end;
+}
+
 struct Verb {
   std::string_view name;
   What (*parse)(std::string_view text, const scenario::Location& written);
@@ -156,7 +165,8 @@ constexpr Verb verbs[] = {{"request", parse_request},
                           {"tcl", parse_shell_command},
                           {"external", parse_external},
                           {"report", parse_report_of},
-                          {"command", parse_command}};
+                          {"command", parse_command},
+                          {"goal", parse_goal_end}};
 
 }  // namespace
 
@@ -182,7 +192,7 @@ Intervention parse_intervention(std::string_view text, const scenario::Location&
   throw written.bad("unknown intervention '" + word + "'" +
                     (hint.empty()
                          ? ", expected request, move, obstacle, move-obstacle, remove-obstacle, push, seed, tcl, "
-                           "external, report or command"
+                           "external, report, command or goal"
                          : hint));
 }
 

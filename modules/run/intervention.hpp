@@ -12,6 +12,7 @@
 //   external ROBOT [between=stay] [KEY=VALUE ...]     from now on its body is moved by reports: see external_robot.hpp
 //   report ROBOT date_s=T x_m=X y_m=Y heading_rad=A ...  of an external robot's position: see position_report.hpp
 //   command ROBOT v_m_s=V w_rad_s=W ...               to its base, as by its software
+//   goal ROBOT reached|given-up                       the end of its present goal, of a robot that others drive
 //
 // One line of text each, the same at the prompt, in a journal and in the programming interface; the digest hashes it.
 // Words with spaces are in double quotes. operator.hpp describes when and how interventions are executed.
@@ -89,11 +90,16 @@ struct DriveCommand {
   world::Velocity velocity;
 };
 
+struct GoalEnd {
+  std::string robot;
+  bool is_reached = false;
+};
+
 struct Intervention {
   std::string text;
   scenario::Location written;
   std::variant<ModuleRequest, RobotMove, ObstacleMove, ObstaclePut, ObstacleRemoval, Push, SeedChange, ShellCommand,
-               ExternalDeclaration, ExternalReport, DriveCommand>
+               ExternalDeclaration, ExternalReport, DriveCommand, GoalEnd>
       what;
 };
 

@@ -73,6 +73,8 @@ void Operator::check(const Intervention& intervention) {
   if (const auto* report = std::get_if<ExternalReport>(&intervention.what)) check(*report, intervention.written);
   if (const auto* command = std::get_if<DriveCommand>(&intervention.what))
     (void)bridge::index_of(command->robot, robots_, intervention.written);
+  if (const auto* end = std::get_if<GoalEnd>(&intervention.what))
+    (void)bridge::index_of(end->robot, robots_, intervention.written);
 }
 
 void Operator::check(const ExternalDeclaration& external, const scenario::Location& written) {
@@ -182,6 +184,11 @@ std::string Operator::carry_out(const SeedChange& change, const Intervention&) {
   world_.reseed(change.seed);
   for (const auto& robot : robots_) robot->reseed(change.seed);
   return "done";
+}
+
+std::string Operator::carry_out(const GoalEnd& end, const Intervention& whole) {
+  const bool taken = robots_[bridge::index_of(end.robot, robots_, whole.written)]->end_goal(end.is_reached);
+  return taken ? "done" : "refused, it has no goal that others drive to";
 }
 
 std::optional<bridge::ExternalFigures> Operator::external_figures(std::size_t robot) const {

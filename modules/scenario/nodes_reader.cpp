@@ -145,7 +145,7 @@ void read_namespace(const RobotScenario& robot, bool is_only_one, NodesScenario&
   const YamlNode* const ros = nodes.document->find("ros");
   const bool has_namespace = ros != nullptr && ros->find("namespace") != nullptr;
   if (ros != nullptr) {
-    const YamlMap map(*ros, "ros", {"namespace", "tf_prefix"});
+    const YamlMap map(*ros, "ros", {"namespace", "tf_prefix", "map_to_odom"});
     // Both may be empty.
     const auto text_of = [&map](std::string_view key, const std::string& otherwise) {
       const YamlNode* const value = map.find(key);
@@ -155,6 +155,7 @@ void read_namespace(const RobotScenario& robot, bool is_only_one, NodesScenario&
     };
     nodes.ns = ros1::resolved(text_of("namespace", nodes.ns), "/");
     nodes.tf_prefix = text_of("tf_prefix", nodes.tf_prefix);
+    nodes.gives_map_to_odom = map.one_of("map_to_odom", {"truth", "nodes"}, 0) == 0;
   }
   if (!has_namespace && !ros1::is_graph_name(nodes.ns))
     throw robot.written.bad("expected a namespace in the key ros of robot '" + robot.name +
@@ -192,6 +193,10 @@ void check_names_of_robots(const Scenario& scenario) {
 
 bool RobotScenario::goals_are_for_nodes() const {
   return nodes && std::none_of(modules.begin(), modules.end(), [](const auto& module) { return module.enabled; });
+}
+
+bool Scenario::has_nodes() const {
+  return std::any_of(robots.begin(), robots.end(), [](const RobotScenario& robot) { return robot.nodes.has_value(); });
 }
 
 RosScenario read_ros(const YamlNode& node) {

@@ -128,8 +128,9 @@ struct TrajectoryScenario {
 
 /// The nodes of ROS that are a robot's software, and the names of what it publishes to them.
 struct NodesScenario {
-  std::string ns = "/";   ///< global, without a '/' at its end: of the robot's topics and nodes
-  std::string tf_prefix;  ///< in front of the names of its frames, with a '/' between; may be empty
+  std::string ns = "/";           ///< global, without a '/' at its end: of the robot's topics and nodes
+  bool gives_map_to_odom = true;  ///< the true one is published; false: a node estimates it
+  std::string tf_prefix;          ///< in front of the names of its frames, with a '/' between; may be empty
   std::shared_ptr<const ros1::Launch> launch;  ///< modules/ros1/launch.hpp: of the launch file, then of `nodes`
   std::shared_ptr<const YamlNode> document;    ///< the keys, as written
   Location written;
@@ -185,6 +186,8 @@ struct Scenario {
   std::vector<RobotScenario> robots;  ///< in the order of the file, then those of the map; unique names
   std::vector<std::string> warnings;  ///< from the map's robots and the files of shapes
 
+  /// True if some robot has nodes.
+  bool has_nodes() const;
   /// The world without the map's obstacles; bodies in the order of the robots.
   world::WorldDescription world_without_map() const;
 };

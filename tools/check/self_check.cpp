@@ -230,6 +230,7 @@ int checked(const CheckSubject& subject) {
 
 int self_check(const RunOptions& options, std::span<const genom::ModuleType> types) {
   const scenario::Scenario scenario = scenario::read_scenario(options.scenario, options.assignments);
+  if (scenario.has_nodes()) throw BadInput("--check", "cannot be used for a scenario with nodes");
   begin_with_program_layer(scenario);
   heed_signals();
   return checked(subject_of(options, scenario, types));

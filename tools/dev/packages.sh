@@ -9,7 +9,8 @@ declare -A debian=(
          libsensor-msgs-dev libnav-msgs-dev libtf2-msgs-dev libros-rosgraph-msgs-dev libvisualization-msgs-dev'
   [test]='libgtest-dev liboctomap-dev clang gdb libz3-dev python3-rosbag zstd xz-utils pigz pbzip2 perl libtbb-dev
          libuv1-dev cmake libopenmpi-dev openmpi-bin tcl8.6-dev'
-  [ros]='python3-rosmaster libroscpp-dev libstd-msgs-dev'
+  [ros]='python3-rosmaster libroscpp-dev libstd-msgs-dev libnav-msgs-dev libsensor-msgs-dev libtf2-ros-dev
+        libnodeletlib-dev libnodeletlib-tools ros-robot-state-publisher python3-rospy python3-tf2-ros librosbag-dev python3-rosbag'
   [view]="chromium $(command -v node >/dev/null && command -v npm >/dev/null || echo nodejs npm)"
   [builds]='clang libc++-dev libc++abi-dev'
   [wraps]=''
@@ -28,7 +29,7 @@ declare -A upstream=(
          accesses as switch points of explored programs, if wanted, Zydis 4; for ROS bags, if wanted,
          rosbag_storage and its messages'
   [test]='GoogleTest, OctoMap, g++ and clang++, gdb, Z3; if available: zstd, xz, pigz, pbzip2, Perl, TBB, libuv, CMake, Open MPI 4, Tcl 8.6'
-  [ros]='the master of ROS 1, roscpp and std_msgs'
+  [ros]='of ROS 1: roscpp, rospy, tf2_ros, nodelet, rosbag, robot_state_publisher, rosmaster'
   [view]='Chromium, Node.js 18, npm'
   [builds]='clang++ with libc++; Debian'"'"'s source packages'
   [wraps]='Debian'"'"'s source packages'

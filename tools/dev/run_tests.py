@@ -49,6 +49,7 @@ OWN_CASES = {
     "exec, families": [sys.executable, str(ROOT / "tests/exec/families_test.py"), BUILD],
     "exec, libc and children": [sys.executable, str(ROOT / "tests/exec/libc_and_children_test.py"), BUILD],
     "exec, ROS": [sys.executable, str(ROOT / "tests/exec/ros_test.py"), BUILD],
+    "nodes of ROS": [sys.executable, str(ROOT / "tests/programs/nodes_test.py"), BUILD],
     "exec, repeatability": [sys.executable, str(ROOT / "tests/exec/repeatability_test.py"), BUILD],
     "explore --exec": [sys.executable, str(ROOT / "tests/exec/exploring_test.py"), BUILD],
     "explore --exec, findings": [sys.executable, str(ROOT / "tests/exec/finding_test.py"), BUILD],

@@ -187,6 +187,9 @@ int explore(const ExploreOptions& options, std::span<const genom::ModuleType> ty
     });
   }
   const scenario::Scenario scenario = scenario::read_scenario(options.scenario, options.assignments);
+  for (const scenario::RobotScenario& robot : scenario.robots)
+    if (robot.nodes)
+      throw robot.nodes->written.bad("expected no nodes: other orders of them are other seeds of `waitpoint run`");
   begin_with_program_layer(scenario);
   if (!options.replay.empty()) return replay(options, scenario, types);
   return shown([&](view::Channel* viewers) {

@@ -267,8 +267,9 @@ std::string summary_text(const RunResult& result) {
     text += fmt::format("  odometry alone    greatest {:.2f} m, at the end {:.2f} m\n", sum.odometry_error_max_m,
                         sum.odometry_error_end_m);
   text += fmt::format("  events            {}\n", result.events);
-  text +=
-      fmt::format("  speed             {:.1f} times real time ({:.2f} s)\n", result.real_time_factor, result.wall_s);
+  text += result.wall_s > 0 ? fmt::format("  speed             {:.1f} times real time ({:.2f} s)\n",
+                                          result.real_time_factor, result.wall_s)
+                            : "";
   if (!result.ranks.empty()) {
     const auto slowest = std::ranges::max_element(result.ranks, {}, &bridge::RankFigures::computing_s);
     text += fmt::format("  ranks             {}, the slowest computes for {:.2f} s, {:.2f} s of it the world\n",

@@ -17,6 +17,8 @@
 #include "modules/scenario/scenario_reader.hpp"
 #include "tools/command/interruption.hpp"
 #include "tools/command/program_layer.hpp"
+#include "tools/nodes/simulated_nodes.hpp"
+#include "tools/nodes/world_partner.hpp"
 #include "tools/output/summary.hpp"
 #include "tools/ranks/joined_ranks.hpp"
 #include "tools/ranks/launcher.hpp"
@@ -38,13 +40,19 @@ namespace {
 bridge::RunResult result_of(const Session& session, std::uint64_t seed, bool interrupted) {
   bridge::RunResult result = session.result();
   result.seed = seed;
+  if (is_among_nodes()) {  // where the wall clock shows virtual time
+    result.wall_s = result.real_time_factor = 0;
+    result.lag.reset();
+  }
   if (interrupted && !session.over()) result.outcome = bridge::Outcome::interrupted;
   return result;
 }
 
 Session session_of(const RunOptions& options, run::Experiment& experiment, Outputs& outputs, Time until) {
   outputs.watch();
-  return {experiment, until, options.speed, [&](std::int64_t second) { outputs.second(second); }};
+  // Among nodes the wall clock is virtual time, too.
+  return {experiment, until, is_among_nodes() ? 1 : options.speed,
+          [&](std::int64_t second) { outputs.second(second); }};
 }
 
 bridge::RunResult carry_out(const RunOptions& options, const scenario::Scenario& scenario, std::uint64_t seed,
@@ -134,6 +142,7 @@ int run_once(const RunOptions& options, const scenario::Scenario& scenario, run:
       lines += to_text(experiment.intervene(intervention, date), intervention);
   }
   outside::Partners partners = make_partners(options.partners, scenario);
+  if (is_among_nodes() && !journal) partners.add(make_world_partner(scenario));
   sync::tell_threads_outside();
   outputs.emplace(options, scenario, experiment);
   if (outputs->journal() != nullptr) outputs->journal()->write(lines);
@@ -162,6 +171,22 @@ scenario::Scenario scenario_of(const RunOptions& options) {
   if (is_rank()) run::check_dividable(scenario);
   begin_with_program_layer(scenario);
   return scenario;
+}
+
+// A run with nodes is several processes in one virtual time, which begin together.
+void check_for_nodes(const RunOptions& options) {
+  const std::pair<const char*, bool> others[] = {{"--speed", options.speed != 0},
+                                                 {"--serve", options.serve.has_value()},
+                                                 {"--seeds", options.seeds.has_value()},
+                                                 {"--ranks", options.ranks > 1},
+                                                 {"--interactive", options.interactive},
+                                                 {"--tcl", options.tcl},
+                                                 {"--check", options.check},
+                                                 {"--record-durations", options.record_durations.has_value()},
+                                                 {"--replay-durations", options.replay_durations.has_value()},
+                                                 {options.partners.name(), options.partners.any()}};
+  for (const auto& [option, is_given] : others)
+    if (is_given) throw BadInput(option, "cannot be used for a scenario with nodes");
 }
 
 // In one process, or as the leader of several.
@@ -247,6 +272,11 @@ int run(const RunOptions& options, std::span<const genom::ModuleType> types) {
   }
   const scenario::Scenario scenario = scenario_of(options);
   heed_signals();
+  if (scenario.has_nodes() && !is_among_nodes() && !options.replay_journal) {
+    check_nodes(scenario);
+    check_for_nodes(options);
+    return run_among_nodes(options.arguments, options.seed);
+  }
   if (scenario.log) {
     const RunWatchdog watchdog(options.watchdog_s);
     return run_log(options, scenario, types);

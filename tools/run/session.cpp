@@ -67,7 +67,7 @@ Session::Stop Session::carry_on_in_windows(Time target, const Enough& enough, co
   while (!over() && reached_ < target) {
     if (interruption() != 0) return Stop::interrupted;
     if (partners_ != nullptr) partners_->take_in(*this);
-    if (!fault_.empty()) break;
+    if (over()) break;
     const Time next = std::min(target, Time() + window_ * (reached_.since_start() / window_ + 1));
     end_ = enough ? experiment_.run_before(next, enough) : experiment_.run_before(next);
     end_forked_copy();

@@ -59,7 +59,7 @@ class Session : private outside::Host {
   /// Everything before this time is done; after a stop between two events of an instant, also part of that instant.
   Time now() const;
   Time until() const { return until_; }
-  bool over() const { return end_ != RunEnd::time_reached || reached_ >= until_ || !fault_.empty(); }
+  bool over() const { return end_ != RunEnd::time_reached || reached_ >= until_ || !fault_.empty() || is_finished_; }
   /// The fault of a partner that ended the run.
   const std::string& fault() const { return fault_; }
   /// True if partners take part: they live in real time, so that the speed cannot be changed.
@@ -81,6 +81,7 @@ class Session : private outside::Host {
   void intervene(const std::string& text, const scenario::Location& written) override;
   void tell(const std::string& of, const std::string& text) override;
   void tell_fault(const std::string& of, const std::string& text) override;
+  void finish() override { is_finished_ = true; }
 
   run::Experiment& experiment_;
   Time until_;
@@ -90,7 +91,7 @@ class Session : private outside::Host {
   JournalFile* journal_ = nullptr;
   outside::Partners* partners_ = nullptr;
   view::LiveRun* live_ = nullptr;
-  bool faults_end_ = false, is_behind_ = false;
+  bool faults_end_ = false, is_behind_ = false, is_finished_ = false;
   std::string fault_;
   Duration window_;
   RunEnd end_ = RunEnd::time_reached;

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "modules/nodes/node_side.hpp"
+
+#include <nav_msgs/GetMap.h>
+#include <ros/callback_queue.h>
+#include <ros/ros.h>
+#include <rosgraph_msgs/Clock.h>
+#include <tf2_msgs/TFMessage.h>
+
+#include <cstdlib>
+
+#include "modules/nodes/library/master.hpp"
+#include "modules/nodes/library/messages.hpp"
+#include "modules/nodes/library/robot_node.hpp"
+
+namespace waitpoint::nodes {
+namespace {
+
+constexpr std::uint32_t queue = 100;
+constexpr bool latched = true;
+constexpr const char* own_name = "waitpoint";
+
+Value value_of(const nlohmann::json& json) {
+  if (json.is_boolean()) return Value(json.get<bool>());
+  if (json.is_number_integer()) return Value(json.get<int>());
+  if (json.is_number()) return Value(json.get<double>());
+  if (json.is_string()) return Value(json.get<std::string>());
+  Value array;
+  array.setSize(0);
+  int i = 0;
+  for (const nlohmann::json& element : json) array[i++] = value_of(element);
+  return array;
+}
+
+/// Before roscpp asks for it.
+void set_parameters(Master& master, const NodeSideSetup& setup) {
+  for (const auto& [name, parameter] : setup.parameters) master.set_parameter(name, value_of(parameter));
+  master.set_parameter("/rosdistro", Value("noetic\n"));
+  master.set_parameter("/rosversion", Value("1.15.15\n"));
+  if (setup.has_clock) master.set_parameter("/use_sim_time", Value(true));
+}
+
+void start_own_node(const Master& master) {
+  setenv("ROS_IP", "127.0.0.1", 1);
+  ros::M_string remappings{{"__master", master.address()}};
+  ros::init(remappings, own_name, ros::init_options::NoSigintHandler | ros::init_options::NoRosout);
+}
+
+class WorldAndMaster final : public NodeSide {
+ public:
+  explicit WorldAndMaster(const NodeSideSetup& setup) : has_clock_(setup.has_clock) {
+    set_parameters(master_, setup);
+    start_own_node(master_);
+    node_.emplace();
+    const ros::WallTime now = ros::WallTime::now();
+    begin_ = has_clock_ ? ros::Time(1, 0) : ros::Time(now.sec, now.nsec);
+    advertise(setup);
+  }
+  ~WorldAndMaster() override {
+    robots_.clear();
+    map_server_ = {};
+    node_.reset();
+    ros::shutdown();
+  }
+  WorldAndMaster(const WorldAndMaster&) = delete;
+  WorldAndMaster& operator=(const WorldAndMaster&) = delete;
+
+  std::string master_address() const override { return master_.address(); }
+  bool is_published(const std::string& topic) const override { return master_.is_published(topic); }
+  bool is_served(const std::string& service) const override { return master_.is_served(service); }
+  bool is_registered(const std::string& node) const override { return master_.is_node(node); }
+
+  void publish(std::int64_t now_ns, const std::vector<RobotReadings>& robots) override {
+    stamp_ = begin_ + ros::Duration().fromNSec(now_ns);
+    if (has_clock_) {
+      rosgraph_msgs::Clock clock;
+      clock.clock = stamp_;
+      clock_.publish(clock);
+    }
+    tf2_msgs::TFMessage tf;
+    for (std::size_t i = 0; i < robots_.size(); ++i) robots_[i]->publish(now_ns, stamp_, robots[i], tf);
+    if (!tf.transforms.empty()) tf_.publish(tf);
+  }
+
+  bool has_driver(std::size_t robot) const override { return robots_[robot]->has_driver(); }
+  void send_goal(std::size_t robot, const Place& goal) override { robots_[robot]->send_goal(stamp_, goal); }
+
+  std::vector<std::optional<Speeds>> take_commands() override {
+    ros::getGlobalCallbackQueue()->callAvailable();
+    std::vector<std::optional<Speeds>> commands;
+    commands.reserve(robots_.size());
+    for (const auto& robot : robots_) commands.push_back(robot->take_command());
+    return commands;
+  }
+
+ private:
+  void advertise(const NodeSideSetup& setup) {
+    if (has_clock_) clock_ = node_->advertise<rosgraph_msgs::Clock>("/clock", queue);
+    tf_ = node_->advertise<tf2_msgs::TFMessage>("/tf", queue);
+    fixed_ = node_->advertise<tf2_msgs::TFMessage>("/tf_static", queue, latched);
+    map_ = node_->advertise<nav_msgs::OccupancyGrid>("/map", 1, latched);
+    const nav_msgs::OccupancyGrid map = grid(begin_, "map", setup.map);
+    map_.publish(map);
+    using Request = nav_msgs::GetMap::Request;
+    using Response = nav_msgs::GetMap::Response;
+    const boost::function<bool(Request&, Response&)> give_map = [map](Request&, Response& response) {
+      response.map = map;
+      return true;
+    };
+    map_server_ = node_->advertiseService("/static_map", give_map);
+    tf2_msgs::TFMessage fixed;
+    for (const RobotTopics& topics : setup.robots) {
+      robots_.push_back(std::make_unique<RobotNode>(topics));
+      robots_.back()->add_fixed(begin_, fixed);
+      robots_.back()->send_start(begin_);
+    }
+    fixed_.publish(fixed);
+  }
+
+  bool has_clock_;
+  Master master_;
+  std::optional<ros::NodeHandle> node_;
+  ros::Time begin_, stamp_;  // of the run's beginning; of the last step
+  ros::Publisher clock_, tf_, fixed_, map_;
+  ros::ServiceServer map_server_;
+  std::vector<std::unique_ptr<RobotNode>> robots_;
+};
+
+std::unique_ptr<NodeSide> make(const NodeSideSetup& setup) { return std::make_unique<WorldAndMaster>(setup); }
+
+}  // namespace
+}  // namespace waitpoint::nodes
+
+extern "C" [[gnu::visibility("default")]] const waitpoint::nodes::Library waitpoint_nodes = {waitpoint::nodes::make};

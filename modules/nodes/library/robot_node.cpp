@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "modules/nodes/library/robot_node.hpp"
+
+#include <geometry_msgs/PoseWithCovarianceStamped.h>
+
+#include "core/exact_math.hpp"
+#include "modules/nodes/library/messages.hpp"
+
+namespace waitpoint::nodes {
+namespace {
+
+constexpr std::uint32_t queue = 10;
+constexpr bool latched = true;
+constexpr const char* map_frame = "map";
+
+/// The frame from which a place that is `in_other` there is seen where it is `here`.
+Place frame_of(const Place& here, const Place& in_other) {
+  const double heading = here.heading - in_other.heading;
+  const double c = exact::cos(heading), s = exact::sin(heading);
+  return {here.x - (c * in_other.x - s * in_other.y), here.y - (s * in_other.x + c * in_other.y), heading, 0};
+}
+
+}  // namespace
+
+RobotNode::RobotNode(const RobotTopics& topics) : topics_(topics), node_(topics.space) {
+  for (const LaserTopic& laser : topics.lasers)
+    scans_.push_back(node_.advertise<sensor_msgs::LaserScan>(laser.topic, queue));
+  for (const SonarTopic& ring : topics.sonars)
+    sonars_.push_back(
+        node_.advertise<sensor_msgs::Range>(ring.topic, queue * static_cast<std::uint32_t>(ring.frames.size())));
+  odometry_ = node_.advertise<nav_msgs::Odometry>("odom", queue);
+  truth_ = node_.advertise<nav_msgs::Odometry>("base_pose_ground_truth", queue);
+  if (topics.has_imu) imu_ = node_.advertise<sensor_msgs::Imu>("imu", queue);
+  battery_ = node_.advertise<sensor_msgs::BatteryState>("battery", queue, latched);
+  goal_ = node_.advertise<geometry_msgs::PoseStamped>("move_base_simple/goal", queue, latched);
+  start_ = node_.advertise<geometry_msgs::PoseWithCovarianceStamped>("initialpose", 1, latched);
+  drive_ = node_.subscribe<geometry_msgs::Twist>("cmd_vel", queue,
+                                                 [this](const geometry_msgs::Twist::ConstPtr& twist) { take(*twist); });
+}
+
+void RobotNode::take(const geometry_msgs::Twist& twist) {
+  command_ = Speeds{twist.linear.x, twist.linear.y, twist.linear.z, twist.angular.z};
+}
+
+void RobotNode::publish(std::int64_t now_ns, const ros::Time& stamp, const RobotReadings& readings,
+                        tf2_msgs::TFMessage& tf) {
+  const std::string odom = topics_.prefix + "odom", base = topics_.prefix + "base_link";
+  if (readings.has_odometry) {
+    add_transforms(stamp, readings, tf);
+    odometry_.publish(odometry(stamp, odom, base, readings.odometry, readings.odometry_covariance, readings.measured));
+    truth_.publish(odometry(stamp, map_frame, base, readings.truth, {}, readings.speeds));
+  }
+  for (const ScanReading& reading : readings.scans) {
+    const ros::Time date = stamp - ros::Duration().fromNSec(now_ns - reading.date_ns);
+    scans_[reading.laser].publish(scan(date, topics_.lasers[reading.laser], reading));
+  }
+  for (const SonarReading& reading : readings.sonars)
+    for (std::size_t i = 0; i < reading.ranges.size(); ++i)
+      sonars_[reading.ring].publish(range(stamp, topics_.sonars[reading.ring], i, reading.ranges[i]));
+  if (readings.imu) imu_.publish(imu(stamp, base, *readings.imu));
+  if (readings.battery) battery_.publish(battery(stamp, *readings.battery));
+}
+
+void RobotNode::add_transforms(const ros::Time& stamp, const RobotReadings& readings, tf2_msgs::TFMessage& tf) const {
+  const std::string odom = topics_.prefix + "odom";
+  if (topics_.gives_map_to_odom)
+    tf.transforms.push_back(transform(stamp, map_frame, odom, frame_of(readings.truth, readings.odometry)));
+  tf.transforms.push_back(transform(stamp, odom, topics_.prefix + "base_link", readings.odometry));
+}
+
+void RobotNode::add_fixed(const ros::Time& stamp, tf2_msgs::TFMessage& tf) const {
+  const std::string base = topics_.prefix + "base_link";
+  for (const LaserTopic& laser : topics_.lasers)
+    tf.transforms.push_back(transform(stamp, base, laser.frame, laser.mount));
+  for (const SonarTopic& ring : topics_.sonars)
+    for (std::size_t i = 0; i < ring.frames.size(); ++i)
+      tf.transforms.push_back(transform(stamp, base, ring.frames[i], ring.mounts[i]));
+}
+
+void RobotNode::send_goal(const ros::Time& stamp, const Place& goal) { goal_.publish(pose_in(stamp, map_frame, goal)); }
+
+void RobotNode::send_start(const ros::Time& stamp) {
+  constexpr double variance_m2 = 0.05 * 0.05, variance_rad2 = 0.05 * 0.05;
+  constexpr std::size_t x = 0, y = 7, heading = 35;
+  geometry_msgs::PoseWithCovarianceStamped message;
+  const geometry_msgs::PoseStamped pose = pose_in(stamp, map_frame, topics_.start);
+  message.header = pose.header;
+  message.pose.pose = pose.pose;
+  message.pose.covariance[x] = message.pose.covariance[y] = variance_m2;
+  message.pose.covariance[heading] = variance_rad2;
+  start_.publish(message);
+}
+
+}  // namespace waitpoint::nodes

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The topics of one robot.
+#pragma once
+
+#include <geometry_msgs/Twist.h>
+#include <ros/ros.h>
+#include <tf2_msgs/TFMessage.h>
+
+#include <optional>
+#include <vector>
+
+#include "modules/nodes/node_side.hpp"
+
+namespace waitpoint::nodes {
+
+class RobotNode {
+ public:
+  /// Names of topics and frames as in `topics`, which is copied.
+  explicit RobotNode(const RobotTopics& topics);
+
+  /// `stamp` is that of `now_ns`; transforms are added to `tf`.
+  void publish(std::int64_t now_ns, const ros::Time& stamp, const RobotReadings& readings, tf2_msgs::TFMessage& tf);
+  /// The transforms to its sensors.
+  void add_fixed(const ros::Time& stamp, tf2_msgs::TFMessage& tf) const;
+  void send_goal(const ros::Time& stamp, const Place& goal);
+  /// Its start, for nodes that localise it.
+  void send_start(const ros::Time& stamp);
+  bool has_driver() const { return goal_.getNumSubscribers() > 0; }
+  std::optional<Speeds> take_command() { return std::exchange(command_, std::nullopt); }
+
+ private:
+  void take(const geometry_msgs::Twist& twist);
+  void add_transforms(const ros::Time& stamp, const RobotReadings& readings, tf2_msgs::TFMessage& tf) const;
+
+  RobotTopics topics_;
+  ros::NodeHandle node_;
+  std::vector<ros::Publisher> scans_, sonars_;
+  ros::Publisher odometry_, truth_, imu_, battery_, goal_, start_;
+  ros::Subscriber drive_;
+  std::optional<Speeds> command_;  // the newest
+};
+
+}  // namespace waitpoint::nodes

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The processes of a launch's nodes: each is started in its order, when its conditions hold, and watched until its end.
+#pragma once
+
+#include <sys/types.h>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/time.hpp"
+#include "modules/nodes/node_side.hpp"
+#include "modules/ros1/launch.hpp"
+
+namespace waitpoint::nodes {
+
+/// A node, and the words of its process: its executable and arguments.
+struct NodeCommand {
+  ros1::Node node;
+  std::vector<std::string> words;
+};
+
+/// A line for the person at the run.
+struct NodeNews {
+  std::string node, text;
+  bool is_fault = false;
+};
+
+class NodeProcesses {
+ public:
+  /// `master` must outlive this.
+  NodeProcesses(std::vector<NodeCommand> commands, const NodeSide& master);
+  ~NodeProcesses() { end(); }
+  NodeProcesses(const NodeProcesses&) = delete;
+  NodeProcesses& operator=(const NodeProcesses&) = delete;
+
+  /// Starts the nodes whose conditions hold, and notes those that have ended. `now` is the run's virtual time.
+  void go_on(Time now);
+  /// Since the last call.
+  std::vector<NodeNews> take_news() { return std::exchange(news_, {}); }
+  /// True when a required node has ended.
+  bool is_over() const { return is_over_; }
+  /// Asks all nodes to end, and kills those that do not within some seconds.
+  void end();
+
+ private:
+  enum class State : unsigned char { waiting, running, ended };
+  struct Process {
+    NodeCommand command;
+    State state = State::waiting;
+    pid_t id = 0;
+    Time started = {};
+    bool is_registered = false, is_missed = false;
+  };
+
+  bool may_start(const Process& process) const;
+  bool holds(const ros1::NodeCondition& condition) const;
+  const Process* find(const std::string& name) const;
+  void start(Process& process, Time now);
+  void watch(Process& process, Time now);
+  void note_end(Process& process, int status);
+  bool reap();
+
+  const NodeSide& master_;
+  std::vector<Process> processes_;  // in their order
+  std::vector<NodeNews> news_;
+  bool is_over_ = false, is_ending_ = false;
+};
+
+}  // namespace waitpoint::nodes

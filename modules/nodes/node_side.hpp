@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The side of a run that ROS nodes see: a master, and a node that is the world. It is in a library of its own, which is
+// loaded by the first scenario with nodes, so that other programs do not need ROS.
+//
+//   world -> WorldNode (world_node.hpp) -> NodeSide -> topics -> nodes
+//   nodes -> topics -> NodeSide -> WorldNode -> interventions -> world
+//
+// Names and frames are those of REP 103 and 105: x ahead, y to the left, angles counter-clockwise; map -> odom ->
+// base_link. Metres, radians, seconds.
+//
+// C++17, and plain values only: ROS's messages do not compile as C++20.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace waitpoint::nodes {
+
+struct Place {
+  double x = 0, y = 0, heading = 0, z = 0;
+};
+
+struct Speeds {
+  double ahead = 0, left = 0, up = 0, turn = 0;
+};
+
+struct LaserTopic {
+  std::string topic, frame;
+  Place mount;  ///< in base_link
+  double range_max = 0, period_s = 0;
+};
+
+/// A ring of sonars, one message for each.
+struct SonarTopic {
+  std::string topic;
+  std::vector<std::string> frames;
+  std::vector<Place> mounts;
+  double field_of_view = 0, range_min = 0, range_max = 0;
+};
+
+struct RobotTopics {
+  std::string name;
+  std::string space;   ///< of its topics: "/" or "/rackham"
+  std::string prefix;  ///< of its frames: "" or "rackham/"
+  Place start;         ///< in the map
+  std::vector<LaserTopic> lasers;
+  std::vector<SonarTopic> sonars;
+  bool has_imu = false;
+  bool gives_map_to_odom = false;  ///< the transform between them is the true one, as no node estimates it
+};
+
+/// A map known to the robots.
+struct GridValues {
+  int width = 0, height = 0;
+  double resolution = 0;
+  Place origin;                    ///< the outer corner of the first cell
+  std::vector<std::int8_t> cells;  ///< row by row: 0 free, 100 occupied, -1 unknown
+};
+
+struct NodeSideSetup {
+  bool has_clock = false;  ///< publishes /clock; use_sim_time is set
+  std::vector<RobotTopics> robots;
+  GridValues map;
+  std::vector<std::pair<std::string, nlohmann::json>> parameters;  ///< by global name; no maps
+};
+
+struct ScanReading {
+  std::size_t laser = 0;
+  std::int64_t date_ns = 0;  ///< virtual
+  double first_angle = 0, angle_step = 0;
+  std::vector<double> ranges;  ///< from range_max on: no echo
+};
+
+struct SonarReading {
+  std::size_t ring = 0;
+  std::vector<double> ranges;  ///< from range_max on: no echo
+};
+
+struct ImuReading {
+  double turn = 0;                     ///< rad/s
+  double ahead = 0, left = 0, up = 0;  ///< m/s2
+};
+
+struct BatteryReading {
+  double volts = 0, current_a = 0;
+  double charge = 1;  ///< of 1
+};
+
+/// Of one robot, after a step of the world.
+struct RobotReadings {
+  bool has_odometry = false;                    ///< odometry and transforms are due: what follows up to `measured`
+  Place truth;                                  ///< in the map
+  Speeds speeds;                                ///< true
+  Place odometry;                               ///< in `odom`, which is where the robot started
+  std::array<double, 9> odometry_covariance{};  ///< of x, y, heading, in row order
+  Speeds measured;
+  std::vector<ScanReading> scans;    ///< those that are due
+  std::vector<SonarReading> sonars;  ///< those that are due
+  std::optional<ImuReading> imu;
+  std::optional<BatteryReading> battery;
+};
+
+class NodeSide {
+ public:
+  virtual ~NodeSide() = default;
+
+  /// "http://127.0.0.1:PORT/".
+  virtual std::string master_address() const = 0;
+  virtual bool is_published(const std::string& topic) const = 0;
+  virtual bool is_served(const std::string& service) const = 0;
+  virtual bool is_registered(const std::string& node) const = 0;
+
+  /// The readings of all robots at the world's step at this virtual time.
+  virtual void publish(std::int64_t now_ns, const std::vector<RobotReadings>& robots) = 0;
+  /// True if somebody takes the robot's goals.
+  virtual bool has_driver(std::size_t robot) const = 0;
+  /// The robot's next goal, in the map.
+  virtual void send_goal(std::size_t robot, const Place& goal) = 0;
+  /// By robot, the newest cmd_vel since the last call, as it is.
+  virtual std::vector<std::optional<Speeds>> take_commands() = 0;
+};
+
+/// What the library offers.
+struct Library {
+  static constexpr const char* file = "libwaitpoint-nodes.so";
+  static constexpr const char* symbol = "waitpoint_nodes";
+
+  /// Starts the master. Throws std::runtime_error.
+  std::unique_ptr<NodeSide> (*make)(const NodeSideSetup& setup);
+};
+
+}  // namespace waitpoint::nodes

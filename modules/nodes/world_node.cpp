@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "modules/nodes/world_node.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/number_text.hpp"
+#include "modules/nodes/world_topics.hpp"
+#include "modules/outside/sensor_times.hpp"
+#include "modules/outside/words.hpp"
+
+namespace waitpoint::nodes {
+namespace {
+
+constexpr double arrived_m = 0.5;  // from the goal
+constexpr double at_rest_m_s = 0.1;
+constexpr Duration patience = std::chrono::minutes(5);
+constexpr Duration odometry_period = std::chrono::milliseconds(50), battery_period = std::chrono::seconds(1);
+constexpr const char* place = "nodes";
+
+bool is_number(const Speeds& speeds) {
+  return std::isfinite(speeds.ahead) && std::isfinite(speeds.left) && std::isfinite(speeds.up) &&
+         std::isfinite(speeds.turn);
+}
+
+Speeds speeds_of(const world::Velocity& velocity) {
+  return {velocity.v_m_s, velocity.side_m_s, velocity.climb_m_s, velocity.w_rad_s};
+}
+
+}  // namespace
+
+WorldNode::WorldNode(const scenario::Scenario& scenario, std::vector<std::size_t> robots,
+                     std::unique_ptr<NodeSide> nodes, std::vector<NodeCommand> commands)
+    : scenario_(scenario), nodes_(std::move(nodes)), processes_(std::move(commands), *nodes_) {
+  robots_.reserve(robots.size());
+  for (const std::size_t index : robots) {
+    const world::BodyDescription& body = scenario.robots[index].body;
+    const world::OdometryErrors& units = body.base.odometry;
+    robots_.push_back({.index = index, .odometry = {rflex::OdometryNoise{}, units.units_per_m, units.units_per_rad}});
+    robots_.back().scans.resize(body.lasers.size());
+    robots_.back().firings.resize(body.sonars.size());
+  }
+}
+
+void WorldNode::begin(outside::Host& host) { publish(host); }
+
+void WorldNode::publish(outside::Host& host) {
+  const world::World& world = host.experiment().world();
+  if (published_ == world.steps()) return;
+  published_ = world.steps();
+  const Time now = Time() + scenario_.step * static_cast<std::int64_t>(world.steps());
+  std::vector<RobotReadings> all;
+  all.reserve(robots_.size());
+  for (Robot& robot : robots_) all.push_back(readings(robot, world, now));
+  nodes_->publish(now.since_start().ns(), all);
+}
+
+RobotReadings WorldNode::readings(Robot& robot, const world::World& world, Time now) {
+  const auto id = static_cast<world::BodyId>(robot.index);
+  const world::BodyState& body = world.body(id);
+  const world::OdometerReading& odometer = world.odometer(id);
+  robot.odometry.advance(now, odometer.travel_units, odometer.turn_units, odometer.side_units);
+  const posters::PositionEstimate& position = robot.odometry.position();
+  RobotReadings readings;
+  readings.has_odometry = outside::is_due(odometry_period, scenario_.step, world.steps());
+  readings.truth = place_of(body.pose, body.height_m);
+  readings.speeds = speeds_of(body.velocity);
+  readings.odometry = place_of(position.pose, body.height_m);
+  readings.odometry_covariance = position.covariance;
+  readings.measured = speeds_of(odometer.velocity);
+  read_sensors(robot, world, now, readings);
+  return readings;
+}
+
+void WorldNode::read_sensors(Robot& robot, const world::World& world, Time now, RobotReadings& readings) {
+  const auto id = static_cast<world::BodyId>(robot.index);
+  const world::BodyDescription& body = scenario_.robots[robot.index].body;
+  const auto is_due = [&](Duration period) { return outside::is_due(period, scenario_.step, world.steps()); };
+  for (std::size_t laser = 0; laser < body.lasers.size(); ++laser) {
+    if (!is_due(body.lasers[laser].period)) continue;
+    world::LaserScan scan;
+    world.scan(id, laser, ++robot.scans[laser], scan);
+    readings.scans.push_back({laser, now.since_start().ns(), scan.first_angle_rad, scan.angle_step_rad, scan.range_m});
+  }
+  for (std::size_t ring = 0; ring < body.sonars.size(); ++ring) {
+    if (!is_due(body.sonars[ring].period)) continue;
+    SonarReading& reading = readings.sonars.emplace_back(SonarReading{ring, {}});
+    const std::size_t turns = std::max<std::size_t>(body.sonars[ring].firing_order.size(), 1);
+    for (std::size_t turn = 0; turn < turns; ++turn) world.sonar(id, ring, ++robot.firings[ring], reading.ranges);
+  }
+  if (body.imu && world.imu(id).number != robot.imu_samples) {
+    const world::ImuSample& sample = world.imu(id);
+    robot.imu_samples = sample.number;
+    readings.imu = {sample.turn_rad_s, sample.ahead_m_s2, sample.left_m_s2, sample.up_m_s2};
+  }
+  if (is_due(battery_period)) {
+    const world::BatteryState battery = world.battery(id);
+    readings.battery = {battery.volts, battery.current_a, battery.charge};
+  }
+}
+
+void WorldNode::take_in(outside::Host& host) {
+  const std::vector<std::optional<Speeds>> commands = nodes_->take_commands();
+  processes_.go_on(host.next_step());
+  tell_news(host);
+  for (std::size_t i = 0; i < robots_.size(); ++i) {
+    if (commands[i]) drive(host, robots_[i], *commands[i]);
+    show_goal(host, i);
+  }
+  if (processes_.is_over()) host.finish();
+}
+
+void WorldNode::tell_news(outside::Host& host) {
+  for (const NodeNews& news : processes_.take_news()) {
+    if (!news.is_fault) {
+      host.tell(news.node, news.text);
+      continue;
+    }
+    faults_.add("faults of nodes");
+    host.tell_fault(news.node, news.text);
+  }
+}
+
+void WorldNode::drive(outside::Host& host, const Robot& robot, const Speeds& speeds) {
+  const std::string& name = scenario_.robots[robot.index].name;
+  if (!is_number(speeds)) {
+    if (faults_.add("speeds that are no numbers"))
+      host.tell_fault(name, "cmd_vel: expected finite speeds, found one that is not: such messages are not obeyed");
+    return;
+  }
+  ++commands_;
+  host.intervene(fmt::format("command {} v_m_s={} w_rad_s={} side_m_s={} climb_m_s={}", outside::quoted_word(name),
+                             speeds.ahead, speeds.turn, speeds.left, speeds.up),
+                 {place, 0});
+}
+
+// Goals are judged by the truth: a node's own opinion is not what the robot did.
+void WorldNode::show_goal(outside::Host& host, std::size_t number) {
+  Robot& robot = robots_[number];
+  const scenario::RobotScenario& of = scenario_.robots[robot.index];
+  if (!of.goals_are_for_nodes()) return;
+  const bridge::Robot& driven = *host.experiment().robots()[robot.index];
+  const std::optional<std::size_t> current = driven.current_goal();
+  if (!current) return;
+  const Time now = host.next_step();
+  const world::BodyState& body = host.experiment().world().body(world::BodyId(robot.index));
+  if (robot.goals_sent <= *current) {
+    if (!nodes_->has_driver(number)) return;
+    const Point goal = of.goals[*current].position, away = goal - body.pose.position();
+    nodes_->send_goal(number, {goal.x, goal.y, exact::atan2(away.y, away.x), 0});
+    robot.goals_sent = *current + 1;
+    robot.sent_at = now;
+    ++goals_;
+    return;
+  }
+  const bool has_arrived = length(of.goals[*current].position - body.pose.position()) < arrived_m &&
+                           std::fabs(body.velocity.v_m_s) < at_rest_m_s;
+  if (!has_arrived && now - robot.sent_at < patience) return;
+  host.intervene("goal " + outside::quoted_word(of.name) + (has_arrived ? " reached" : " given-up"), {place, 0});
+}
+
+std::string WorldNode::account() const {
+  return "nodes: " + counted(goals_, "goal") + ", " + counted(commands_, "command") + faults_.text();
+}
+
+}  // namespace waitpoint::nodes

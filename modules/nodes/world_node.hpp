@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The world as a ROS node: sensors of the scenario's robots that have nodes become topics, and what their nodes command
+// becomes interventions, which the run's journal repeats without them.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "modules/nodes/node_processes.hpp"
+#include "modules/nodes/node_side.hpp"
+#include "modules/outside/fault_counts.hpp"
+#include "modules/outside/partner.hpp"
+#include "modules/rflex/dead_reckoning.hpp"
+#include "modules/scenario/scenario.hpp"
+
+namespace waitpoint::nodes {
+
+class WorldNode final : public outside::Partner {
+ public:
+  /// `robots`: indices of the scenario's, as `nodes` has them. `commands` of the nodes of all their launches, in their
+  /// order: the executable and its arguments. The scenario must outlive this.
+  WorldNode(const scenario::Scenario& scenario, std::vector<std::size_t> robots, std::unique_ptr<NodeSide> nodes,
+            std::vector<NodeCommand> commands);
+
+  void begin(outside::Host& host) override;
+  void publish(outside::Host& host) override;
+  void take_in(outside::Host& host) override;
+  std::string account() const override;
+
+ private:
+  struct Robot {
+    std::size_t index;  // in the scenario
+    rflex::DeadReckoning odometry;
+    std::vector<std::uint64_t> scans = {}, firings = {};  // so far, by laser and ring
+    std::uint64_t imu_samples = 0;
+    std::size_t goals_sent = 0;  // so far
+    Time sent_at = {};           // the last one
+  };
+
+  RobotReadings readings(Robot& robot, const world::World& world, Time now);
+  void read_sensors(Robot& robot, const world::World& world, Time now, RobotReadings& readings);
+  void show_goal(outside::Host& host, std::size_t number);
+  void drive(outside::Host& host, const Robot& robot, const Speeds& speeds);
+  void tell_news(outside::Host& host);
+
+  const scenario::Scenario& scenario_;
+  std::vector<Robot> robots_;
+  std::unique_ptr<NodeSide> nodes_;
+  NodeProcesses processes_;  // end before the master
+  std::uint64_t commands_ = 0, goals_ = 0;
+  std::optional<std::uint64_t> published_;  // step
+  outside::FaultCounts faults_;
+};
+
+}  // namespace waitpoint::nodes

@@ -1,0 +1,123 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Robots whose software is nodes of ROS 1: nodes_test.py BUILD.
+
+Skipped where ROS is missing: `./dev ros` installs it and builds the nodes of scenarios/office-ros.yaml.
+"""
+
+import pathlib
+import re
+import stat
+import subprocess
+import sys
+import tempfile
+import unittest
+
+BUILD = pathlib.Path(sys.argv.pop(1)).resolve()
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+WAITPOINT = BUILD / "tools/waitpoint"
+DRIVER = BUILD / "scenarios/nodes/driver"
+
+HALL = f"""
+format: 1
+name: hall
+until_s: 20
+world:
+  shapes:
+    - {{name: south wall, corners_m: [0, 0, 12, 0.2], height_m: 2}}
+    - {{name: north wall, corners_m: [0, 7.8, 12, 8], height_m: 2}}
+robot_types: {{include: {ROOT}/scenarios/rackham.yaml}}
+robots:
+  - name: rackham
+    type: rackham
+    start: [2, 4, 0]
+    modules: []
+    bridge: []
+"""
+
+
+class Nodes(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        if not (BUILD / "libwaitpoint-nodes.so").exists() or not DRIVER.exists():
+            raise unittest.SkipTest("no nodes of ROS were built: ./dev ros does")
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+    def run_scenario(self, scenario, *options):
+        return subprocess.run([WAITPOINT, "run", scenario, *options], stdin=subprocess.DEVNULL, capture_output=True, text=True,
+                              timeout=300)
+
+    def run_hall(self, robot, *options):
+        file = self.folder / "hall.yaml"
+        file.write_text(HALL + robot)
+        return self.run_scenario(file, *options)
+
+    def node(self, name, text):
+        """A node in Python, which need not be one of ROS."""
+        file = self.folder / name
+        file.write_text("#!/usr/bin/python3\n" + text)
+        file.chmod(file.stat().st_mode | stat.S_IXUSR)
+        return file
+
+    def digests(self, done):
+        return re.findall("wp1:[0-9a-f]{16}", done.stdout + done.stderr)
+
+    def test_drive_the_office(self):
+        first = self.run_scenario(ROOT / "scenarios/office-ros.yaml", "--until", "60")
+        self.assertIn("goals reached     1 of 9", first.stdout, first.stderr)
+        self.assertRegex(first.stdout, r"nodes: 2 goals, \d+ commands")
+        self.assertRegex(first.stderr, r"observer: \d+ scans, 2 goals, nothing nearer than 0\.\d\d m")
+        again = self.run_scenario(ROOT / "scenarios/office-ros.yaml", "--until", "60")
+        self.assertEqual(self.digests(first), self.digests(again))
+        other = self.run_scenario(ROOT / "scenarios/office-ros.yaml", "--until", "60", "--seed", "2")
+        self.assertTrue(set(self.digests(first)).isdisjoint(self.digests(other)))
+
+    def test_a_journal_repeats_the_robots_without_the_nodes(self):
+        robot = f"    nodes: [{{name: driver, command: [{DRIVER}]}}]\n    goals: [[10, 4]]\n"
+        journal = self.folder / "hall.journal"
+        done = self.run_hall(robot, "--journal", journal)
+        self.assertIn("goals reached     1 of 1", done.stdout, done.stderr)
+        repeated = self.run_hall(robot, "--replay-journal", journal)
+        self.assertEqual(repeated.returncode, 0, repeated.stderr)
+        self.assertIn("goals reached     1 of 1", repeated.stdout)
+        digest = re.search(r"digest +(wp1:\w+)", done.stdout).group(1)
+        self.assertEqual(re.search(r"digest +(wp1:\w+)", repeated.stdout).group(1), digest)
+
+    def test_a_node_that_is_not_there(self):
+        done = self.run_hall("    nodes:\n      - {name: driver, package: no_package, type: driver}\n")
+        self.assertEqual(done.returncode, 2)
+        self.assertRegex(done.stderr, r"hall\.yaml:17: there is no package 'no_package', looked for in .*\n")
+        done = self.run_hall("    nodes:\n      - {name: driver, command: [./nowhere]}\n")
+        self.assertRegex(done.stderr, r"/driver: cannot be started: .*nowhere: No such file or directory")
+
+    def test_a_node_that_dies(self):
+        node = self.node("dies", "import sys, time\ntime.sleep(3)\nsys.exit(7)\n")
+        done = self.run_hall(f"    nodes: [{{name: frail, command: [{node}], required: true}}]\n")
+        self.assertRegex(done.stderr, r" 3\.\d+ s  /frail: ended with status 7\n")
+        self.assertIn("after 3.0 s simulated", done.stdout)
+
+    def test_a_node_that_hangs_at_its_start(self):
+        node = self.node("hangs", "import time\ntime.sleep(1000)\n")
+        done = self.run_hall(f"    nodes: [{{name: stuck, command: [{node}]}}]\n")
+        self.assertRegex(done.stderr, r"10\.\d+ s  /stuck: has not registered with the master in 10 s\n")
+
+    def test_speeds_that_are_no_numbers(self):
+        node = self.node("nan", "import rospy\nfrom geometry_msgs.msg import Twist\nrospy.init_node('nan')\n"
+                         "out = rospy.Publisher('cmd_vel', Twist, queue_size=1)\nspeed = Twist()\nspeed.linear.x = float('nan')\n"
+                         "while not rospy.is_shutdown():\n    out.publish(speed)\n    rospy.sleep(0.1)\n")
+        done = self.run_hall(f"    nodes: [{{name: nan, command: [{node}]}}]\n", "--until", "5")
+        self.assertEqual(done.stderr.count("cmd_vel: expected finite speeds, found one that is not"), 1, done.stderr)
+        self.assertRegex(done.stdout, r"nodes: 0 goals, 0 commands, \d+ speeds that are no numbers")
+
+    def test_options_that_exclude_nodes(self):
+        for option in ["--serve"], ["--speed", "1"], ["--seeds", "1..3"], ["--check"], ["--interactive"]:
+            done = self.run_hall(f"    nodes: [{{name: driver, command: [{DRIVER}]}}]\n", *option)
+            self.assertEqual(done.returncode, 2)
+            self.assertIn(f"{option[0]}: cannot be used for a scenario with nodes", done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()

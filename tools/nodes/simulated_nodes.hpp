@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A run whose robots have ROS nodes: this program runs itself, with the master, the world and all nodes, as the
+// processes of one simulation (tools/exec), in which everything shares one virtual time.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+
+namespace waitpoint::tools {
+
+/// True in a process of such a simulation, where the wall clock shows virtual time.
+bool is_among_nodes();
+
+/// The run, by this program's arguments; returns its status. The order of what happens at one instant in nodes follows
+/// from the seed.
+int run_among_nodes(std::span<const std::string> arguments, std::uint64_t seed);
+
+}  // namespace waitpoint::tools

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The partner of a run that starts its robots' ROS nodes and is the world to them.
+#pragma once
+
+#include <memory>
+
+#include "modules/outside/partner.hpp"
+#include "modules/scenario/scenario.hpp"
+
+namespace waitpoint::tools {
+
+/// BadInput for a node whose executable is not found, and if this program has no nodes.
+void check_nodes(const scenario::Scenario& scenario);
+
+/// Starts the master; the nodes start with the run. BadInput as above. The scenario must outlive it.
+std::unique_ptr<outside::Partner> make_world_partner(const scenario::Scenario& scenario);
+
+}  // namespace waitpoint::tools
