@@ -31,7 +31,7 @@ Speeds speeds_of(const world::Velocity& velocity) {
 
 }  // namespace
 
-WorldNode::WorldNode(const scenario::Scenario& scenario, std::vector<std::size_t> robots,
+WorldNode::WorldNode(const scenario::Scenario& scenario, const std::vector<std::size_t>& robots,
                      std::unique_ptr<NodeSide> nodes, std::vector<NodeCommand> commands)
     : scenario_(scenario), nodes_(std::move(nodes)), processes_(std::move(commands), *nodes_) {
   robots_.reserve(robots.size());

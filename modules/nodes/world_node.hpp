@@ -21,7 +21,7 @@ class WorldNode final : public outside::Partner {
  public:
   /// `robots`: indices of the scenario's, as `nodes` has them. `commands` of the nodes of all their launches, in their
   /// order: the executable and its arguments. The scenario must outlive this.
-  WorldNode(const scenario::Scenario& scenario, std::vector<std::size_t> robots, std::unique_ptr<NodeSide> nodes,
+  WorldNode(const scenario::Scenario& scenario, const std::vector<std::size_t>& robots, std::unique_ptr<NodeSide> nodes,
             std::vector<NodeCommand> commands);
 
   void begin(outside::Host& host) override;

@@ -52,6 +52,32 @@ test('going back leaves the run, and g returns to it', async () => {
   await until((wanted) => window.waitpoint.session.time === wanted, 9 * SECOND);
 });
 
+test('a run that is over is shown at its end, and not followed', async () => {
+  await open({over: true});
+  assert.equal(await time(), 5 * SECOND);
+  assert.equal(await page.$eval('#live', (button) => button.getAttribute('aria-pressed')), 'false');
+  await seek(page, 2 * SECOND);
+  await page.click('#live');
+  await settle(page);
+  assert.equal(await time(), 5 * SECOND);
+  assert.equal(await page.$eval('#live', (button) => button.getAttribute('aria-pressed')), 'false');
+});
+
+test('a task that computes in all of the view is drawn as late', async () => {
+  await open();
+  await seek(page, 3024e6);
+  await page.type('#lane-filter', 'slam');
+  await page.evaluate(() => window.waitpoint.parts.axis.set(3023e6, 3025e6));
+  await until(() => window.waitpoint.parts.timeline.data.store?.from < 3000e6);
+  await settle(page);
+  const {top, height, colour} = await page.evaluate(() => {
+    const {timeline} = window.waitpoint.parts,
+      row = timeline.rows.rows.find((one) => one.kind === 'task');
+    return {top: 20 + row.y - timeline.top, height: row.height, colour: window.waitpoint.theme.colours.late};
+  });
+  assert.ok((await shareOf(page, '.lane-window canvas', colour, 200, top + height * 0.3, 400, height * 0.4)) > 0.2);
+});
+
 test('steps, tasks, modules, plots and stacks are asked for', async () => {
   await open();
   await seek(page, 2 * SECOND);
@@ -99,6 +125,8 @@ test('a connection that breaks is told and tried again', async () => {
   await until(() => document.getElementById('connection').textContent === 'connected');
   await seek(page, 4 * SECOND);
   assert.equal(await time(), 4 * SECOND);
+  const lines = await page.evaluate(() => window.waitpoint.session.source.log.length);
+  assert.equal(lines, program.run.log.filter(([at]) => at <= program.now).length);
 });
 
 test('errors are told in a line', async () => {
@@ -110,59 +138,6 @@ test('errors are told in a line', async () => {
   await seek(page, 19 * SECOND);
   assert.equal(await text('#message'), 'that is beyond the run');
   assert.equal(await page.$eval('#message', (line) => line.getAttribute('role')), 'alert');
-});
-
-test('a branch with interventions is made, shown and compared', async () => {
-  await open();
-  await seek(page, 3 * SECOND);
-  await page.keyboard.press('b');
-  await page.click('#panel-lines .row button:not(.primary)'); // Show: nothing changes
-  await page.evaluate(() =>
-    [...document.querySelectorAll('#panel-lines button')].find((button) => button.textContent === 'Add').click()
-  );
-  const line = await page.$eval('#panel-lines textarea', (area) => area.value),
-    [x, y] = poseAt(3);
-  assert.equal(line, `move ada ${x.toFixed(2)} ${y.toFixed(2)} 0`);
-  await page.type('[aria-label="Seed from here on"]', '7');
-  await page.click('#panel-lines .primary');
-  await until(() => window.waitpoint.session.line === 1);
-  assert.deepEqual(
-    program.asked.find(({ask}) => ask === 'branch'),
-    {ask: 'branch', line: 0, time: 3 * SECOND, interventions: ['seed 7', line]}
-  );
-  await settle(page);
-  await page.click('[aria-label="Line 0 beside"]');
-  await until(() => window.waitpoint.session.compared?.difference);
-  await settle(page);
-  assert.match(await text('.difference'), /Event 2 313 at 2\.002200000 s.*line 1.*resume.*line 0.*unlock/);
-  assert.ok(!(await page.$eval('#plan-beside', (plan) => plan.hidden)));
-  assert.equal((await page.$$('.lanes-of')).length, 2);
-  // The robot is half a metre further up in the branch.
-  const [colour] = await page.evaluate(() => window.waitpoint.theme.colours.robots),
-    place = poseAt(3);
-  const at = await page.evaluate((u, v) => window.waitpoint.pixels(u, v), place[0], place[1]),
-    up = await page.evaluate((u, v) => window.waitpoint.pixels(u, v), place[0], place[1] + 0.5);
-  assert.ok((await shareOf(page, '#plan-canvas', colour, up.x - 8, up.y - 8, 16, 10)) > 0.1);
-  assert.ok((await shareOf(page, '#plan-canvas-beside', colour, at.x - 8, at.y - 2, 16, 10)) > 0.1);
-  await page.click('[aria-label="Journal of line 1"]');
-  await until(() => document.getElementById('panel-lines').textContent.includes('--replay-journal branch.journal'));
-  assert.deepEqual(page.problems, []);
-});
-
-test('an intervention that the program rejects is told', async () => {
-  await open();
-  await seek(page, 3 * SECOND);
-  await page.keyboard.press('b');
-  await page.type('#panel-lines textarea', 'fly ada');
-  await page.click('#panel-lines .primary');
-  await until(() => document.querySelector('#panel-lines [role=status]').textContent === "unknown intervention 'fly'");
-});
-
-test('without control there are no branches', async () => {
-  await open({control: false});
-  await page.click('#tab-lines');
-  await settle(page);
-  assert.ok(await page.$eval('#panel-lines .primary', (button) => button.disabled));
 });
 
 test('the run is held and let go', async () => {
@@ -207,6 +182,7 @@ test('of many robots only those in view are asked for, in detail the one that is
 
 test('a slow program is not asked again before it has answered', async () => {
   await open();
+  program.most = {};
   program.slow = {plot: 900, events: 600, counts: 600, tasks: 500, modules: 500, stack: 700};
   await page.evaluate(() => window.waitpoint.parts.plots.add({robot: 0, poster: 'pom.position', field: 'pose.x'}));
   await page.click('#tab-tasks');
@@ -218,6 +194,6 @@ test('a slow program is not asked again before it has answered', async () => {
   await page.evaluate(() => window.waitpoint.clock.seek(2e9));
   await new Promise((resolve) => setTimeout(resolve, 1500));
   for (const ask of ['plot', 'events', 'counts', 'tasks'])
-    assert.ok(program.most[ask] <= 1, `${ask}: ${program.most[ask]} at once`);
+    assert.ok((program.most[ask] ?? 0) <= 1, `${ask}: ${program.most[ask]} at once`);
   assert.ok(program.asked.filter(({ask}) => ask === 'plot').length <= 5);
 });

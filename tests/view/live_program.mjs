@@ -8,11 +8,11 @@ import {assembled} from './browser.mjs';
 import {sampleFrame, sampleHeader, sampleModules, sampleRun, SECOND} from './sample_run.mjs';
 
 export class LiveProgram {
-  constructor({robots = 1, control = true} = {}) {
+  constructor({robots = 1, control = true, over = false} = {}) {
     this.run = sampleRun({seconds: 20, robots});
     this.header = {...sampleHeader(robots, 20), control};
     this.now = 5 * SECOND; // how far the run has come
-    this.over = false;
+    this.over = over;
     this.lines = [{line: 0, from: 0, parent: null, name: 'run', to: this.now}];
     this.asked = []; // all questions
     this.slow = {}; // milliseconds that answers take, by question
@@ -36,8 +36,6 @@ export class LiveProgram {
     });
     this.sockets.on('connection', (socket) => {
       socket.on('message', (data) => this.answer(socket, JSON.parse(data)));
-      socket.send(JSON.stringify(this.status()));
-      socket.send(JSON.stringify({kind: 'log', lines: this.run.log.filter(([time]) => time <= this.now)}));
     });
     await new Promise((resolve) => this.server.listen(this.port ?? 0, '127.0.0.1', resolve));
     this.port = this.server.address().port;
@@ -99,6 +97,9 @@ export class LiveProgram {
     --this.under[ask];
     const reply = this.replies[ask]?.call(this, fields, socket) ?? {error: `unknown question ${ask}`};
     socket.send(JSON.stringify({...reply, id}));
+    if (ask !== 'header') return;
+    socket.send(JSON.stringify({kind: 'log', lines: this.run.log.filter(([time]) => time <= this.now)}));
+    socket.send(JSON.stringify(this.status()));
   }
 
   replies = {
@@ -168,6 +169,17 @@ export class LiveProgram {
           local: 4.5e9,
           operation: 'acquire',
           object: {kind: 'semaphore', number: 2, label: 'mailbox event', robot: 'ada', owner: null},
+          work: '',
+          events: 12
+        },
+        {
+          number: this.run.events.tasks.find(([, name]) => name === 'segloc.slam')?.[0],
+          name: 'segloc.slam',
+          robot: 'ada',
+          state: 'ready',
+          local: 3028e6,
+          operation: 'lock',
+          object: null,
           work: '',
           events: 12
         }

@@ -61,6 +61,7 @@ void check_files(const RunOptions& options, std::span<const std::string> robots)
                              {"--decisions", name(options.decisions)},
                              {"--record-durations", name(options.record_durations)},
                              {"--journal", name(options.journal)},
+                             {"SCENARIO", options.scenario.string(), NamedFile::Use::read},
                              {"--replay-journal", name(options.replay_journal), NamedFile::Use::read},
                              {"--replay-durations", name(options.replay_durations), NamedFile::Use::read}});
   check_distinct(files);

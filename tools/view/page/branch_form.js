@@ -12,7 +12,7 @@ class BranchForm {
         element("option", {value: kind}, kind)
       )
     );
-    this.fields = element("span", {class: "row"});
+    this.fields = element("span", {class: "row", oninput: () => (this.filled = true)});
     this.lines = element("textarea", {
       rows: 4,
       "aria-label": "Interventions, one a line",
@@ -37,28 +37,25 @@ class BranchForm {
       element("div", {class: "row"}, element("label", {}, "Seed ", this.seed), this.go),
       this.note
     );
+    // A recorded run has no branches.
+    this.root.hidden = session.source.kind !== "live";
     panel.append(this.root);
     session.on("robot", () => this.showFields());
     session.on("place", () => {
       if (!this.place) return;
       this.place[0].value = session.place.x.toFixed(2);
       this.place[1].value = session.place.y.toFixed(2);
+      this.filled = true;
     });
     this.showFields();
   }
 
   update() {
     const {source, time} = this.session,
-      able = source.kind === "live" && source.control;
+      able = source.control;
     setText(this.go, `Branch at ${shortInstantText(time)}`);
     this.go.disabled = !able;
-    if (!able)
-      setText(
-        this.note,
-        source.kind === "live"
-          ? "The program allows no branches: waitpoint run --serve --serve-control does."
-          : "A recorded run has no branches: waitpoint run --serve --serve-control has."
-      );
+    if (!able) setText(this.note, "The program allows no branches: waitpoint run --serve --serve-control does.");
   }
 
   /** The fields of the chosen kind, filled with what is there now. */
@@ -120,6 +117,7 @@ class BranchForm {
     this.line = line;
     this.place = inputs.includes(x) ? [x, y] : null;
     this.fields.replaceChildren(...inputs);
+    this.filled = false; // by the user, and not yet added
   }
 
   /**
@@ -156,9 +154,12 @@ class BranchForm {
 
   add() {
     this.lines.value = [this.lines.value.trimEnd(), this.line()].filter(Boolean).join("\n");
+    this.filled = false;
   }
 
+  /** Fields that are filled in but not added are an intervention as well. */
   async branch() {
+    if (this.filled) this.add();
     const {session} = this,
       interventions = this.lines.value
         .split("\n")

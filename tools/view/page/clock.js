@@ -139,9 +139,15 @@ class Clock {
     this.changed();
   }
 
-  /** Follows the run as it goes, if the source has one that goes. */
-  setLive(on) {
-    const live = on && this.session.source.kind === "live";
+  /** Follows the run as it goes, if the source has one that goes; of one that is over, shows the end. */
+  async followRun() {
+    if (this.session.source.kind !== "live") return;
+    if (!this.session.source.status.over) return this.setLive(true);
+    if (this.session.line !== 0) await this.setLine(0);
+    await this.seek(this.end);
+  }
+
+  setLive(live) {
     if (live === this.live) return;
     this.live = live;
     if (live) {
@@ -150,6 +156,10 @@ class Clock {
       this.session.changed("line");
     }
     this.changed();
+  }
+
+  toggleLive() {
+    return this.live ? this.setLive(false) : this.followRun();
   }
 
   async setLine(line) {

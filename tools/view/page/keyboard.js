@@ -128,7 +128,7 @@ class Keyboard {
       case "]":
         return () => clock.setSpeed(clock.speed * 2);
       case "g":
-        return () => clock.setLive(!clock.live);
+        return () => clock.toggleLive();
       case "?":
         return () => this.dialog.showModal();
       case "n":

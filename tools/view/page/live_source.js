@@ -10,7 +10,7 @@ class LiveSource {
       () => source.connectionChanged()
     );
     await source.connection.open();
-    source.header = withTypes(await source.connection.ask("header"));
+    source.header = withTypes(await source.askHeader());
     source.control = source.header.control === true;
     source.known = true;
     return source;
@@ -60,10 +60,17 @@ class LiveSource {
     }
   }
 
+  /** The program sends the whole log right after the header, so what came before it is dropped. */
+  async askHeader() {
+    const header = await this.connection.ask("header");
+    this.log = [];
+    return header;
+  }
+
   async connectionChanged() {
     if (this.connection.state === "open" && this.known) {
       // The program may be another one by now: what is on the page would be wrong.
-      const header = await this.connection.ask("header").catch(() => null);
+      const header = await this.askHeader().catch(() => null);
       if (header && (header.scenario !== this.header.scenario || header.seed !== this.header.seed))
         return location.reload();
       if (this.following) this.connection.ask("follow", this.following).catch(() => {});

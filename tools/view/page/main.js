@@ -41,7 +41,7 @@ async function start() {
   connectParts(session, clock, parts);
   await clock.seek(0);
   parts.axis.showAll();
-  if (source.kind === "live") clock.setLive(true);
+  if (source.kind === "live") await clock.followRun();
   else if (source.finding || source.lines.length > 1) await showFinding(source, parts, clock);
   // Programs without robots have no floor.
   byId("plots").hidden = Boolean(source.finding);

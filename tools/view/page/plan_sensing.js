@@ -148,7 +148,19 @@ function drawTrail(pen, camera, points, colour) {
   pen.globalAlpha = 1;
 }
 
-/** Goals reached have a tick, the next one is filled, later ones are rings with their numbers. */
+/**
+ * What is known of the robot's goal `i`: "next", "reached", "passed" if it may have been reached or not, or "". A frame
+ * has only the number of goals reached: if it is the number of those before the next one, all of them were.
+ */
+function goalState({goal: next, goals_reached: reached}, i, count) {
+  if (i === next) return "next";
+  const before = next < 0 ? count : next;
+  if (i >= before) return "";
+  if (reached === before) return "reached";
+  return next < 0 ? "" : "passed";
+}
+
+/** Goals known to be reached have a tick, the next one is filled, all others are rings with their numbers. */
 function drawGoals(pen, camera, robot, state, names) {
   const colour = theme.colours.goal,
     size = 8;
@@ -157,10 +169,8 @@ function drawGoals(pen, camera, robot, state, names) {
   robot.goals.forEach((goal, i) => {
     const u = camera.across(goal.x, goal.y),
       v = camera.down(goal.x, goal.y),
-      next = i === state.goal;
-    const reached =
-      goal.reached ??
-      (state.reached ? state.reached.includes(i) : state.goal < 0 ? i < state.goals_reached : i < state.goal);
+      known = goalState(state, i, robot.goals.length),
+      next = known === "next";
     pen.beginPath();
     pen.arc(u, v, size, 0, 2 * Math.PI);
     pen.fillStyle = next ? colour : theme.colours.floor;
@@ -168,7 +178,7 @@ function drawGoals(pen, camera, robot, state, names) {
     pen.strokeStyle = colour;
     pen.lineWidth = next ? 3 : 1.75;
     pen.stroke();
-    if (reached) {
+    if (known === "reached") {
       pen.beginPath();
       (pen.moveTo(u - 3.5, v), pen.lineTo(u - 1, v + 3), pen.lineTo(u + 4, v - 3.5));
       pen.stroke();

@@ -27,12 +27,22 @@ class RecordedLine {
     }
   }
 
+  /** Whether the events up to `time` are there: of a long run only the first ones are kept. */
+  keeps(time) {
+    return this.store.complete || time <= this.store.to;
+  }
+
+  needKept(kept) {
+    if (!kept) throw new Error(`Events are kept up to ${shortInstantText(this.store.to)}.`);
+  }
+
   /** Poses between two frames are interpolated, so that a run plays smoothly; the rest is the earlier frame's. */
   frameAt(time, executed) {
     const next = firstWhere(this.frames.length, (i) => this.frames[i].time > time);
     const frame = this.frames[Math.max(0, next - 1)],
       after = this.frames[next];
-    const events = executed ?? (this.store.count ? this.store.first - 1 + this.store.at(time + 1) : frame.events);
+    const counted = this.store.count > 0 && this.keeps(time);
+    const events = executed ?? (counted ? this.store.first - 1 + this.store.at(time + 1) : frame.events);
     if (!after || time === frame.time) return {...frame, time, events};
     const part = (time - frame.time) / (after.time - frame.time);
     const robots = frame.robots.map((robot, index) =>
@@ -43,11 +53,14 @@ class RecordedLine {
 
   /** The frame after `count` more events (fewer, if negative), of the task of that number if one is given. */
   step(count, task, from) {
+    this.needKept(this.keeps(from.time));
     const store = this.store,
       executed = from.events - (store.first - 1);
     const lane = task === null ? null : store.lanes[store.tasks.findIndex((one) => one.number === task)];
     const done = lane ? firstWhere(lane.length, (i) => lane[i] >= executed) : executed;
-    const target = Math.max(0, Math.min(done + count, lane ? lane.length : store.count));
+    const most = lane ? lane.length : store.count;
+    this.needKept(store.complete || done + count <= most);
+    const target = Math.max(0, Math.min(done + count, most));
     if (target === 0) return {...this.frameAt(0, store.first - 1), event: null};
     const index = lane ? lane[target - 1] : target - 1;
     const event = store.describe(index);
@@ -55,6 +68,7 @@ class RecordedLine {
   }
 
   tasks(frame) {
+    this.needKept(this.keeps(frame.time));
     const executed = frame.events - (this.store.first - 1);
     return this.store.tasks.length
       ? this.store.tasks.map((task, index) => taskAt(this.store, index, executed, frame.time))

@@ -70,7 +70,7 @@ class RobotsPanel {
           `${i + 1} ${goal.name ?? ""}`,
           goal.x.toFixed(2),
           goal.y.toFixed(2),
-          i === state.goal ? "next" : (state.goal < 0 ? i < state.goals_reached : i < state.goal) ? "reached" : ""
+          goalState(state, i, robot.goals.length)
         ]),
         {marked: state.goal}
       );

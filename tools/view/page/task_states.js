@@ -76,6 +76,13 @@ function activationBefore(store, lane, place) {
   return null;
 }
 
+/** What a task of the protocol's "tasks" does at `time`, until its next event: null if nothing, or unknown. */
+function quietState({state, operation, local}, time) {
+  if (/^(sleep|timer_wait)$/.test(operation)) return "idle";
+  if (state === "blocked") return "blocked";
+  return state !== "ended" && local > time ? "running" : null;
+}
+
 /**
  * Where a task waits at the cursor: after `executed` events of the store, at `time`. The fields of the protocol's
  * "tasks".

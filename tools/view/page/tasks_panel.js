@@ -8,15 +8,21 @@ class TasksPanel {
     this.all = element("input", {type: "checkbox", onchange: () => this.update()});
     this.table = new TextTable("Tasks", ["Task", "State", "Since", "Waits for, or does"]);
     this.asked = 0;
-    panel.append(element("label", {class: "row"}, this.all, "of all robots"), this.table.table);
+    this.note = element("p", {class: "note", role: "status"});
+    panel.append(element("label", {class: "row"}, this.all, "of all robots"), this.table.table, this.note);
   }
 
   async update() {
     const {session} = this,
       asked = ++this.asked;
     if (!session.frame) return;
-    const tasks = await session.source.tasks(session.line, session.frame).catch(() => null);
-    if (!tasks || asked !== this.asked) return; // the cursor has moved on
+    let refusal = "";
+    const tasks = await session.source.tasks(session.line, session.frame).catch((error) => {
+      refusal = error.message;
+      return [];
+    });
+    if (asked !== this.asked) return; // the cursor has moved on
+    setText(this.note, refusal);
     const shown = tasks
       .filter(
         (task) =>

@@ -66,7 +66,10 @@ class TimelineData {
           ? store
           : await source.events(this.line(), Math.max(0, Math.floor(from)), Math.ceil(to), MOST_EVENTS);
       this.state = "";
-      if (source.kind === "live") await this.loadStates();
+      if (source.kind === "live") {
+        await this.loadStates();
+        await this.widen();
+      }
     } catch (error) {
       this.state = error.message;
     }
@@ -82,7 +85,30 @@ class TimelineData {
       {time} = session;
     if (this.line() !== session.line || time < store.from || time > store.to) return (this.states = null);
     const tasks = await session.source.tasks(session.line);
-    this.states = new Map(tasks.map((task) => [`${task.robot}/${task.name}/${task.number}`, task]));
+    this.states = new Map(
+      tasks.map((task) => [
+        `${task.robot}/${task.name}/${task.number}`,
+        {...task, quiet: quietState(task, time)}
+      ])
+    );
+  }
+
+  /** The state at the cursor of a task that has no event in the store. */
+  quiet(key) {
+    const index = this.store.byKey.get(key);
+    return index === undefined || this.store.lanes[index].length === 0 ? this.states?.get(key) : undefined;
+  }
+
+  /** Of tasks that compute all the time, also the events before and after: they tell whether it is too long. */
+  async widen() {
+    const busy = [...(this.states ?? [])]
+      .filter(([key, {quiet}]) => quiet === "running" && this.quiet(key))
+      .map(([, task]) => task);
+    if (busy.length === 0 || !this.store.complete) return;
+    const from = Math.max(0, this.store.from - SECOND),
+      to = Math.max(this.store.to, ...busy.map((task) => task.local + 1));
+    const store = await this.session.source.events(this.line(), from, to, MOST_EVENTS);
+    if (store.complete) this.store = store;
   }
 
   tooMany(from, to) {

@@ -57,14 +57,9 @@ function drawLane(pen, store, places, axis, task, period, top, height, thin) {
     if (!state || (small && (waits || before < 0 || store.time[after] === store.time[before] || x0 < workedTo))) return;
     if (!waits) workedTo = Math.max(x1, x0 + 1.5);
     if (waits) return drawWait(pen, state, thin ? "" : store.objectText(object), x0, x1, middle, body * 0.5);
-    pen.fillStyle = stateFill(pen, state);
-    pen.fillRect(x0, middle - body / 2, Math.max(1.5, x1 - x0), body);
-    const end = after >= 0 ? store.time[after] : axis.to;
-    if (period > 0 && activation !== null && end > activation + period) {
-      const late = Math.max(x0, Math.min(axis.x(activation + period), x1));
-      pen.fillStyle = stateFill(pen, "late");
-      pen.fillRect(late, middle - body / 2, Math.max(2, x1 - late), body);
-    }
+    const end = after >= 0 ? store.time[after] : axis.to,
+      isLate = period > 0 && activation !== null && end > activation + period;
+    drawWork(pen, state, x0, x1, isLate ? axis.x(activation + period) : null, middle, body);
   };
   if (begin === 0 && lane.length > 0) draw(-1, lane[0], axis.x(store.from), places.of(lane[0]));
   for (let i = begin; i < lane.length; ++i) {
@@ -75,6 +70,16 @@ function drawLane(pen, store, places, axis, task, period, top, height, thin) {
     draw(event, after, places.of(event), after >= 0 ? places.of(after) : axis.x(store.to));
     if (store.time[event] > axis.to) break;
   }
+}
+
+/** A span in which a task works. late: the place from which on it does so after its period, or null. */
+function drawWork(pen, state, x0, x1, late, middle, body) {
+  pen.fillStyle = stateFill(pen, state);
+  pen.fillRect(x0, middle - body / 2, Math.max(1.5, x1 - x0), body);
+  if (late === null) return;
+  const from = Math.max(x0, Math.min(late, x1));
+  pen.fillStyle = stateFill(pen, "late");
+  pen.fillRect(from, middle - body / 2, Math.max(2, x1 - from), body);
 }
 
 /** A span in which a task is idle, or blocked on what the text tells. */
@@ -89,12 +94,19 @@ function drawWait(pen, state, text, x0, x1, middle, size) {
   if (text && x1 - x0 > 80) laneText(pen, text, x0 + 6, middle, x1 - x0 - 12);
 }
 
-/** The whole lane of a task without events, by its state at the cursor. */
-function drawQuietLane(pen, axis, task, top, height) {
-  const asleep = /^(sleep|timer_wait)$/.test(task.operation);
-  if (task.state !== "blocked" && !asleep) return;
-  const text = task.object ? objectText(task.object) : task.operation;
-  drawWait(pen, asleep ? "idle" : "blocked", text, axis.left, axis.left + axis.width, top + height / 2, height * 0.31);
+/** The whole lane of a task without events from `since` on, by its state at the cursor. period: of the task, or 0. */
+function drawQuietLane(pen, axis, task, since, period, top, height) {
+  const right = axis.left + axis.width,
+    middle = top + height / 2;
+  if (task.quiet === "running") {
+    const isLate = period > 0 && task.local > since + period,
+      end = Math.min(right, axis.x(task.local));
+    if (end > axis.left)
+      drawWork(pen, "running", axis.left, end, isLate ? axis.x(since + period) : null, middle, height * 0.62);
+  } else if (task.quiet) {
+    const text = task.object ? objectText(task.object) : task.operation;
+    drawWait(pen, task.quiet, text, axis.left, right, middle, height * 0.31);
+  }
 }
 
 /** A text on the ground of the lane, which interrupts what is below it; none if there is no room. */

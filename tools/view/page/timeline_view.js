@@ -130,10 +130,11 @@ class TimelineView {
       if (row.kind === "robot" && !row.closed) continue;
       for (const task of row.tasks) {
         const index = store.byKey.get(task.key),
-          known = this.data.states?.get(task.key);
-        if (index === undefined && known) drawQuietLane(pen, axis, known, y(row), row.height);
+          quiet = this.data.quiet(task.key),
+          period = this.periodOf(task);
+        if (quiet) drawQuietLane(pen, axis, quiet, store.from, period, y(row), row.height);
         if (index === undefined) continue;
-        drawLane(pen, store, places, axis, index, this.periodOf(task), y(row), row.height, row.tasks.length > 1);
+        drawLane(pen, store, places, axis, index, period, y(row), row.height, row.tasks.length > 1);
         if (count < 3000) drawTicks(pen, store, places, axis, index, y(row), row.height);
       }
     }

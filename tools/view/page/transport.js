@@ -14,7 +14,7 @@ class Transport {
     on("back-period", () => clock.stepPeriod(-1));
     on("next-period", () => clock.stepPeriod(1));
     on("play", () => clock.toggle());
-    on("live", () => clock.setLive(!clock.live));
+    on("live", () => clock.toggleLive());
     byId("speed").append(
       ...SPEEDS.map((speed) => element("option", {value: speed, selected: speed === 1}, `${speed}×`))
     );
