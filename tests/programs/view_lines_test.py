@@ -43,6 +43,17 @@ class Lines(unittest.TestCase):
         self.assertNotIn("not the run of the journal", again.stderr)
         self.assertIn(digest_in(again.stdout), journal["text"])
 
+    def test_a_branch_goes_on_beyond_where_the_run_is_and_tells_what_came_of_its_interventions(self):
+        with Viewed(*PART, "--until", "300", "--serve-control", "--speed", "1") as viewed:
+            client = viewed.client()
+            client.receive_until(lambda told: told.get("kind") == "status" and told.get("time", 0) > SECOND)
+            line = client.ask("branch", line=0, time=SECOND, interventions=["move rackham 20 6 90", "move rackham 0 0"])["line"]
+            self.assertEqual(client.ask("seek", line=line, time=100 * SECOND)["time"], 100 * SECOND)
+            self.assertEqual(client.ask("counts", line=line)["periods"], 100)
+            done, refused = [told["text"] for told in client.ask("journal", line=line)["outcomes"]]
+            self.assertEqual(done, "operator: move rackham 20 6 90: done")
+            self.assertRegex(refused, "operator: move rackham 0 0: refused, '.*' is in the way")
+
     def test_lines_of_one_run_are_compared_and_before_its_start_a_branch_is_the_line_that_it_leaves(self):
         def floor(line, second):
             frame = client.ask("seek", line=line, time=round(second * SECOND))

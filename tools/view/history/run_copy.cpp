@@ -281,7 +281,10 @@ std::string RunCopy::journal() const {
   std::string text = journal_;
   for (const auto& [date, line] : interventions_)
     if (date <= now() + experiment_.world().description().step) text += line;
-  return text_of({{"text", text + run::to_text(here)}});
+  Json outcomes = Json::array();
+  for (const run::InterventionOutcome& outcome : experiment_.outcomes())
+    outcomes.push_back({{"time", outcome.date.ns()}, {"text", outcome.of + ": " + outcome.text}});
+  return text_of({{"text", text + run::to_text(here)}, {"outcomes", outcomes}});
 }
 
 }  // namespace waitpoint::tools::view

@@ -21,7 +21,7 @@
 //   digests {times}            goes on to each of the times, and shows the digest there
 //   intervene {text, date}     modules/run/intervention.hpp, at that step of the world, or the next one
 //   counts {time}              event_counts.hpp, from the start of the run to that time, if given, or to here
-//   journal                    what was intervened so far, and where this is
+//   journal                    what was intervened so far, what came of it, and where this is
 #pragma once
 
 #include <string>

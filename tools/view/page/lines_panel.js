@@ -2,6 +2,15 @@
 // Lines of time: the run and its branches, which of them is shown, which one beside it, and where the two begin to
 // differ.
 
+/** What came of the interventions of a journal. */
+function outcomesOf({outcomes = []}) {
+  if (outcomes.length === 0) return [];
+  return [
+    element("p", {class: "note"}, "What came of it:"),
+    element("ul", {}, ...outcomes.map(({time, text}) => element("li", {}, `${shortInstantText(time)} ${text}`)))
+  ];
+}
+
 class LinesPanel {
   constructor(panel, session, clock, axis) {
     Object.assign(this, {session, clock, axis});
@@ -126,8 +135,9 @@ class LinesPanel {
   async showJournal(line) {
     const answer = await this.session.source.journal(line).catch((error) => ({text: error.message, command: ""}));
     this.journal.replaceChildren(
-      element("h2", {}, `Journal of line ${line}`),
+      element("h2", {}, `Journal of line ${line}, up to the cursor`),
       element("pre", {}, answer.text),
+      ...outcomesOf(answer),
       element("p", {class: "note"}, answer.command ? "Repeated by:" : ""),
       element("pre", {}, answer.command ?? "")
     );

@@ -20,9 +20,19 @@ class LogPanel {
     );
   }
 
-  update() {
+  /** The lines of what is shown: a branch has those of the run up to where it leaves that. */
+  known() {
     const {session} = this,
       {log} = session.source,
+      lines = session.source.status.lines ?? [];
+    let line = lines[session.line];
+    while (line && line.parent > 0) line = lines[line.parent];
+    return line && line.parent === 0 ? log.filter(([time]) => time <= line.from) : log;
+  }
+
+  update() {
+    const {session} = this,
+      log = this.known(),
       words = this.words.value.toLowerCase();
     const robot = (index) => (index >= 0 ? (session.header.robots[index]?.name ?? "") : "");
     const lines = log.filter(
@@ -34,7 +44,7 @@ class LogPanel {
     const now = firstWhere(lines.length, (i) => lines[i][0] > session.time),
       first = Math.max(0, now - 250),
       end = Math.min(lines.length, now + 60);
-    const shown = `${first} ${end} ${now} ${words} ${this.bad.checked} ${lines.length}`;
+    const shown = `${session.line} ${first} ${end} ${now} ${words} ${this.bad.checked} ${lines.length}`;
     if (shown === this.shown) return;
     this.shown = shown;
     const many = session.header.robots.length > 1;
@@ -51,6 +61,8 @@ class LogPanel {
         )
     );
     if (lines.length === 0) this.list.append(element("li", {class: "note"}, "Nothing."));
+    if (session.line > 0)
+      this.list.append(element("li", {class: "note"}, "A branch has no log of its own; its journal says what came of it."));
     this.list.children[Math.max(0, now - first - 1)]?.scrollIntoView({block: "nearest"});
   }
 }

@@ -29,7 +29,8 @@ class RunPanel {
     this.controls = element("div", {class: "row"}, this.hold, element("label", {}, "Pace ", this.pace));
     this.facts = new TextTable("Run", ["Fact", "Value"]);
     this.text = element("pre");
-    panel.append(this.facts.table, this.controls, element("h2", {}, "Summary"), this.text);
+    this.whose = element("h2", {}, "Summary");
+    panel.append(this.facts.table, this.controls, this.whose, this.text);
   }
 
   update() {
@@ -50,6 +51,7 @@ class RunPanel {
     if (status.digest) rows.push(["Digest", status.digest]);
     if (source.connection) rows.push(["For Foxglove", String(source.connection.url).replace("/live?", "/foxglove?")]);
     this.facts.set(rows);
+    setText(this.whose, this.session.line > 0 ? "Summary of the run, not of this line" : "Summary");
     setText(this.text, status.summary || (status.over ? "No summary." : "When the run is over."));
   }
 
