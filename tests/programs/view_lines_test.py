@@ -6,7 +6,7 @@ import tempfile
 import unittest
 
 from installed import main
-from viewed import PART, SECOND, Viewed, digest_in, run
+from viewed import OFFICE, PART, SECOND, Viewed, digest_in, run
 
 
 class Lines(unittest.TestCase):
@@ -53,6 +53,13 @@ class Lines(unittest.TestCase):
             done, refused = [told["text"] for told in client.ask("journal", line=line)["outcomes"]]
             self.assertEqual(done, "operator: move rackham 20 6 90: done")
             self.assertRegex(refused, "operator: move rackham 0 0: refused, '.*' is in the way")
+
+    def test_collisions_have_their_times(self):
+        with Viewed("--until", "40", scenario=OFFICE.parent / "late-pom.yaml") as viewed:
+            viewed.wait_for_end_of_run()
+            (time, robot), = viewed.client().ask("counts", line=0)["collisions"]
+            self.assertEqual(robot, 0)
+            self.assertTrue(20 * SECOND < time < 40 * SECOND, time)
 
     def test_lines_of_one_run_are_compared_and_before_its_start_a_branch_is_the_line_that_it_leaves(self):
         def floor(line, second):

@@ -11,7 +11,7 @@
 namespace waitpoint::tools::view {
 namespace {
 
-constexpr std::size_t periods_max = 2048;
+constexpr std::size_t periods_max = 2048, collisions_max = 1000;
 
 /// Missed deadlines so far, by robot and task.
 using Missed = std::map<std::pair<std::string, std::string>, std::int64_t>;
@@ -27,9 +27,18 @@ Missed missed_deadlines(const run::Experiment& experiment) {
 
 }  // namespace
 
-EventCounts::EventCounts(run::Experiment& experiment) : experiment_(experiment) {}
+EventCounts::EventCounts(run::Experiment& experiment)
+    : experiment_(experiment), collisions_(experiment.robots().size()) {}
+
+void EventCounts::note_collisions(Time now) {
+  for (std::size_t i = 0; i < collisions_.size() && collided_.size() < collisions_max; ++i) {
+    const std::uint64_t collisions = experiment_.world().body(world::BodyId(i)).collisions;
+    if (std::exchange(collisions_[i], collisions) < collisions) collided_.emplace_back(now, i);
+  }
+}
 
 void EventCounts::take(Time now) {
+  note_collisions(now);
   if (now.since_start() < period_ * static_cast<std::int64_t>(periods_ + 1)) return;
   const Missed missed = missed_deadlines(experiment_);
   const kernel::Roster& roster = experiment_.simulation().scheduler().roster();
@@ -83,7 +92,10 @@ std::string EventCounts::text() const {
     append(events, task, task.events);
     append(missed, task, task.missed);
   }
-  return text + "],\"events\":[" + events + "],\"missed\":[" + missed + "]}";
+  std::string collided;
+  for (const auto& [time, robot] : collided_)
+    collided += fmt::format("{}[{},{}]", collided.empty() ? "" : ",", time.ns(), robot);
+  return text + "],\"events\":[" + events + "],\"missed\":[" + missed + "],\"collisions\":[" + collided + "]}";
 }
 
 }  // namespace waitpoint::tools::view

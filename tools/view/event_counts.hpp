@@ -17,7 +17,8 @@ class EventCounts {
   /// Before the run, which must outlive this.
   explicit EventCounts(run::Experiment& experiment);
 
-  /// Call often, between events: takes the counts of the periods that have ended by `now`.
+  /// Call after each step of the world, between events: takes the counts of the periods that have ended by `now`, and
+  /// notes new collisions, the first thousand.
   void take(Time now);
   /// {"kind":"counts","period":...,...}.
   std::string text() const;
@@ -32,11 +33,14 @@ class EventCounts {
   };
 
   void halve();
+  void note_collisions(Time now);
 
   run::Experiment& experiment_;
   Duration period_ = std::chrono::seconds(1);
   std::size_t periods_ = 0;
-  std::map<std::uint32_t, OfTask> tasks_;  // by number
+  std::map<std::uint32_t, OfTask> tasks_;               // by number
+  std::vector<std::uint64_t> collisions_;               // so far, by robot
+  std::vector<std::pair<Time, std::size_t>> collided_;  // with the robot
 };
 
 }  // namespace waitpoint::tools::view

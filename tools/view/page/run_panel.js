@@ -47,12 +47,21 @@ class RunPanel {
       ["Robots", String(header.robots.length)]
     ];
     if (header.description) rows.splice(1, 0, ["Description", header.description]);
+    if (this.collisions()) rows.push(["Collisions", this.collisions()]);
     if (this.missed()) rows.push(["Deadlines missed", this.missed()]);
     if (status.digest) rows.push(["Digest", status.digest]);
     if (source.connection) rows.push(["For Foxglove", String(source.connection.url).replace("/live?", "/foxglove?")]);
     this.facts.set(rows);
     setText(this.whose, this.session.line > 0 ? "Summary of the run, not of this line" : "Summary");
     setText(this.text, status.summary || (status.over ? "No summary." : "When the run is over."));
+  }
+
+  /** When robots have hit something, the first times. */
+  collisions() {
+    const {robots} = this.session.header,
+      all = this.counts()?.collisions ?? [];
+    const texts = all.slice(0, 8).map(([time, i]) => `${robots.length > 1 ? `${robots[i].name} ` : ""}${shortInstantText(time)}`);
+    return texts.join(", ") + (all.length > texts.length ? ", ..." : "");
   }
 
   /** Deadlines that tasks have missed in the whole run, the most first. */

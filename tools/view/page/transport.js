@@ -67,7 +67,7 @@ class Transport {
       );
   }
 
-  /** Behind the slider: events a second of all tasks, deadlines missed, lines of the log, the timeline's view. */
+  /** Behind the slider: events a second of all tasks, deadlines missed, collisions, lines of the log, the timeline's view. */
   paintOverview(pen, width, height) {
     const colours = theme.colours,
       end = Math.max(1, this.clock.end),
@@ -79,6 +79,8 @@ class Transport {
     pen.fillRect(margin, 4, width - 2 * margin, height - 8);
     const counts = this.counts?.();
     if (counts) this.paintCounts(pen, counts, x, height);
+    pen.fillStyle = colours.text;
+    for (const [time] of counts?.collisions ?? []) pen.fillRect(x(time) - 1, 2, 2, height - 4);
     for (const [time, , , , bad] of this.session.source.log) {
       pen.fillStyle = bad ? colours.late : colours.goal;
       pen.fillRect(x(time) - 1, bad ? height - 12 : height - 9, bad ? 3 : 2, bad ? 8 : 5);
