@@ -214,12 +214,22 @@ CASE(a_loop_that_reads_such_a_clock_ends) {
 }
 
 // What differs between processors of one machine, or in each run, is printed; natively it is not compared.
+// Where cpuid cannot be trapped, the number of the core is the system's.
+static int cpuid_can_be_trapped(void) {
+  char line[8192];
+  int found = 0;
+  FILE* const file = fopen("/proc/cpuinfo", "r");
+  while (file != NULL && !found && fgets(line, sizeof line, file) != NULL) found = strstr(line, " cpuid_fault") != NULL;
+  if (file != NULL) fclose(file);
+  return found;
+}
 CASE(the_processor_says_the_same_of_itself_in_each_run) {
+  const int trapped = cpuid_can_be_trapped();
   unsigned a = 0, b = 0, c = 0, d = 0;
   EXPECT_IS(__get_cpuid(1, &a, &b, &c, &d), 1);
-  printf("%x %x %x %x\n", a, b, c, d);
+  printf("%x %x %x %x\n", a, trapped ? b : b & 0xFFFFFF, c, d);
   EXPECT((d & bit_SSE2) != 0);
-  if (__get_cpuid_count(0xB, 0, &a, &b, &c, &d) != 0) printf("%x\n", d);
+  if (trapped && __get_cpuid_count(0xB, 0, &a, &b, &c, &d) != 0) printf("%x\n", d);
 }
 static jmp_buf behind;
 static volatile int* volatile nowhere = (volatile int*)8;
