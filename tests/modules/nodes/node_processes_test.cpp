@@ -90,7 +90,7 @@ TEST(NodeProcesses, KnowTheMasterAndTheirNames) {
 
 TEST(NodeProcesses, AreMissedIfTheyDoNotRegister) {
   FakeMaster master;
-  NodeProcesses processes({node("slow", "sleep 1000"), node("known", "sleep 1000")}, master);
+  NodeProcesses processes({node("slow", "exec sleep 1000"), node("known", "exec sleep 1000")}, master);
   master.nodes.insert("/known");
   processes.go_on({});
   processes.go_on(Time() + Duration(std::chrono::seconds(9)));

@@ -132,8 +132,9 @@ TEST_F(RobotsFromMap, WhatDoesNotFitIsOneLine) {
   EXPECT_EQ(
       complaint("robots_from_map: [{type: scout, start: [1, 1]}]\n"),
       "s.yaml:12: unknown key 'start' in robot 'first' of the map, expected model, type, goals, shape, urdf, base, "
-      "lasers, sonars, bumpers, infrareds, imu, gps, battery, modules, bridge, executive, processors, programs or "
-      "control");
+      "lasers, sonars, bumpers, infrareds, imu, gps, battery, modules, bridge, executive, processors, programs, "
+      "control, ros, "
+      "launch or nodes");
   EXPECT_EQ(complaint("robots: [{name: first, type: tall, start: [9, 9]}]\nrobots_from_map: scout\n"),
             "s.yaml:12: the map has a robot 'first' too, at floor.world:4");
   EXPECT_EQ(complaint("robots: [{name: a, type: scout, start: [9, 9]}]\nrobots_from_map: scout\n"),
