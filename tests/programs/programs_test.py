@@ -13,7 +13,7 @@ from installed import BUILD, HERE, Installed, flags, main, run
 class Headers(Installed):
     def test_they_need_neither_the_tree_nor_other_libraries(self):
         # The headers of real threads replace those of simulated ones; both together cannot be included.
-        headers = sorted(path.relative_to(self.prefix / "include") for path in self.prefix.rglob("*.hpp")
+        headers = sorted(path.relative_to(self.prefix / "include") for path in (self.prefix / "include").rglob("*.hpp")
                          if not path.name.startswith("real_"))
         self.assertGreater(len(headers), 50)
         text = "".join(f"#include <{header}>\n" for header in headers)

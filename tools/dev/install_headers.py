@@ -3,7 +3,7 @@
 
 Each header of the FOLDERs of the tree ROOT is copied to TO/waitpoint/PATH-IN-THE-TREE, and its includes of the tree become
 <waitpoint/...>: users need one include folder, and a `core/` of their own does not conflict. Headers that need the headers of FCL,
-Bullet, Boost.Asio, Boost.Beast, yaml-cpp, nlohmann_json, zlib or Tcl are left out, as are those in tools/dev. A relative TO is one of
+Bullet, Boost.Asio, Boost.Beast, yaml-cpp, nlohmann_json, zlib, Tcl or ROS are left out, as are those in tools/dev. A relative TO is one of
 Meson's installation.
 """
 
@@ -13,8 +13,8 @@ import pathlib
 import re
 
 OWN = re.compile(r'^(\s*#\s*include\s*)"([^"]+)"', re.MULTILINE)
-OF_OTHERS = re.compile(r"^\s*#\s*include\s*<(fcl|ccd|boost/(asio|beast)|bt|Bullet|LinearMath|yaml-cpp|nlohmann|zlib\.h|tcl\.h)",
-                       re.MULTILINE)
+OF_OTHERS = re.compile(r"^\s*#\s*include\s*<(fcl|ccd|boost/(asio|beast)|bt|Bullet|LinearMath|yaml-cpp|nlohmann|zlib\.h|tcl\.h|"
+                       r"ros/|xmlrpcpp/|[a-z0-9]+_msgs/)", re.MULTILINE)
 
 
 def is_public(header, root, known):
