@@ -48,8 +48,7 @@ bool ShownProcess::is_done(const std::string& url) {
     status_ = status;
     has_ended_ = true;
     if (interruption() == 0)
-      std::fprintf(stderr, "waitpoint: the %s %s; until Ctrl-C it is shown at %s\n", what_.c_str(),
-                   WIFSIGNALED(status) ? "was killed" : "is over", url.c_str());
+      std::fprintf(stderr, "waitpoint: the %s is over; until Ctrl-C it is shown at %s\n", what_.c_str(), url.c_str());
   }
   if (interruption() == 0) return false;
   // One signal of a terminal reaches both; the process takes the second for its echo.
