@@ -66,8 +66,7 @@ NodeProcesses::NodeProcesses(std::vector<NodeCommand> commands, const NodeSide& 
 }
 
 void NodeProcesses::go_on(Time now) {
-  while (reap()) {
-  }
+  reap();
   for (Process& process : processes_) {
     if (process.state == State::waiting && may_start(process)) start(process, now);
     if (process.state == State::running) watch(process, now);
@@ -131,15 +130,12 @@ void NodeProcesses::watch(Process& process, Time now) {
   news_.push_back({name, fmt::format("has not registered with the master in {} s", registration.seconds()), true});
 }
 
-// True if one has ended.
-bool NodeProcesses::reap() {
+void NodeProcesses::reap() {
   for (Process& process : processes_) {
     int status = 0;
-    if (process.state != State::running || waitpid(process.id, &status, WNOHANG) != process.id) continue;
-    note_end(process, status);
-    return true;
+    if (process.state == State::running && waitpid(process.id, &status, WNOHANG) == process.id)
+      note_end(process, status);
   }
-  return false;
 }
 
 void NodeProcesses::note_end(Process& process, int status) {
@@ -160,8 +156,7 @@ void NodeProcesses::end() {
       kill(process->id, signal);
       for (Duration waited; waited < patience && process->state == State::running; waited = waited + look) {
         std::this_thread::sleep_for(look);
-        while (reap()) {
-        }
+        reap();
       }
     }
   }

@@ -59,7 +59,7 @@ class NodeProcesses {
   void start(Process& process, Time now);
   void watch(Process& process, Time now);
   void note_end(Process& process, int status);
-  bool reap();
+  void reap();
 
   const NodeSide& master_;
   std::vector<Process> processes_;  // in their order

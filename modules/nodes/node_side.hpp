@@ -45,7 +45,6 @@ struct SonarTopic {
 };
 
 struct RobotTopics {
-  std::string name;
   std::string space;   ///< of its topics: "/" or "/rackham"
   std::string prefix;  ///< of its frames: "" or "rackham/"
   Place start;         ///< in the map

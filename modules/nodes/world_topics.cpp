@@ -74,8 +74,7 @@ NodeSideSetup node_side_setup(const scenario::Scenario& scenario, const Occupanc
     const scenario::RobotScenario& robot = scenario.robots[i];
     const scenario::NodesScenario& nodes = *robot.nodes;
     const std::string prefix = nodes.tf_prefix.empty() ? "" : nodes.tf_prefix + "/";
-    setup.robots.push_back({.name = robot.name,
-                            .space = nodes.ns,
+    setup.robots.push_back({.space = nodes.ns,
                             .prefix = prefix,
                             .start = place_of(robot.body.start),
                             .lasers = lasers_of(robot, prefix),

@@ -7,22 +7,10 @@
 #include <vector>
 
 #include "core/nearest_name.hpp"
+#include "core/word_list.hpp"
 #include "modules/ros1/parameter_text.hpp"
 
 namespace waitpoint::ros1 {
-namespace {
-
-std::string list_of(std::span<const std::string_view> words) {
-  std::string text;
-  for (std::size_t i = 0; i < words.size(); ++i) {
-    if (i > 0) text += i + 1 == words.size() ? " or " : ", ";
-    text += words[i];
-  }
-  return text;
-}
-
-}  // namespace
-
 std::string in_brackets(std::string_view element) { return "<" + std::string(element) + ">"; }
 
 void require_known(const LaunchScope& scope, const tinyxml2::XMLElement& element, std::string_view holder,
@@ -35,7 +23,7 @@ void require_known(const LaunchScope& scope, const tinyxml2::XMLElement& element
                       ": all nodes of a simulation have one machine and its master");
   const std::string hint = did_you_mean(name, known);
   throw written.bad("unknown element " + in_brackets(name) + " in " + in_brackets(holder) +
-                    (hint.empty() ? ", expected " + list_of(known) : hint));
+                    (hint.empty() ? ", expected " + word_list(known) : hint));
 }
 
 LaunchElement::LaunchElement(const tinyxml2::XMLElement& element, LaunchScope& scope, Substitution& substitution,
@@ -48,7 +36,7 @@ LaunchElement::LaunchElement(const tinyxml2::XMLElement& element, LaunchScope& s
     if (std::find(known.begin(), known.end(), given) != known.end()) continue;
     const std::string hint = did_you_mean(given, known);
     throw bad("unknown attribute '" + std::string(given) + "' of " + in_brackets(name()) +
-              (hint.empty() ? ", expected " + list_of(known) : hint));
+              (hint.empty() ? ", expected " + word_list(known) : hint));
   }
 }
 
@@ -98,7 +86,7 @@ std::size_t LaunchElement::one_of(const char* attribute, std::span<const std::st
   if (!value) return otherwise;
   const auto found = std::find(words.begin(), words.end(), *value);
   if (found == words.end())
-    throw bad("expected '" + std::string(attribute) + "' of " + in_brackets(name()) + " to be " + list_of(words) +
+    throw bad("expected '" + std::string(attribute) + "' of " + in_brackets(name()) + " to be " + word_list(words) +
               ", found '" + *value + "'");
   return static_cast<std::size_t>(found - words.begin());
 }

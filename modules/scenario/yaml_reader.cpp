@@ -9,6 +9,7 @@
 #include "core/nearest_name.hpp"
 #include "core/number_text.hpp"
 #include "core/printable_line.hpp"
+#include "core/word_list.hpp"
 
 namespace waitpoint::scenario {
 namespace {
@@ -20,15 +21,6 @@ namespace {
 template <class Number>
 bool parse(const YamlNode& node, Number& number) {
   return node.kind == YamlNode::Kind::scalar && !node.quoted && parse_number(node.text, number);
-}
-
-std::string joined(std::span<const std::string_view> words) {
-  std::string text;
-  for (std::size_t i = 0; i < words.size(); ++i) {
-    if (i > 0) text += i + 1 == words.size() ? " or " : ", ";
-    text += words[i];
-  }
-  return text;
 }
 
 }  // namespace
@@ -95,7 +87,7 @@ YamlMap::YamlMap(const YamlNode& node, std::string what, std::initializer_list<s
     if (is_known) continue;
     const std::string hint = did_you_mean(entry.key, names);
     throw entry.written.bad("unknown key '" + entry.key + "' in " + what_ +
-                            (hint.empty() ? ", expected " + joined(names) : hint));
+                            (hint.empty() ? ", expected " + word_list(names) : hint));
   }
 }
 
@@ -123,7 +115,7 @@ std::size_t YamlMap::one_of(std::string_view key, std::initializer_list<std::str
   for (std::size_t i = 0; i < names.size(); ++i) {
     if (names[i] == text) return i;
   }
-  refuse(*find(key), key, joined(names));
+  refuse(*find(key), key, word_list(names));
 }
 
 void YamlMap::read(std::string_view key, double& value, const NumberRange& range) const {
