@@ -1,27 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Branches of a live run, with interventions.
 import assert from 'node:assert/strict';
-import {after, afterEach, before, test} from 'node:test';
-import {launch, openPage, seek, settle, shareOf} from './browser.mjs';
-import {LiveProgram} from './live_program.mjs';
+import {test} from 'node:test';
+import {seek, settle, shareOf} from './browser.mjs';
+import {open, page, program, text, until} from './live_page.mjs';
 import {poseAt, SECOND} from './sample_run.mjs';
-
-let browser, program, page;
-before(async () => (browser = await launch()));
-after(() => browser.close());
-afterEach(async () => {
-  await page?.close();
-  await program?.close();
-  page = program = null;
-});
-
-async function open(options) {
-  program = new LiveProgram(options);
-  await program.listen();
-  page = await openPage(browser, program.address);
-}
-const text = (selector) => page.$eval(selector, (element) => element.textContent);
-const until = (condition, ...values) => page.waitForFunction(condition, {timeout: 10000}, ...values);
 
 test('a branch with interventions is made, shown and compared', async () => {
   await open();
