@@ -53,6 +53,52 @@ async def main():
 asyncio.run(main())
 """
 
+# A relay between two processes, which waits by epoll: for input, for room, at a duplicate, at a descriptor that is
+# watched anew under the number of a closed one.
+RELAY = """
+import os, select, socket
+listening = socket.create_server(("127.0.0.1", 0))
+address = listening.getsockname()
+if os.fork() == 0:  # sends more than there is room for, and closes
+    with socket.create_connection(address) as out: out.sendall(bytes(range(256)) * 4000)
+    with socket.create_connection(address) as out: out.sendall(b"end")
+    os._exit(0)
+back = socket.create_server(("127.0.0.1", 0))
+if os.fork() == 0:  # reads slowly
+    with socket.create_connection(back.getsockname()) as into:
+        count = 0
+        while more := into.recv(5000): count += len(more)
+    print("received", count, flush=True)
+    os._exit(0)
+out, _ = back.accept()
+out.setblocking(False)
+waiting, taken, held = select.epoll(), 0, b""
+waiting.register(listening, select.EPOLLIN)
+duplicate = select.epoll.fromfd(os.dup(waiting.fileno()))
+connections, order = {}, []
+while taken < 2:
+    for number, event in duplicate.poll():
+        if number == listening.fileno():
+            made, _ = listening.accept()
+            connections[made.fileno()] = made
+            waiting.register(made, select.EPOLLIN)
+        elif number == out.fileno():
+            held = held[out.send(held):]
+            if not held:
+                duplicate.unregister(out)
+                for each in connections: waiting.modify(each, select.EPOLLIN)
+        elif data := connections[number].recv(30000):
+            if not held: waiting.register(out, select.EPOLLOUT)
+            held += data
+            for each in connections: duplicate.modify(each, 0)
+        else:
+            connections.pop(number).close()
+            taken += 1
+out.close()
+for _ in range(2): os.wait()
+print("relayed")
+"""
+
 PASSED_PIPE = """
 import os, socket, time
 ours, theirs = socket.socketpair()
@@ -288,6 +334,10 @@ class Programs(Families):
         for run in self.assertRepeats("python3", "-c", KILLED_CHILD):
             self.assertEqual((run.status, run.output), (0, "timeout -9\n"), run.errors)
             self.assertRegex(run.errors, r" 1\.0\d+ s of virtual time")
+
+    def test_streams_between_processes_that_wait_for_several(self):
+        for run in self.assertRepeats("python3", "-c", RELAY, seeds=range(1, 6)):
+            self.assertEqual((run.status, run.output), (0, "received 1024003\nrelayed\n"), run.errors)
 
     def test_a_passed_pipe_is_the_receivers_too(self):
         for run in self.assertRepeats("python3", "-c", PASSED_PIPE):

@@ -16,6 +16,7 @@
 #include "fibers/posix/base/error_number.hpp"
 #include "fibers/posix/base/interposed.hpp"
 #include "fibers/posix/base/real_waits.hpp"
+#include "fibers/posix/descriptors/connections.hpp"
 #include "fibers/posix/descriptors/partners.hpp"
 #include "fibers/posix/family/order.hpp"
 #include "fibers/posix/family/processes.hpp"
@@ -49,6 +50,7 @@ int waiting_for_no_descriptor = 0;  // these must be polled
 int waiting_for_input = 0;          // for descriptors outside
 int waiting_for_streams = 0;        // of these, for terminals and standard input
 int waiting_for_outsiders = 0;
+family::Changes awaited_outside = 0;  // what threads wait for outside
 
 kernel::Object descriptors_object{"descriptor"};
 kernel::Object outside_object{"something outside"};
@@ -65,9 +67,13 @@ void note_waits() {
   if (family::own == nullptr) return;
   // Without other processes it is not worth a search.
   family::Changes awaited = first != nullptr ? family::of_anything : 0;
+  awaited_outside = waiting_outside > 0 ? family::of_anything : 0;
   if (family::has_others()) {
-    awaited = 0;
-    for (const Waiter* waiter = first; waiter != nullptr; waiter = waiter->next) awaited |= waiter->awaited;
+    awaited = awaited_outside = 0;
+    for (const Waiter* waiter = first; waiter != nullptr; waiter = waiter->next) {
+      awaited |= waiter->awaited;
+      if (waiter->outside) awaited_outside |= waiter->awaited;
+    }
   }
   family::own->listens_to = awaited;
   family::own->waits_outside = waiting_outside > 0;
@@ -98,7 +104,10 @@ void add(Waiter& waiter) {
   waiter.previous = last;
   (last == nullptr ? first : last->next) = &waiter;
   last = &waiter;
-  if (waiter.outside) count_outside(waiter, 1);
+  if (waiter.outside) {
+    count_outside(waiter, 1);
+    if (family::own != nullptr) family::own->is_to_look = true;
+  }
   note_waits();
 }
 
@@ -127,8 +136,10 @@ int poll_counted(pollfd* descriptors, nfds_t count) {
 }
 
 family::Changes awaited_at(const pollfd* descriptors, nfds_t count) {
-  const InsideFile* const pipe = count == 1 ? counted_pipe(descriptors->fd, descriptors->events) : nullptr;
-  return pipe != nullptr ? family::of_pipe(pipe->inode) : family::of_descriptors;
+  family::Changes all = 0;
+  for (nfds_t i = 0; i < count && all != family::of_descriptors; ++i)
+    if (descriptors[i].fd >= 0) all |= changes_at(descriptors[i].fd, descriptors[i].events);
+  return all;
 }
 
 // Wakes the threads whose descriptors, or shared objects, are ready, among those that wait for these changes.
@@ -255,14 +266,15 @@ void forget_waiter(const kernel::Task& task) {
 
 int wait_for(pollfd* descriptors, nfds_t count, Time deadline, Restart restart) {
   kernel::Task& task = *kernel::running;
-  bool outside = false;
+  bool outside = false, within_family = true;
   // A host does not look outside at the end of its instants: descriptors are checked when a guest acts on one.
   for (nfds_t i = 0; i < count && !has_host; ++i)
     if (descriptors[i].fd >= 0 && !is_inside(descriptors[i].fd)) {
       outside = true;
+      within_family = within_family && is_within_family(descriptors[i].fd);
       if (record->settings.strict && (descriptors[i].events & POLLIN) != 0) note_input_from(descriptors[i].fd);
     }
-  if (!outside)
+  if (within_family)
     if (const int ready = poll_counted(descriptors, count); ready != 0) return ready;
   for (;;) {
     if (deadline <= task.local_time) return poll_now(descriptors, count);
@@ -353,6 +365,7 @@ bool wait_for_reader(int descriptor, int patience_ms) {
 void look_at_descriptors(family::Changes changes) {
   if (before_look != nullptr) before_look();
   if (first != nullptr) wake_ready(false, changes);
+  if ((awaited_outside & changes) != 0 && family::own != nullptr) family::own->is_to_look = true;
   family::ring(changes);
 }
 
@@ -365,9 +378,9 @@ void (*note_what_came)() = nullptr;
 
 namespace {
 
-bool look_or_wait(bool may_wait) {
+bool look_or_wait(bool may_wait, family::Changes changes) {
   const bool came = take_in_signals_from_outside();
-  if (wake_ready(true, family::of_anything) || came) return true;
+  if (wake_ready(true, changes) || came) return true;
   if (!may_wait) return false;
   if (!anybody_waits_outside()) return false;
   wait_really(Duration::max());
@@ -378,8 +391,8 @@ bool look_or_wait(bool may_wait) {
 
 }  // namespace
 
-bool look_outside(bool may_wait) {
-  const bool came = look_or_wait(may_wait);
+bool look_outside(bool may_wait, family::Changes changes) {
+  const bool came = look_or_wait(may_wait, changes);
   if (came && note_what_came != nullptr) note_what_came();
   return came;
 }

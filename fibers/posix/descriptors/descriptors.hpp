@@ -41,7 +41,7 @@ void forget_waiter(const kernel::Task& task);
 
 /// The running thread waits until any of the descriptors is ready. As poll(), returns how many are ready, with their
 /// `revents`; 0 at the deadline or if the thread was cancelled; -1 with EINTR if a signal interrupted the wait. If all
-/// are inside, it returns at once if one is ready.
+/// are inside, or streams with both ends in the family, it returns at once if one is ready.
 int wait_for(pollfd* descriptors, nfds_t count, Time deadline, Restart restart);
 /// For one descriptor.
 int wait_for(int descriptor, short events, Time deadline, Restart restart);
@@ -73,8 +73,8 @@ int wait_outside(bool (*is_ready)(const void*), const void* what, Restart restar
 Wait wait_on_shared(kernel::Object& object, Time deadline, bool (*is_ready)(const void*), const void* what);
 
 /// At the end of an instant, outside all threads: checks the conditions of waiting threads, and waits in real time if
-/// `may_wait`. True if a thread may continue.
-bool look_outside(bool may_wait);
+/// `may_wait`. True if a thread may continue. Only those are checked that wait for these changes.
+bool look_outside(bool may_wait, family::Changes changes = family::of_anything);
 /// Called when a thread may continue because of that. What has come from outside or from another process may follow
 /// from anything that a thread has done: for the detection of races. Null without it.
 extern void (*note_what_came)();

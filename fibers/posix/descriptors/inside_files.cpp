@@ -32,24 +32,35 @@ Known known[known_max];
 constexpr std::size_t files_max = 1 << 16;
 constexpr int page = 4096;
 
-// A table with open addressing, by inodes. The entry of this inode, or a free one for it; null if the table is full.
+/// A table with open addressing, by inodes.
+struct InsideFiles {
+  InsideFile* table;
+  std::uint32_t last_number;
+};
+
+InsideFiles* all_files() {
+  return static_cast<InsideFiles*>(family::common(family::Part::inside_files, sizeof(InsideFiles)));
+}
+
+// The entry of this inode, or a free one for it; null if the table is full.
 InsideFile* place_of(ino_t inode) {
-  auto** const table = static_cast<InsideFile**>(family::common(family::Part::inside_files, sizeof(void*)));
-  if (table != nullptr && *table == nullptr)
-    *table = static_cast<InsideFile*>(family::take_pages(files_max * sizeof(InsideFile)));
-  if (table == nullptr || *table == nullptr) return nullptr;
+  InsideFiles* const all = all_files();
+  if (all != nullptr && all->table == nullptr)
+    all->table = static_cast<InsideFile*>(family::take_pages(files_max * sizeof(InsideFile)));
+  if (all == nullptr || all->table == nullptr) return nullptr;
   const std::size_t first = Digest::mix(inode) % files_max;
   for (std::size_t i = 0; i < files_max; ++i) {
-    InsideFile& each = (*table)[(first + i) % files_max];
+    InsideFile& each = all->table[(first + i) % files_max];
     if (each.inode == inode || each.inode == 0) return &each;
   }
   return nullptr;
 }
 
 // 0 for other files.
-ino_t inode_of(int descriptor) {
+ino_t inode_of(int descriptor, bool* is_pipe = nullptr) {
   struct stat status {};
   if (WAITPOINT_NEXT(fstat)(descriptor, &status) != 0) return 0;
+  if (is_pipe != nullptr) *is_pipe = S_ISFIFO(status.st_mode);
   return S_ISFIFO(status.st_mode) || S_ISSOCK(status.st_mode) ? status.st_ino : 0;
 }
 
@@ -58,10 +69,13 @@ InsideFile* file_of(int descriptor) {
   Known& one = known[descriptor];
   if (one.is_asked_for) return one.file;
   one.is_asked_for = true;
-  const ino_t inode = inode_of(descriptor);
+  const ErrorNumberKept kept;
+  bool is_pipe = false;
+  const ino_t inode = inode_of(descriptor, &is_pipe);
   if (inode == 0) return nullptr;
   one.file = place_of(inode);
-  if (one.file != nullptr && one.file->inode != inode) *one.file = {inode, 0, 0, 0, false};
+  if (one.file != nullptr && one.file->inode != inode)
+    *one.file = {inode, 0, 0, 0, false, is_pipe, ++all_files()->last_number};
   return one.file;
 }
 
@@ -100,10 +114,14 @@ void note_waited_for_in_vain(int descriptor) {
 void note_pipe(const int (&ends)[2], int flags) {
   const ErrorNumberKept kept;
   for (const int end : ends) note_inside(end, true);
-  if ((flags & (O_DIRECT | O_NONBLOCK)) != 0 || !is_inside(ends[0]) || !is_inside(ends[1])) return;
+  if (!is_inside(ends[0]) || !is_inside(ends[1])) return;
   InsideFile* const file = file_of(ends[0]);
   if (file == nullptr) return;
-  *file = {file->inode, 0, 0, WAITPOINT_NEXT(fcntl)(ends[0], F_GETPIPE_SZ) / page, true};
+  // The inode may be that of an earlier pipe.
+  *file = {file->inode, 0, 0, 0, false, true, ++all_files()->last_number};
+  if ((flags & (O_DIRECT | O_NONBLOCK)) != 0) return;
+  file->is_counted = true;
+  file->pages_max = WAITPOINT_NEXT(fcntl)(ends[0], F_GETPIPE_SZ) / page;
   known[ends[0]] = {file, POLLIN, true, false};
   known[ends[1]] = {file, POLLOUT, true, false};
 }
@@ -113,7 +131,7 @@ void note_duplicate(int from, int made) {
   note_inside(made, is_inside(from));
   if (made >= known_max || !is_inside(from)) return;
   known[made] = known[from];
-  if (made <= STDERR_FILENO) notice_stream == nullptr ? end_counting(made) : notice_stream(made);
+  if (made <= STDERR_FILENO) notice_stream == nullptr ? note_stream(made) : notice_stream(made);
 }
 
 InsideFile* counted_pipe(int descriptor, short events) {
@@ -140,6 +158,17 @@ void note_read(InsideFile* pipe, std::size_t bytes) {
   if (pipe->held == 0) pipe->pages = 0;
 }
 
+const InsideFile* pipe_inside(int descriptor) {
+  if (!is_inside(descriptor)) return nullptr;
+  const InsideFile* const file = file_of(descriptor);
+  return file != nullptr && file->is_pipe ? file : nullptr;
+}
+
+void note_stream(int descriptor) {
+  if (!is_inside(descriptor)) return;
+  if (InsideFile* const file = file_of(descriptor); file != nullptr) file->is_counted = false, file->has_stream = true;
+}
+
 void end_counting(int descriptor) {
   if (descriptor < 0 || descriptor >= known_max) return;
   if (InsideFile* const file = known[descriptor].file; file != nullptr) file->is_counted = false;
@@ -159,7 +188,7 @@ bool may_have_unnoticed_output() {
   bool may = false;
   for_each_inside([&may](int descriptor) {
     const InsideFile* const file = file_of(descriptor);
-    may = may || (file != nullptr && !file->is_counted);
+    may = may || (file != nullptr && file->has_stream);
   });
   return may;
 }
@@ -169,7 +198,7 @@ bool has_unnoticed_output() {
   for_each_inside([&any](int descriptor) {
     InsideFile* const file = file_of(descriptor);
     int bytes = 0;
-    if (file == nullptr || file->is_counted || WAITPOINT_NEXT(ioctl)(descriptor, FIONREAD, &bytes) != 0) return;
+    if (file == nullptr || !file->has_stream || WAITPOINT_NEXT(ioctl)(descriptor, FIONREAD, &bytes) != 0) return;
     any = any || file->held != bytes;
     file->held = bytes;
   });

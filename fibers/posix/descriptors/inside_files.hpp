@@ -24,6 +24,9 @@ struct InsideFile {
   int pages;      ///< at most so many pages of a counted pipe are in use
   int pages_max;  ///< its capacity
   bool is_counted;
+  bool is_pipe;
+  std::uint32_t number;     ///< in the order of first sight: the inode differs from run to run
+  bool has_stream = false;  ///< a FILE* writes to it by calls within the C library
 };
 
 /// The bytes for which the counted pipe is known to have room.
@@ -55,8 +58,12 @@ InsideFile* counted_pipe(int descriptor, short events);
 inline bool is_counted_pipe(int descriptor) {
   return counted_pipe(descriptor, POLLIN) != nullptr || counted_pipe(descriptor, POLLOUT) != nullptr;
 }
+/// The pipe, counted or not, of which `descriptor` is an end; else null.
+const InsideFile* pipe_inside(int descriptor);
 /// From now on its bytes may change by other means.
 void end_counting(int descriptor);
+/// By calls within the C library, which are not noticed.
+void note_stream(int descriptor);
 void end_counting_of_inode(ino_t inode);
 /// Of all, as duplicates may be passed to another process, which can find them by note_received().
 void end_counting_of_all();
@@ -69,7 +76,7 @@ void inherit_inside();
 /// The descriptor was received from another process: it is inside if its pipe or socket is.
 void note_received(int descriptor);
 
-/// True if a pipe or socket inside, other than a counted one, may have been written to by the C library.
+/// True if a pipe or socket inside may have been written to by the C library.
 bool may_have_unnoticed_output();
 /// True if one of them holds another number of bytes than at the last call.
 bool has_unnoticed_output();

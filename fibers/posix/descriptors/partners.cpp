@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fibers/posix/descriptors/partners.hpp"
 
-#include <netinet/in.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -14,6 +13,7 @@
 #include "fibers/posix/base/error_number.hpp"
 #include "fibers/posix/base/interposed.hpp"
 #include "fibers/posix/descriptors/inside_files.hpp"
+#include "fibers/posix/descriptors/internet_address.hpp"
 #include "fibers/posix/family/processes.hpp"
 #include "fibers/posix/family/system_processes.hpp"
 
@@ -29,31 +29,19 @@ Watched watched_by[known_descriptors_max];  // by epoll descriptors
 bool is_certain[known_descriptors_max];     // a certain partner was found there
 int certain_count = 0;
 
-/// The ports of the family's internet sockets, a bit each.
+/// The ports of the family's internet sockets, a bit each, and the numbers of the connections made from them.
 struct Ports {
   std::uint64_t words[65536 / 64];
+  std::uint32_t connections[65536];
+  std::uint32_t last_connection;
 };
 
 Ports* ports() { return static_cast<Ports*>(family::common(family::Part::ports, sizeof(Ports))); }
 
-union Address {
-  sockaddr any;
-  sockaddr_in internet;
-  sockaddr_in6 internet_6;
-  sockaddr_storage room;
-};
-
-// 0 without one.
-in_port_t port_of(const Address& address) {
-  const sa_family_t of = address.any.sa_family;
-  return of == AF_INET ? ntohs(address.internet.sin_port) : of == AF_INET6 ? ntohs(address.internet_6.sin6_port) : 0;
-}
-
 // Over the loopback, or by the machine's own address: then both ends have it.
-bool is_of_this_machine(int descriptor, const Address& peer) {
-  Address own{};
-  socklen_t size = sizeof own;
-  const bool is_known = getsockname(descriptor, &own.any, &size) == 0;
+bool is_of_this_machine(int descriptor, const InternetAddress& peer) {
+  InternetAddress own{};
+  const bool is_known = read_own_address(descriptor, own);
   if (peer.any.sa_family == AF_INET) {
     const in_addr_t host = peer.internet.sin_addr.s_addr;
     return ntohl(host) >> 24 == 127 || (is_known && host == own.internet.sin_addr.s_addr);
@@ -73,9 +61,8 @@ Partner peer_of_local(int descriptor) {
 }
 
 Partner partner_of_socket(int descriptor) {
-  Address peer{};
-  socklen_t size = sizeof peer;
-  if (getpeername(descriptor, &peer.any, &size) != 0) return Partner::possible;
+  InternetAddress peer{};
+  if (!read_peer_address(descriptor, peer)) return Partner::possible;
   if (peer.any.sa_family == AF_UNIX) return peer_of_local(descriptor);
   const in_port_t port = port_of(peer);
   const Ports* const own = ports();
@@ -108,13 +95,36 @@ Partner partner_at(int descriptor) {
 
 bool has_partner() { return certain_count > 0; }
 
-void note_own_port(int descriptor) {
+namespace {
+
+// 0 if the socket has none.
+in_port_t note_own_port(int descriptor, Ports& all) {
   const ErrorNumberKept kept;
-  Address own{};
-  socklen_t size = sizeof own;
-  if (getsockname(descriptor, &own.any, &size) != 0) return;
+  InternetAddress own{};
+  if (!read_own_address(descriptor, own)) return 0;
   const in_port_t port = port_of(own);
-  if (Ports* const all = ports(); all != nullptr && port != 0) all->words[port / 64] |= std::uint64_t{1} << (port % 64);
+  if (port != 0) all.words[port / 64] |= std::uint64_t{1} << (port % 64);
+  return port;
+}
+
+}  // namespace
+
+void note_listening(int descriptor) {
+  Ports* const all = ports();
+  if (all == nullptr) return;
+  if (const in_port_t port = note_own_port(descriptor, *all); port != 0) all->connections[port] = 0;
+}
+
+void note_connecting(int descriptor) {
+  Ports* const all = ports();
+  if (all == nullptr) return;
+  if (const in_port_t port = note_own_port(descriptor, *all); port != 0)
+    all->connections[port] = ++all->last_connection;
+}
+
+std::uint32_t connection_from(in_port_t port) {
+  const Ports* const all = ports();
+  return all != nullptr ? all->connections[port] : 0;
 }
 
 void note_watched(int epoll, int descriptor) {

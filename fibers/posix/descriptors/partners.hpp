@@ -3,6 +3,8 @@
 // sockets. They live in real time.
 #pragma once
 
+#include <netinet/in.h>
+
 #include <cstdint>
 
 namespace waitpoint::posix {
@@ -20,8 +22,12 @@ Partner partner_at(int descriptor);
 /// True if a descriptor is open at which a certain partner was found.
 bool has_partner();
 
-/// The port of an internet socket is the family's.
-void note_own_port(int descriptor);
+/// An internet socket of the family listens, or is about to be connected. Both before the other end can wait for it.
+void note_listening(int descriptor);
+void note_connecting(int descriptor);
+/// The number of the connection between two ports, in the order in which the family made them, by the one that it was
+/// made from; 0 if it did not make it from there.
+std::uint32_t connection_from(in_port_t port);
 /// `epoll` watches the descriptor outside from now on.
 void note_watched(int epoll, int descriptor);
 /// The descriptor is closed.

@@ -24,23 +24,41 @@ bool waits_for_others(bool outside, const Process& process) {
 bool waits_outside(const Process& process) { return waits_for_others(process.waits_outside, process); }
 bool awaits_outsiders(const Process& process) { return waits_for_others(process.awaits_outsiders, process); }
 
+// True if natives are at the other end of whatever the family's processes wait for.
+bool is_in_real_time() {
+  return family::has_natives() || std::ranges::any_of(family::entries(), [](const Process& process) {
+           return family::takes_turns(process) && process.has_partner;
+         });
+}
+
 // Notes whether a thread of this process has run since the last call: it may have acted on a socket, say.
 void note_actions(const kernel::Scheduler& scheduler) {
   static std::uint64_t switches_before = 0;
   if (scheduler.switches() == switches_before) return;
   switches_before = scheduler.switches();
   ++family::family->actions;
+  // Alone it may have acted by the C library's output, which is not noticed.
+  if (!family::has_others()) family::own->is_to_look = true;
 }
 
-// At the end of an instant, each process that waits for something outside looks there: once, and again after actions at
-// the same instant, which another process may have been waiting for.
+// True if the process is to look outside at the end of this instant: after an action of its own, or a wait's begin;
+// with a partner or a native process in real time, at each instant once, and again after each action of the family;
+// with a possible partner from time to time. What others of the family do rings it.
+bool is_to_look(const Process& process, Time now) {
+  if (!waits_outside(process)) return false;
+  if (process.is_to_look) return true;
+  if (process.looked_at == now) return is_in_real_time() && process.looked_after != family::family->actions;
+  constexpr Duration from_time_to_time = Duration(std::chrono::milliseconds(1));
+  return is_in_real_time() || (process.awaits_outsiders && later(process.looked_at, from_time_to_time) <= now);
+}
+
 bool let_all_look(Time now) {
   bool any = false;
   for (Process& process : family::entries()) {
-    const std::uint64_t actions = family::family->actions;
-    if (!waits_outside(process) || (process.looked_at == now && process.looked_after == actions)) continue;
+    if (!is_to_look(process, now)) continue;
+    process.is_to_look = false;
     process.looked_at = now;
-    process.looked_after = actions;
+    process.looked_after = family::family->actions;
     if (&process == family::own)
       any = look_outside(false) || any;
     else
@@ -125,7 +143,7 @@ bool step_in_family(kernel::Scheduler& scheduler, Time& until) {
   do {
     if (all.is_over) return false;
     note_actions(scheduler);
-    if (family::take_ring(scheduler)) look_outside(false);
+    if (const family::Changes changes = family::take_ring(scheduler); changes != 0) look_outside(false, changes);
     if (anybody_listens() && has_unnoticed_output()) family::ring(family::of_descriptors);
     const Time ring = family::own->is_rung ? family::own->rung_at : Time::max();
     const Time own = std::min(scheduler.next_event_time(), ring);

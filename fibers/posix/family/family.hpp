@@ -55,8 +55,9 @@ using Changes = std::uint64_t;
 inline constexpr Changes of_objects = Changes{1} << 63;  ///< shared primitives, System V objects
 inline constexpr Changes of_descriptors = of_objects - 1;
 inline constexpr Changes of_anything = of_objects | of_descriptors;
-/// One pipe: a subset of the descriptors.
-inline constexpr Changes of_pipe(std::uint64_t inode) { return Changes{1} << (inode % 63); }
+/// Subsets of the descriptors: sockets that listen, and a stream, by its pipe's inode or a number of its own.
+inline constexpr Changes of_connecting = Changes{1} << 62;
+inline constexpr Changes of_stream(std::uint64_t number) { return Changes{1} << (number % 62); }
 
 /// A signal sent by another process.
 struct Letter {
@@ -94,10 +95,12 @@ struct Process {
   bool is_chosen = false;                             ///< by the strategy: it executes the next event
   bool is_rung = false;                               ///< one of them did something since, first at `rung_at`
   Time rung_at;
+  Changes rung_for = 0;  ///< what it may have changed
   bool waits_outside = false;
   bool has_partner = false;            ///< outside: virtual time waits for real time
   bool awaits_input = false;           ///< the same for descriptors alone
   bool awaits_outsiders = false;       ///< somebody who is not of the family may end one of these waits
+  bool is_to_look = false;             ///< at the end of the instant: it acted on what its own threads wait for outside
   Time looked_at = Time::from_ns(-1);  ///< the instant at whose end it last looked outside
   std::uint64_t looked_after = 0;      ///< the family's actions until then
 

@@ -53,7 +53,8 @@ void limit_window(kernel::Scheduler& scheduler) {
   if (key.time != Time::max()) scheduler.schedule(limit, key);
 }
 
-void ring(Process& process) {
+void ring(Process& process, Changes changes) {
+  process.rung_for |= changes;
   const Time now = kernel::running != nullptr ? kernel::running->local_time : record->scheduler.global_time();
   if (process.is_rung && process.rung_at <= now) return;
   process.is_rung = true;
@@ -64,7 +65,7 @@ void ring(Process& process) {
 void ring(Changes changes) {
   if (!has_others()) return;
   for (Process& process : entries())
-    if (&process != own && (process.listens_to & changes) != 0 && takes_turns(process)) ring(process);
+    if (&process != own && (process.listens_to & changes) != 0 && takes_turns(process)) ring(process, changes);
 }
 
 }  // namespace waitpoint::posix::family

@@ -31,8 +31,8 @@ bool has_others();
 void limit_window(kernel::Scheduler& scheduler);
 void remove_limit(kernel::Scheduler& scheduler);
 
-/// Makes a process check, at the present instant of this one, for what its threads wait.
-void ring(Process& process);
+/// Makes a process check, at the present instant of this one, for what its threads wait among these.
+void ring(Process& process, Changes changes = of_anything);
 /// The same for all whose threads wait for one of these changes.
 void ring(Changes changes);
 

@@ -56,6 +56,7 @@ bool take_from_killed() {
   if (concerns_own && (!own->is_rung || own->rung_at > family->now)) {
     own->is_rung = true;
     own->rung_at = family->now;
+    own->rung_for = of_anything;
   }
   return true;
 }
@@ -162,11 +163,11 @@ void hand_over_to(kernel::Scheduler& scheduler, Process& process) {
   await_turn();
 }
 
-bool take_ring(kernel::Scheduler& scheduler) {
-  if (!own->is_rung || scheduler.next_event_time() < own->rung_at) return false;
+Changes take_ring(kernel::Scheduler& scheduler) {
+  if (!own->is_rung || scheduler.next_event_time() < own->rung_at) return 0;
   own->is_rung = false;
   if (scheduler.global_time() < own->rung_at) scheduler.advance(own->rung_at);
-  return true;
+  return std::exchange(own->rung_for, 0);
 }
 
 void leave(int status) {

@@ -32,8 +32,8 @@ bool hand_over_if_due(kernel::Scheduler& scheduler);
 /// Hands over the turn to this process, which a strategy has chosen or which waits for something outside; returns when
 /// it has come back.
 void hand_over_to(kernel::Scheduler& scheduler, Process& process);
-/// True if other processes rang; then the run is at the present instant of the family.
-bool take_ring(kernel::Scheduler& scheduler);
+/// What other processes that rang may have changed; then the run is at the present instant of the family. 0: none rang.
+Changes take_ring(kernel::Scheduler& scheduler);
 
 /// The process is about to end, with a status as of waitpid(): hands over the turn for good.
 void leave(int status);

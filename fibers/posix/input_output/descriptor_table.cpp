@@ -19,6 +19,7 @@
 #include "core/error.hpp"
 #include "fibers/posix/base/argument_memory.hpp"
 #include "fibers/posix/base/interposed.hpp"
+#include "fibers/posix/descriptors/connections.hpp"
 #include "fibers/posix/descriptors/descriptors.hpp"
 #include "fibers/posix/descriptors/owners.hpp"
 #include "fibers/posix/descriptors/partners.hpp"
@@ -42,7 +43,8 @@ int one(int descriptor) {
 }
 
 int copy(int from, int made) {
-  if (made >= 0) note_duplicate(from, made), copy_asked(from, made), note_copy(from, made);
+  if (made >= 0)
+    note_duplicate(from, made), copy_asked(from, made), note_copy(from, made), note_shared_epoll(from, made);
   return made;
 }
 
@@ -51,6 +53,7 @@ void forget(int closed) {
   forget_signal_descriptor(closed);
   close_stream_over_link(closed);
   forget_watched(closed);
+  forget_connection(closed);
   note_inside(closed, false);
 }
 
@@ -132,9 +135,14 @@ WAITPOINT_INTERPOSED int epoll_create(int size) noexcept { return one(WAITPOINT_
 WAITPOINT_INTERPOSED int epoll_ctl(int descriptor, int operation, int watched, epoll_event* event) noexcept {
   const int result = WAITPOINT_NEXT(epoll_ctl)(descriptor, operation, watched, event);
   if (result != 0 || !is_simulated()) return result;
-  if (operation != EPOLL_CTL_DEL && !is_inside(watched)) {
-    note_inside(descriptor, false);
-    note_watched(descriptor, watched);
+  if (operation == EPOLL_CTL_DEL) {
+    end_watch(descriptor, watched);
+  } else {
+    note_watch(descriptor, watched, event->events);
+    if (!is_inside(watched)) {
+      note_inside(descriptor, false);
+      note_watched(descriptor, watched);
+    }
   }
   look_at_descriptors();
   return result;

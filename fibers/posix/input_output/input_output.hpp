@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "core/error.hpp"
+#include "fibers/posix/descriptors/connections.hpp"
 #include "fibers/posix/descriptors/descriptors.hpp"
 #include "fibers/posix/links/loopback.hpp"
 #include "fibers/posix/program/waiting.hpp"
@@ -36,12 +37,6 @@ long write_at_once(int descriptor, const void* bytes, std::size_t size);
 /// for all, since only the system knows which descriptors are connected.
 inline constexpr char all_descriptors = 0;
 
-/// What a transfer by this descriptor may change.
-inline family::Changes changes_at(int descriptor, short events) {
-  const InsideFile* const pipe = counted_pipe(descriptor, events);
-  return pipe != nullptr ? family::of_pipe(pipe->inode) : family::of_descriptors;
-}
-
 /// Makes the call, and wakes the threads that can continue after it.
 template <class Call>
 auto done(Call call, family::Changes changes = family::of_descriptors) {
@@ -68,7 +63,7 @@ auto send_all_at_once(int descriptor, bool may_block, Call call) {
   const DescriptorClass of = class_of(descriptor);
   if (of == DescriptorClass::file) return at_cancellation_point(call);
   if (!prepare(descriptor, of, kernel::Operation::send, POLLOUT, may_block)) return static_cast<decltype(call())>(-1);
-  return done(call);
+  return done(call, changes_at(descriptor, POLLOUT));
 }
 
 /// Writes in pieces, since a pipe or a stream that is ready may not have room for all. `take(bytes, size)` writes

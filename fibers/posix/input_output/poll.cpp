@@ -5,6 +5,7 @@
 #include <sys/epoll.h>
 #include <sys/select.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <cstring>
@@ -31,11 +32,13 @@ int wait(pollfd* descriptors, nfds_t count, Time deadline) {
   // Errors are reported at once: unreadable arrays, too many descriptors.
   WAITPOINT_FAST_CHECK(!this_thread().in_wait, "a thread waits for descriptors within another wait");
   if (WAITPOINT_NEXT(poll)(descriptors, count, 0) < 0) return -1;
+  const bool has_closed =
+      std::any_of(descriptors, descriptors + count, [](const pollfd& each) { return (each.revents & POLLNVAL) != 0; });
   const CancellationPoint point;
   const bool has_temporary_mask = this_thread().has_temporary_mask;
   pass(kernel::Operation::poll, nullptr);
   if (has_temporary_mask && !this_thread().has_temporary_mask) return fail(EINTR);
-  const int ready = wait_for(descriptors, count, deadline, Restart::never);
+  const int ready = wait_for(descriptors, count, has_closed ? kernel::running->local_time : deadline, Restart::never);
   // Signals that were pending interrupt the call even with a timeout of zero.
   if (ready == 0 && deliverable(this_thread()) != 0 && is_interrupted(Restart::never)) return fail(EINTR);
   // It takes time, so that a polling loop ends.

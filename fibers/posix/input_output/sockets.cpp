@@ -16,6 +16,7 @@
 #include "fibers/posix/base/argument_memory.hpp"
 #include "fibers/posix/base/error_number.hpp"
 #include "fibers/posix/base/interposed.hpp"
+#include "fibers/posix/descriptors/connections.hpp"
 #include "fibers/posix/descriptors/owners.hpp"
 #include "fibers/posix/descriptors/partners.hpp"
 #include "fibers/posix/input_output/input_output.hpp"
@@ -209,7 +210,11 @@ int connect_at_once(int descriptor, const sockaddr* address, socklen_t length) {
 int connect_and_wait(int descriptor, const sockaddr* address, socklen_t length) {
   const CancellationPoint point;
   for (;;) {
-    const int result = done([&] { return connect_at_once(descriptor, address, length); });
+    const int result = done([&] {
+      const int made = connect_at_once(descriptor, address, length);
+      note_connecting(descriptor);
+      return made;
+    });
     if (result == 0 || (errno != EINPROGRESS && errno != EAGAIN)) return result;
     if (errno == EINPROGRESS) break;
     // EAGAIN, of a local socket: the listener's queue is full.
@@ -331,8 +336,11 @@ WAITPOINT_INTERPOSED int connect(int descriptor, const sockaddr* address, sockle
   if (can_be_read(address) && !leaves(address)) send_at_once(descriptor);
   pass(kernel::Operation::connect, nullptr);
   const bool waits = class_of(descriptor) == DescriptorClass::socket && blocks(descriptor);
-  const int result = waits ? connect_and_wait(descriptor, address, length)
-                           : done([&] { return WAITPOINT_NEXT(connect)(descriptor, address, length); });
-  note_own_port(descriptor);
-  return result;
+  forget_connection(descriptor);
+  if (waits) return connect_and_wait(descriptor, address, length);
+  return done([&] {
+    const int result = WAITPOINT_NEXT(connect)(descriptor, address, length);
+    note_connecting(descriptor);
+    return result;
+  });
 }

@@ -79,7 +79,7 @@ WAITPOINT_INTERPOSED int listen(int descriptor, int most) noexcept {
   if (!is_simulated() || !is_tcp(descriptor)) return WAITPOINT_NEXT(listen)(descriptor, most);
   send_at_once(descriptor);
   const int result = WAITPOINT_NEXT(listen)(descriptor, longest_queue);
-  note_own_port(descriptor);
+  note_listening(descriptor);
   return result;
 }
 

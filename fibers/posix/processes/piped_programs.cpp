@@ -121,6 +121,6 @@ WAITPOINT_INTERPOSED int pclose(FILE* stream) {
 WAITPOINT_INTERPOSED FILE* fdopen(int descriptor, const char* mode) noexcept {
   FILE* const stream = WAITPOINT_NEXT(fdopen)(descriptor, mode);
   if (stream == nullptr || !is_simulated()) return stream;
-  family::has_others() ? trap_stream(descriptor) : end_counting(descriptor);
+  family::has_others() ? trap_stream(descriptor) : note_stream(descriptor);
   return with_own_bytes(stream, mode);
 }

@@ -12,6 +12,7 @@
 #include "core/error.hpp"
 #include "fibers/posix/base/error_number.hpp"
 #include "fibers/posix/base/interposed.hpp"
+#include "fibers/posix/descriptors/connections.hpp"
 #include "fibers/posix/descriptors/descriptors.hpp"
 #include "fibers/posix/descriptors/pace.hpp"
 #include "fibers/posix/family/turn.hpp"
@@ -115,6 +116,7 @@ void begin_as_child() {
   expected = nullptr;
   system_v::inherit_memory(family::own->parent);
   forget_waiters();
+  note_shared_epolls();
   forget_native_children();
   forget_vectors();
   leave_shared_mutexes();

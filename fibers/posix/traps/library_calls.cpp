@@ -132,7 +132,7 @@ void trap_stream(int descriptor) {
   if ((word & bit) != 0) return;
   word |= bit;
   if (!can_be_told_from_others(range) || !trap(range, Trapped::stream, static_cast<std::uint32_t>(descriptor)))
-    end_counting(descriptor);
+    note_stream(descriptor);
 }
 
 void trap_open_mp() {
