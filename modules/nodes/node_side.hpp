@@ -105,6 +105,12 @@ struct RobotReadings {
   std::optional<BatteryReading> battery;
 };
 
+/// What nodes ask of a robot by cmd_vel.
+struct Command {
+  Speeds speeds;               ///< as they are, of the newest message
+  std::uint32_t messages = 1;  ///< those that came, as far as the queue has kept them
+};
+
 class NodeSide {
  public:
   virtual ~NodeSide() = default;
@@ -121,8 +127,8 @@ class NodeSide {
   virtual bool has_driver(std::size_t robot) const = 0;
   /// The robot's next goal, in the map.
   virtual void send_goal(std::size_t robot, const Place& goal) = 0;
-  /// By robot, the newest cmd_vel since the last call, as it is.
-  virtual std::vector<std::optional<Speeds>> take_commands() = 0;
+  /// By robot, what has come since the last call.
+  virtual std::vector<std::optional<Command>> take_commands() = 0;
 };
 
 /// What the library offers.

@@ -18,6 +18,7 @@ constexpr double arrived_m = 0.5;  // from the goal
 constexpr double at_rest_m_s = 0.1;
 constexpr Duration patience = std::chrono::minutes(5);
 constexpr Duration odometry_period = std::chrono::milliseconds(50), battery_period = std::chrono::seconds(1);
+constexpr std::uint32_t messages_per_s_at_most = 500;  // a controller sends 10 to 100
 constexpr const char* place = "nodes";
 
 bool is_number(const Speeds& speeds) {
@@ -102,11 +103,17 @@ void WorldNode::read_sensors(Robot& robot, const world::World& world, Time now, 
 }
 
 void WorldNode::take_in(outside::Host& host) {
-  const std::vector<std::optional<Speeds>> commands = nodes_->take_commands();
+  const std::vector<std::optional<Command>> commands = nodes_->take_commands();
+  const bool is_new_second = host.next_step() >= second_ + Duration(std::chrono::seconds(1));
+  if (is_new_second) second_ = host.next_step();
   processes_.go_on(host.next_step());
   tell_news(host);
   for (std::size_t i = 0; i < robots_.size(); ++i) {
-    if (commands[i]) drive(host, robots_[i], *commands[i]);
+    if (is_new_second) robots_[i].messages = 0;
+    if (commands[i]) {
+      count(host, robots_[i], commands[i]->messages);
+      drive(host, robots_[i], commands[i]->speeds);
+    }
     show_goal(host, i);
   }
   if (processes_.is_over()) host.finish();
@@ -121,6 +128,15 @@ void WorldNode::tell_news(outside::Host& host) {
     faults_.add("faults of nodes");
     host.tell_fault(news.node, news.text);
   }
+}
+
+void WorldNode::count(outside::Host& host, Robot& robot, std::uint32_t messages) {
+  robot.messages += messages;
+  if (robot.messages <= messages_per_s_at_most || !faults_.add("floods of speeds")) return;
+  host.tell_fault(scenario_.robots[robot.index].name,
+                  fmt::format("cmd_vel: expected at most {} messages a second, found more: of those that come within a "
+                              "step of the world the last is obeyed",
+                              messages_per_s_at_most));
 }
 
 void WorldNode::drive(outside::Host& host, const Robot& robot, const Speeds& speeds) {

@@ -37,11 +37,13 @@ class WorldNode final : public outside::Partner {
     std::uint64_t imu_samples = 0;
     std::size_t goals_sent = 0;  // so far
     Time sent_at = {};           // the last one
+    std::uint32_t messages = 0;  // of cmd_vel, within a second
   };
 
   RobotReadings readings(Robot& robot, const world::World& world, Time now);
   void read_sensors(Robot& robot, const world::World& world, Time now, RobotReadings& readings);
   void show_goal(outside::Host& host, std::size_t number);
+  void count(outside::Host& host, Robot& robot, std::uint32_t messages);
   void drive(outside::Host& host, const Robot& robot, const Speeds& speeds);
   void tell_news(outside::Host& host);
 
@@ -50,6 +52,7 @@ class WorldNode final : public outside::Partner {
   std::unique_ptr<NodeSide> nodes_;
   NodeProcesses processes_;  // end before the master
   std::uint64_t commands_ = 0, goals_ = 0;
+  Time second_;                             // the virtual second of which messages are counted
   std::optional<std::uint64_t> published_;  // step
   outside::FaultCounts faults_;
 };

@@ -112,6 +112,14 @@ class Nodes(unittest.TestCase):
         self.assertEqual(done.stderr.count("cmd_vel: expected finite speeds, found one that is not"), 1, done.stderr)
         self.assertRegex(done.stdout, r"nodes: 0 goals, 0 commands, \d+ speeds that are no numbers")
 
+    def test_a_flood_of_speeds(self):
+        node = self.node("flood", "import rospy\nfrom geometry_msgs.msg import Twist\nrospy.init_node('flood')\n"
+                         "out = rospy.Publisher('cmd_vel', Twist, queue_size=1)\n"
+                         "while not rospy.is_shutdown(): out.publish(Twist())\n")
+        done = self.run_hall(f"    nodes: [{{name: flood, command: [{node}]}}]\n", "--until", "3")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("cmd_vel: expected at most 500 messages a second, found more", done.stderr)
+
     def test_options_that_exclude_nodes(self):
         for option in ["--serve"], ["--speed", "1"], ["--seeds", "1..3"], ["--check"], ["--interactive"]:
             done = self.run_hall(f"    nodes: [{{name: driver, command: [{DRIVER}]}}]\n", *option)

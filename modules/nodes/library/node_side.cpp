@@ -85,9 +85,9 @@ class WorldAndMaster final : public NodeSide {
   bool has_driver(std::size_t robot) const override { return robots_[robot]->has_driver(); }
   void send_goal(std::size_t robot, const Place& goal) override { robots_[robot]->send_goal(stamp_, goal); }
 
-  std::vector<std::optional<Speeds>> take_commands() override {
+  std::vector<std::optional<Command>> take_commands() override {
     ros::getGlobalCallbackQueue()->callAvailable();
-    std::vector<std::optional<Speeds>> commands;
+    std::vector<std::optional<Command>> commands;
     commands.reserve(robots_.size());
     for (const auto& robot : robots_) commands.push_back(robot->take_command());
     return commands;

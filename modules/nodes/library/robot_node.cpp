@@ -39,7 +39,8 @@ RobotNode::RobotNode(const RobotTopics& topics) : topics_(topics), node_(topics.
 }
 
 void RobotNode::take(const geometry_msgs::Twist& twist) {
-  command_ = Speeds{twist.linear.x, twist.linear.y, twist.linear.z, twist.angular.z};
+  const std::uint32_t before = command_ ? command_->messages : 0;
+  command_ = Command{{twist.linear.x, twist.linear.y, twist.linear.z, twist.angular.z}, before + 1};
 }
 
 void RobotNode::publish(std::int64_t now_ns, const ros::Time& stamp, const RobotReadings& readings,

@@ -26,7 +26,7 @@ class RobotNode {
   /// Its start, for nodes that localise it.
   void send_start(const ros::Time& stamp);
   bool has_driver() const { return goal_.getNumSubscribers() > 0; }
-  std::optional<Speeds> take_command() { return std::exchange(command_, std::nullopt); }
+  std::optional<Command> take_command() { return std::exchange(command_, std::nullopt); }
 
  private:
   void take(const geometry_msgs::Twist& twist);
@@ -37,7 +37,7 @@ class RobotNode {
   std::vector<ros::Publisher> scans_, sonars_;
   ros::Publisher odometry_, truth_, imu_, battery_, goal_, start_;
   ros::Subscriber drive_;
-  std::optional<Speeds> command_;  // the newest
+  std::optional<Command> command_;
 };
 
 }  // namespace waitpoint::nodes

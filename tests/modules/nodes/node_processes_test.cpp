@@ -20,7 +20,7 @@ class FakeMaster final : public NodeSide {
   void publish(std::int64_t, const std::vector<RobotReadings>&) override {}
   bool has_driver(std::size_t) const override { return false; }
   void send_goal(std::size_t, const Place&) override {}
-  std::vector<std::optional<Speeds>> take_commands() override { return {}; }
+  std::vector<std::optional<Command>> take_commands() override { return {}; }
 };
 
 NodeCommand node(const std::string& name, const std::string& script) {
