@@ -120,8 +120,17 @@ class Nodes(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertIn("cmd_vel: expected at most 500 messages a second, found more", done.stderr)
 
+    def test_a_series_of_seeds(self):
+        series = self.run_hall(f"    nodes: [{{name: driver, command: [{DRIVER}]}}]\n    goals: [{{x_m: 4, y_m: 4}}]\n", "--seeds", "3..4")
+        self.assertEqual(series.returncode, 0, series.stderr)
+        rows = [line.split() for line in series.stdout.splitlines() if line.strip()[:1] in ("3", "4")]
+        self.assertEqual([row[0] for row in rows], ["3", "4"])
+        for row in rows:
+            alone = self.run_scenario(self.folder / "hall.yaml", "--seed", row[0])
+            self.assertEqual(self.digests(alone)[0], row[-1])
+
     def test_options_that_exclude_nodes(self):
-        for option in ["--serve"], ["--speed", "1"], ["--seeds", "1..3"], ["--check"], ["--interactive"]:
+        for option in ["--serve"], ["--speed", "1"], ["--check"], ["--interactive"]:
             done = self.run_hall(f"    nodes: [{{name: driver, command: [{DRIVER}]}}]\n", *option)
             self.assertEqual(done.returncode, 2)
             self.assertIn(f"{option[0]}: cannot be used for a scenario with nodes", done.stderr)

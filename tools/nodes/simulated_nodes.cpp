@@ -57,16 +57,18 @@ bool is_among_nodes() {
   return is_simulated;
 }
 
-int run_among_nodes(std::span<const std::string> arguments, std::uint64_t seed) {
+int run_among_nodes(std::span<const std::string> arguments, std::uint64_t seed, Report report) {
   ExecOptions options;
   options.seed = seed;
   options.conditions.call_cost = call_cost;
+  options.quiet = report == Report::none;
   options.words = {std::filesystem::read_symlink("/proc/self/exe").string()};
   options.words.insert(options.words.end(), arguments.begin(), arguments.end());
   const LogFolder logs;
   const double begin_s = wall_clock_s();
   const int status = exec(options);
-  std::fprintf(stderr, "waitpoint: the run with its nodes took %.1f s\n", wall_clock_s() - begin_s);
+  if (report == Report::at_end)
+    std::fprintf(stderr, "waitpoint: the run with its nodes took %.1f s\n", wall_clock_s() - begin_s);
   return status;
 }
 

@@ -12,8 +12,11 @@ namespace waitpoint::tools {
 /// True in a process of such a simulation, where the wall clock shows virtual time.
 bool is_among_nodes();
 
+/// What is printed of the simulation itself: processes, threads, events, and how long it took.
+enum class Report : std::uint8_t { none, at_end };
+
 /// The run, by this program's arguments; returns its status. The order of what happens at one instant in nodes follows
 /// from the seed.
-int run_among_nodes(std::span<const std::string> arguments, std::uint64_t seed);
+int run_among_nodes(std::span<const std::string> arguments, std::uint64_t seed, Report report = Report::at_end);
 
 }  // namespace waitpoint::tools

@@ -17,6 +17,7 @@
 #include "modules/scenario/scenario_reader.hpp"
 #include "tools/command/interruption.hpp"
 #include "tools/command/program_layer.hpp"
+#include "tools/nodes/seed_with_nodes.hpp"
 #include "tools/nodes/simulated_nodes.hpp"
 #include "tools/nodes/world_partner.hpp"
 #include "tools/output/summary.hpp"
@@ -159,6 +160,7 @@ int run_once(const RunOptions& options, const scenario::Scenario& scenario, run:
   Printed printed(options);
   printed.print(summary_text(result));
   outputs->write(result);
+  if (is_among_nodes()) leave_result(result);
   if (live) live->finish(result);
   printed.check();
   if (!same) tell_of_difference(*journal);
@@ -177,7 +179,6 @@ scenario::Scenario scenario_of(const RunOptions& options) {
 void check_for_nodes(const RunOptions& options) {
   const std::pair<const char*, bool> others[] = {{"--speed", options.speed != 0},
                                                  {"--serve", options.serve.has_value()},
-                                                 {"--seeds", options.seeds.has_value()},
                                                  {"--ranks", options.ranks > 1},
                                                  {"--interactive", options.interactive},
                                                  {"--tcl", options.tcl},
@@ -275,7 +276,10 @@ int run(const RunOptions& options, std::span<const genom::ModuleType> types) {
   if (scenario.has_nodes() && !is_among_nodes() && !options.replay_journal) {
     check_nodes(scenario);
     check_for_nodes(options);
-    return run_among_nodes(options.arguments, options.seed);
+    if (!options.seeds) return run_among_nodes(options.arguments, options.seed);
+    return run_seeds(options, scenario, [&](std::uint64_t seed, const std::string&) {
+      return run_seed_with_nodes(options.arguments, seed);
+    });
   }
   if (scenario.log) {
     const RunWatchdog watchdog(options.watchdog_s);
