@@ -99,6 +99,29 @@ for _ in range(2): os.wait()
 print("relayed")
 """
 
+# A thread waits at an epoll descriptor, to which another thread adds a connection meanwhile.
+WATCHED_LATER = """
+import os, select, socket, threading, time
+listening = socket.create_server(("127.0.0.1", 0))
+if os.fork() == 0:
+    with socket.create_connection(listening.getsockname()) as out:
+        time.sleep(2)
+        out.sendall(b"late")
+        time.sleep(2)
+    os._exit(0)
+waiting = select.epoll()
+waiting.register(os.pipe()[0], select.EPOLLIN)
+found = []
+thread = threading.Thread(target=lambda: found.append((waiting.poll(10), time.monotonic())))
+begin = time.monotonic()
+thread.start()
+made, _ = listening.accept()
+time.sleep(1)
+waiting.register(made, select.EPOLLIN)
+thread.join()
+print(found[0][0] == [(made.fileno(), select.EPOLLIN)], round(found[0][1] - begin, 2))
+"""
+
 PASSED_PIPE = """
 import os, socket, time
 ours, theirs = socket.socketpair()
@@ -338,6 +361,10 @@ class Programs(Families):
     def test_streams_between_processes_that_wait_for_several(self):
         for run in self.assertRepeats("python3", "-c", RELAY, seeds=range(1, 6)):
             self.assertEqual((run.status, run.output), (0, "received 1024003\nrelayed\n"), run.errors)
+
+    def test_a_stream_that_is_watched_while_a_thread_waits(self):
+        for run in self.assertRepeats("python3", "-c", WATCHED_LATER):
+            self.assertEqual((run.status, run.output), (0, "True 2.0\n"), run.errors)
 
     def test_a_passed_pipe_is_the_receivers_too(self):
         for run in self.assertRepeats("python3", "-c", PASSED_PIPE):

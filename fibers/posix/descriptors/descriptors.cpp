@@ -18,6 +18,7 @@
 #include "fibers/posix/base/real_waits.hpp"
 #include "fibers/posix/descriptors/connections.hpp"
 #include "fibers/posix/descriptors/partners.hpp"
+#include "fibers/posix/descriptors/waiters.hpp"
 #include "fibers/posix/family/order.hpp"
 #include "fibers/posix/family/processes.hpp"
 #include "fibers/posix/program/program.hpp"
@@ -30,28 +31,6 @@
 namespace waitpoint::posix {
 namespace {
 
-/// A waiting thread; on its own stack.
-struct Waiter {
-  kernel::Task* task;
-  pollfd* descriptors;
-  nfds_t count;
-  bool outside;
-  family::Changes awaited;
-  Partner partner = Partner::none;          // the nearest at a descriptor outside
-  bool (*is_ready)(const void*) = nullptr;  // null: one of the descriptors
-  const void* what = nullptr;
-  Waiter* next = nullptr;
-  Waiter* previous = nullptr;
-};
-Waiter* first = nullptr;
-Waiter* last = nullptr;
-int waiting_outside = 0;
-int waiting_for_no_descriptor = 0;  // these must be polled
-int waiting_for_input = 0;          // for descriptors outside
-int waiting_for_streams = 0;        // of these, for terminals and standard input
-int waiting_for_outsiders = 0;
-family::Changes awaited_outside = 0;  // what threads wait for outside
-
 kernel::Object descriptors_object{"descriptor"};
 kernel::Object outside_object{"something outside"};
 
@@ -60,65 +39,6 @@ int poll_now(pollfd* descriptors, nfds_t count, int timeout_ms = 0) {
   const int ready = WAITPOINT_NEXT(poll)(descriptors, count, timeout_ms);
   if (ready >= 0) errno = error;
   return ready;
-}
-
-// For the other processes of the family.
-void note_waits() {
-  if (family::own == nullptr) return;
-  // Without other processes it is not worth a search.
-  family::Changes awaited = first != nullptr ? family::of_anything : 0;
-  awaited_outside = waiting_outside > 0 ? family::of_anything : 0;
-  if (family::has_others()) {
-    awaited = awaited_outside = 0;
-    for (const Waiter* waiter = first; waiter != nullptr; waiter = waiter->next) {
-      awaited |= waiter->awaited;
-      if (waiter->outside) awaited_outside |= waiter->awaited;
-    }
-  }
-  family::own->listens_to = awaited;
-  family::own->waits_outside = waiting_outside > 0;
-  family::own->awaits_input = waiting_for_input > 0;
-  family::own->awaits_outsiders = waiting_for_outsiders > 0;
-}
-
-bool is_explored() { return record->settings.asked != nullptr; }
-
-bool awaits_outsiders(const Waiter& waiter) {
-  if (waiter.count == 0) return true;
-  return waiter.partner == Partner::possible ? !is_explored() : waiter.partner != Partner::none;
-}
-
-void count_outside(const Waiter& waiter, int by) {
-  waiting_outside += by;
-  if (awaits_outsiders(waiter)) waiting_for_outsiders += by;
-  (waiter.count == 0 ? waiting_for_no_descriptor : waiting_for_input) += by;
-  if (waiter.partner == Partner::input) waiting_for_streams += by;
-  WAITPOINT_CHECK(waiting_for_no_descriptor >= 0 && waiting_outside >= waiting_for_no_descriptor,
-                  "the counts of threads that wait outside disagree");
-}
-
-void add(Waiter& waiter) {
-  WAITPOINT_CHECK(last == nullptr ? first == nullptr : last->next == nullptr && last != &waiter,
-                  "the end of the list of waiting threads is broken");
-  waiter.next = nullptr;
-  waiter.previous = last;
-  (last == nullptr ? first : last->next) = &waiter;
-  last = &waiter;
-  if (waiter.outside) {
-    count_outside(waiter, 1);
-    if (family::own != nullptr) family::own->is_to_look = true;
-  }
-  note_waits();
-}
-
-void remove(Waiter& waiter) {
-  WAITPOINT_CHECK((waiter.previous == nullptr ? first : waiter.previous->next) == &waiter &&
-                      (waiter.next == nullptr ? last : waiter.next->previous) == &waiter,
-                  "a thread that ends its wait is not in the list of waiting threads");
-  (waiter.previous == nullptr ? first : waiter.previous->next) = waiter.next;
-  (waiter.next == nullptr ? last : waiter.next->previous) = waiter.previous;
-  if (waiter.outside) count_outside(waiter, -1);
-  note_waits();
 }
 
 // True if the count of a pipe shows that its end is ready; false if only the system knows.
@@ -135,17 +55,10 @@ int poll_counted(pollfd* descriptors, nfds_t count) {
   return 1;
 }
 
-family::Changes awaited_at(const pollfd* descriptors, nfds_t count) {
-  family::Changes all = 0;
-  for (nfds_t i = 0; i < count && all != family::of_descriptors; ++i)
-    if (descriptors[i].fd >= 0) all |= changes_at(descriptors[i].fd, descriptors[i].events);
-  return all;
-}
-
 // Wakes the threads whose descriptors, or shared objects, are ready, among those that wait for these changes.
 bool wake_ready(bool outside_too, family::Changes changes) {
   bool any = false;
-  for (Waiter* waiter = first; waiter != nullptr; waiter = waiter->next) {
+  for (Waiter* waiter = first_waiter(); waiter != nullptr; waiter = waiter->next) {
     if (waiter->task->state != kernel::TaskState::blocked || (waiter->outside && !outside_too) ||
         (waiter->awaited & changes) == 0)
       continue;
@@ -176,18 +89,18 @@ void poll_until_a_signal(pollfd* descriptors, nfds_t count, const timespec* long
 // Waits in real time for any descriptor that a thread waits for.
 void wait_really(Duration longest) {
   nfds_t count = 0;
-  for (const Waiter* waiter = first; waiter != nullptr; waiter = waiter->next) count += waiter->count;
+  for (const Waiter* waiter = first_waiter(); waiter != nullptr; waiter = waiter->next) count += waiter->count;
   auto* const all = static_cast<pollfd*>(std::malloc((count + 1) * sizeof(pollfd)));
   if (all == nullptr) refuse("there is no memory to wait for descriptors");
   nfds_t at = 0;
-  for (const Waiter* waiter = first; waiter != nullptr; waiter = waiter->next) {
+  for (const Waiter* waiter = first_waiter(); waiter != nullptr; waiter = waiter->next) {
     if (waiter->count == 0) continue;
     WAITPOINT_CHECK(waiter->count <= count - at, "the descriptors waited for exceed their number");
     std::memcpy(all + at, waiter->descriptors, waiter->count * sizeof(pollfd));
     at += waiter->count;
   }
   constexpr Duration asking = Duration(std::chrono::milliseconds(20));
-  if (waiting_for_no_descriptor > 0 && asking < longest) longest = asking;
+  if (anybody_must_ask() && asking < longest) longest = asking;
   const timespec timeout = to_timespec(longest.ns());
   poll_until_a_signal(all, count, longest == Duration::max() ? nullptr : &timeout);
   std::free(all);
@@ -207,62 +120,8 @@ void note_input_from(int descriptor) {
 
 }  // namespace
 
-namespace {
-
-// True if a thread of this process could act on an end inside before input from outside comes.
-bool can_others_act(const kernel::Scheduler& scheduler) {
-  if (family::has_others()) return true;
-  for (const kernel::Task* task = scheduler.first_task(); task != nullptr; task = task->next) {
-    if (task->state == kernel::TaskState::blocked && !task->finite_wait) continue;
-    const Waiter* waiter = first;
-    while (waiter != nullptr && waiter->task != task) waiter = waiter->next;
-    if (waiter == nullptr || !waiter->outside) return true;
-  }
-  return false;
-}
-
-}  // namespace
-
-bool anybody_awaits_partner(const kernel::Scheduler& scheduler) {
-  Partner nearest = Partner::none;
-  for (const Waiter* waiter = first; waiter != nullptr; waiter = waiter->next)
-    if (waiter->task->state == kernel::TaskState::blocked) nearest = std::max(nearest, waiter->partner);
-  if (nearest == Partner::possible) return !is_explored() && !can_others_act(scheduler);
-  return nearest == Partner::certain;
-}
-
 void (*before_look)() = nullptr;
 void (*before_partner)() = nullptr;
-
-namespace {
-
-bool may_be_served_by_natives() { return first != nullptr && !has_host && family::has_natives(); }
-
-}  // namespace
-
-bool anybody_waits_outside() { return waiting_outside > 0 || may_be_served_by_natives(); }
-bool anybody_awaits_stream() { return waiting_for_streams > 0; }
-bool anybody_awaits_outsiders() { return waiting_for_outsiders > 0 || may_be_served_by_natives(); }
-
-void forget_waiters() {
-  first = last = nullptr;
-  waiting_outside = waiting_for_no_descriptor = waiting_for_input = waiting_for_streams = waiting_for_outsiders = 0;
-}
-
-const pollfd* awaited_descriptors(const kernel::Task& task, nfds_t& count) {
-  count = 0;
-  for (const Waiter* waiter = first; waiter != nullptr; waiter = waiter->next)
-    if (waiter->task == &task) {
-      count = waiter->count;
-      return waiter->descriptors;
-    }
-  return nullptr;
-}
-
-void forget_waiter(const kernel::Task& task) {
-  for (Waiter* waiter = first; waiter != nullptr; waiter = waiter->next)
-    if (waiter->task == &task) return remove(*waiter);
-}
 
 int wait_for(pollfd* descriptors, nfds_t count, Time deadline, Restart restart) {
   kernel::Task& task = *kernel::running;
@@ -310,17 +169,10 @@ void pause_to_look() {
 }  // namespace
 
 WaitsOutside::WaitsOutside() {
-  ++waiting_outside;
-  if (!is_explored()) ++waiting_for_outsiders;
-  note_waits();
+  count_signal_waits(1);
   pause_to_look();
 }
-WaitsOutside::~WaitsOutside() {
-  WAITPOINT_CHECK(waiting_outside > waiting_for_no_descriptor, "more waits for signals have ended than begun");
-  --waiting_outside;
-  if (!is_explored()) --waiting_for_outsiders;
-  note_waits();
-}
+WaitsOutside::~WaitsOutside() { count_signal_waits(-1); }
 
 int wait_outside(bool (*is_ready)(const void*), const void* what, Restart restart) {
   kernel::Task& task = *kernel::running;
@@ -353,7 +205,7 @@ bool wait_for_reader(int descriptor, int patience_ms) {
   pollfd one{descriptor, POLLOUT, 0};
   if (poll_now(&one, 1) > 0) return true;
   // A thread whose descriptors are ready may be the reader.
-  for (const Waiter* waiter = first; waiter != nullptr; waiter = waiter->next)
+  for (const Waiter* waiter = first_waiter(); waiter != nullptr; waiter = waiter->next)
     if (waiter->count > 0 && poll_now(waiter->descriptors, waiter->count) > 0) return false;
   // An outside reader that did not read last time is not waited for again.
   if (was_waited_for_in_vain(descriptor)) return false;
@@ -364,8 +216,8 @@ bool wait_for_reader(int descriptor, int patience_ms) {
 
 void look_at_descriptors(family::Changes changes) {
   if (before_look != nullptr) before_look();
-  if (first != nullptr) wake_ready(false, changes);
-  if ((awaited_outside & changes) != 0 && family::own != nullptr) family::own->is_to_look = true;
+  if (first_waiter() != nullptr) wake_ready(false, changes);
+  if ((awaited_outside() & changes) != 0 && family::own != nullptr) family::own->is_to_look = true;
   family::ring(changes);
 }
 

@@ -14,30 +14,12 @@
 #include "core/time.hpp"
 #include "fibers/kernel/task.hpp"
 #include "fibers/posix/descriptors/inside_files.hpp"
+#include "fibers/posix/descriptors/waiters.hpp"
 #include "fibers/posix/family/family.hpp"
 #include "fibers/posix/program/waiting.hpp"
 #include "fibers/posix/signals/signals.hpp"
 
 namespace waitpoint::posix {
-
-/// True if a thread waits for something outside.
-bool anybody_waits_outside();
-/// True if a thread waits for a terminal or a standard input from outside.
-bool anybody_awaits_stream();
-/// True if the wait of one may be ended by somebody who is not of the family. Waits at sockets whose both ends are of
-/// the family are not, though the system delivers; while schedules are explored, nor are those at sockets that nobody
-/// is connected to, and for signals.
-bool anybody_awaits_outsiders();
-/// The same for descriptors with a partner outside (partners.hpp); with a possible one only if no other thread of the
-/// program could be at the other end.
-bool anybody_awaits_partner(const kernel::Scheduler& scheduler);
-
-/// In the child: no thread waits.
-void forget_waiters();
-/// For what a thread waits here, for reports; null and 0 if it is no descriptor.
-const pollfd* awaited_descriptors(const kernel::Task& task, nfds_t& count);
-/// The task no longer exists.
-void forget_waiter(const kernel::Task& task);
 
 /// The running thread waits until any of the descriptors is ready. As poll(), returns how many are ready, with their
 /// `revents`; 0 at the deadline or if the thread was cancelled; -1 with EINTR if a signal interrupted the wait. If all

@@ -144,6 +144,7 @@ WAITPOINT_INTERPOSED int epoll_ctl(int descriptor, int operation, int watched, e
       note_watched(descriptor, watched);
     }
   }
+  note_changed_watches();
   look_at_descriptors();
   return result;
 }
