@@ -93,6 +93,10 @@ class Pages(Installed):
     def test_programs(self):
         self.try_page("programs.md")
 
+    def test_ros(self):
+        if (BUILD / "libwaitpoint-nodes.so").exists():
+            self.try_page("ros.md")
+
     def test_external(self):
         self.try_page("external.md")
 
