@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Robots whose software is nodes of ROS 1: nodes_test.py BUILD.
+"""Robots whose software is nodes of ROS 1: nodes_test.py BUILD [--long].
 
 Skipped where ROS is missing: `./dev ros` installs it and builds the nodes of scenarios/office-ros.yaml.
 """
@@ -12,6 +12,7 @@ import sys
 import tempfile
 import unittest
 
+LONG = "--long" in sys.argv and not sys.argv.remove("--long")
 BUILD = pathlib.Path(sys.argv.pop(1)).resolve()
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 WAITPOINT = BUILD / "tools/waitpoint"
@@ -134,6 +135,26 @@ class Nodes(unittest.TestCase):
             done = self.run_hall(f"    nodes: [{{name: driver, command: [{DRIVER}]}}]\n", *option)
             self.assertEqual(done.returncode, 2)
             self.assertIn(f"{option[0]}: cannot be used for a scenario with nodes", done.stderr)
+
+    @unittest.skipUnless(LONG, "takes long: --long")
+    def test_a_hundred_runs(self):
+        """Of the office, every third one beside two loops that compute, every tenth one in gdb."""
+        scenario, found = ROOT / "scenarios/office-ros.yaml", set()
+        for number in range(1, 101):
+            under = ["gdb", "-batch", "-ex", "run", "--args"] if number % 10 == 0 else []
+            loops = [subprocess.Popen([sys.executable, "-c", "while True: pass"]) for _ in range(2 if number % 3 == 0 else 0)]
+            try:
+                done = subprocess.run([*under, WAITPOINT, "run", scenario], stdin=subprocess.DEVNULL, capture_output=True,
+                                      text=True, timeout=1200)
+            finally:
+                for loop in loops:
+                    loop.kill()
+                    loop.wait()
+            found.add(tuple(self.digests(done)))
+            self.assertEqual(len(found), 1, found)
+            self.assertEqual(len(self.digests(done)), 2, done.stderr)
+            if number % 10 == 0:
+                print(f"{number} runs of 100: {' '.join(*found)}", flush=True)
 
 
 if __name__ == "__main__":
