@@ -19,6 +19,7 @@
 #include "tools/explore/replay/replay.hpp"
 #include "tools/explore/report/failure_report.hpp"
 #include "tools/explore/runs/program_target.hpp"
+#include "tools/explore/runs/run_with_nodes.hpp"
 #include "tools/explore/runs/scene.hpp"
 #include "tools/explore/search/discoveries.hpp"
 #include "tools/explore/search/search.hpp"
@@ -178,18 +179,17 @@ int explore(const ExploreOptions& options, std::span<const genom::ModuleType> ty
     if (!options.serve) return begin(nullptr);
     return show_search(options, [&](view::Channel& viewers) { return begin(&viewers); });
   };
-  if (!options.program.empty()) {
-    if (!options.replay.empty()) return replay_program(options);
+  const auto explore_program = [&shown](const ExploreOptions& of_program) {
+    if (!of_program.replay.empty()) return replay_program(of_program);
     return shown([&](view::Channel* viewers) {
-      Files files(options, viewers);
-      ProgramTarget program(options);
+      Files files(of_program, viewers);
+      ProgramTarget program(of_program);
       return search(program, files);
     });
-  }
+  };
+  if (!options.program.empty()) return explore_program(options);
   const scenario::Scenario scenario = scenario::read_scenario(options.scenario, options.assignments);
-  for (const scenario::RobotScenario& robot : scenario.robots)
-    if (robot.nodes)
-      throw robot.nodes->written.bad("expected no nodes: other orders of them are other seeds of `waitpoint run`");
+  if (scenario.has_nodes()) return explore_program(with_run_as_program(options, scenario));
   begin_with_program_layer(scenario);
   if (!options.replay.empty()) return replay(options, scenario, types);
   return shown([&](view::Channel* viewers) {

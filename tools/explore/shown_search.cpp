@@ -24,7 +24,8 @@ using view::Json;
 constexpr int refused = 2;  // the status of a search for bad input
 
 std::string title_of(const ExploreOptions& options) {
-  return options.program.empty() ? options.scenario.stem().string() : quoted(options.program).substr(1);
+  return options.program.empty() || options.has_nodes ? options.scenario.stem().string()
+                                                      : quoted(options.program).substr(1);
 }
 
 /// What the search sends.

@@ -3,47 +3,17 @@
 
 #include <dlfcn.h>
 
-#include <cerrno>
+#include <chrono>
 #include <cstdio>
-#include <cstdlib>
-#include <cstring>
 #include <filesystem>
 
 #include "core/error.hpp"
 #include "tools/command/installed_part.hpp"
 #include "tools/exec/exec.hpp"
+#include "tools/nodes/log_folder.hpp"
 #include "tools/output/progress.hpp"
 
 namespace waitpoint::tools {
-namespace {
-
-// Of a use of a primitive with what is around it: so a message takes some tenths of a millisecond from node to node, as
-// on a robot's computer. And loops that poll, as roscpp's and rospy's at their ends, end after fewer rounds.
-constexpr Duration call_cost = std::chrono::microseconds(5);
-
-/// Where nodes write their logs: what earlier runs have left there would be part of the run.
-class LogFolder {
- public:
-  LogFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "waitpoint-ros-XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) throw BadInput(name, std::string("cannot be made: ") + std::strerror(errno));
-    path_ = name;
-    setenv("ROS_HOME", name.c_str(), 1);
-    setenv("ROS_LOG_DIR", name.c_str(), 1);
-  }
-  ~LogFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  LogFolder(const LogFolder&) = delete;
-  LogFolder& operator=(const LogFolder&) = delete;
-
- private:
-  std::filesystem::path path_;
-};
-
-}  // namespace
-
 bool is_among_nodes() {
   static const bool is_simulated = [] {
     for (const char* const layer : {"libwaitpoint-exec.so", "libwaitpoint-exec-races.so"}) {
@@ -57,14 +27,24 @@ bool is_among_nodes() {
   return is_simulated;
 }
 
+ProgramConditions conditions_of_nodes() {
+  // With what is around a use of a primitive: so a message takes some tenths of a millisecond from node to node, as on
+  // a robot's computer. And loops that poll, as roscpp's and rospy's at their ends, end after fewer rounds.
+  constexpr Duration call_cost = std::chrono::microseconds(5);
+  ProgramConditions conditions;
+  conditions.call_cost = call_cost;
+  return conditions;
+}
+
 int run_among_nodes(std::span<const std::string> arguments, std::uint64_t seed, Report report) {
   ExecOptions options;
   options.seed = seed;
-  options.conditions.call_cost = call_cost;
+  options.conditions = conditions_of_nodes();
   options.quiet = report == Report::none;
   options.words = {std::filesystem::read_symlink("/proc/self/exe").string()};
   options.words.insert(options.words.end(), arguments.begin(), arguments.end());
   const LogFolder logs;
+  logs.use();
   const double begin_s = wall_clock_s();
   const int status = exec(options);
   if (report == Report::at_end)

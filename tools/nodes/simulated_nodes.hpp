@@ -7,6 +7,8 @@
 #include <span>
 #include <string>
 
+#include "tools/exec/program_conditions.hpp"
+
 namespace waitpoint::tools {
 
 /// True in a process of such a simulation, where the wall clock shows virtual time.
@@ -14,6 +16,9 @@ bool is_among_nodes();
 
 /// What is printed of the simulation itself: processes, threads, events, and how long it took.
 enum class Report : std::uint8_t { none, at_end };
+
+/// What computing costs in it.
+ProgramConditions conditions_of_nodes();
 
 /// The run, by this program's arguments; returns its status. The order of what happens at one instant in nodes follows
 /// from the seed.

@@ -5,6 +5,9 @@
 #include <unistd.h>
 
 #include <cstdio>
+#include <memory>
+#include <optional>
+#include <string>
 
 #include "core/error.hpp"
 #include "tools/exec/access_obstacles.hpp"
@@ -14,19 +17,47 @@
 #include "tools/explore/runs/learned_code.hpp"
 #include "tools/explore/runs/program_finding.hpp"
 #include "tools/explore/runs/program_target.hpp"
+#include "tools/explore/runs/run_streams.hpp"
+#include "tools/explore/runs/run_with_nodes.hpp"
 #include "tools/explore/search/feedback.hpp"
+#include "tools/nodes/log_folder.hpp"
 #include "tools/output/output_file.hpp"
 
 namespace waitpoint::tools {
 namespace {
 
+/// The program; and of a scenario with nodes, whose processes inherit them, the folder of their logs and the streams,
+/// as in a search.
+struct ReplayedProgram {
+  explicit ReplayedProgram(const ExploreOptions& options) : files(options.program, false, options.switch_at) {
+    if (!options.has_nodes) return;
+    around.emplace();
+    logs.emplace(*around).use();
+    streams = std::make_unique<RunStreams>();
+    streams->open();
+    dup2(streams->input(), STDIN_FILENO);
+  }
+  /// The output of a run that begins; `usual` for a program.
+  int begin_run(int usual) const {
+    if (!logs) return usual;
+    logs->clear();
+    streams->open();
+    return streams->output();
+  }
+
+  ProgramFiles files;
+  std::unique_ptr<RunStreams> streams = {};
+  std::optional<LogFolder> around = {}, logs = {};  // a path as long as in a search: it is in the nodes' memory
+};
+
 /// A run; the program's output is discarded.
-Finding look(const ProgramFiles& files, const ExploreOptions& options, const Plan& plan, const Target::Request& request,
-             const exploration::Profile& known) {
+Finding look(const ReplayedProgram& replayed, const ExploreOptions& options, const Plan& plan,
+             const Target::Request& request, const exploration::Profile& known) {
   RunMemory memory(settings_of(options));
-  ask_for_run(memory, files, options, plan, request, known);
+  ask_for_run(memory, replayed.files, options, plan, request, known);
   const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
-  const ProgramRun run(files, memory, nowhere, options.schedule_limit_s.value_or(least_limit_s));
+  const ProgramRun run(replayed.files, memory, replayed.begin_run(nowhere),
+                       options.schedule_limit_s.value_or(least_limit_s));
   close(nowhere);
   Finding finding = finding_of_run(memory, run.status(), "", request, false, false);
   if (run.is_over_limit()) finding.kind = Finding::Kind::no_progress;
@@ -39,16 +70,16 @@ void check_obstacle(const Finding& finding) {
 }
 
 /// The parts of the profile that the schedule depends on.
-exploration::Profile take_profile(const ProgramFiles& files, const ExploreOptions& options, const Plan& plan) {
+exploration::Profile take_profile(const ReplayedProgram& replayed, const ExploreOptions& options, const Plan& plan) {
   exploration::Profile known, profile;
-  known.code = learn_code(files, [&](const Plan& learning, const std::vector<std::uint64_t>& code) {
+  known.code = learn_code(replayed.files, [&](const Plan& learning, const std::vector<std::uint64_t>& code) {
     known.code = code;
-    Finding finding = look(files, options, learning, {.learn = true}, known);
+    Finding finding = look(replayed, options, learning, {.learn = true}, known);
     check_obstacle(finding);
     return finding;
   });
   if (plan.drawn && needs_profile(options.strategy))
-    profile = look(files, options, {.drawn = false}, {.profile = true}, known).profile;
+    profile = look(replayed, options, {.drawn = false}, {.profile = true}, known).profile;
   profile.code = known.code;
   return profile;
 }
@@ -61,20 +92,24 @@ int replay_program(const ExploreOptions& asked) {
   options.conditions.check(named.named());
   const ReplayRecord record = read_replay_record(options, fingerprint_of(named, options));
   check_memory(options, named);
-  const ProgramFiles files(options.program, false, options.switch_at);
+  const ReplayedProgram replayed(options);
   std::optional<OutputFile> trace;
   if (options.trace) trace.emplace(*options.trace);
-  const exploration::Profile profile = take_profile(files, options, record.plan);
-  const auto learn_from = [&](const Plan& plan) { return look(files, options, plan, {.pairs = true}, profile); };
+  const exploration::Profile profile = take_profile(replayed, options, record.plan);
+  const auto learn_from = [&](const Plan& plan) { return look(replayed, options, plan, {.pairs = true}, profile); };
   const Plan plan = record.plan.drawn ? Feedback(options.strategy, options.seed).plan_of(record.plan.number, learn_from)
                                       : record.plan;
   const Target::Request request{.words = !record.plan.drawn, .places = true, .events = trace.has_value()};
   RunMemory memory(settings_of(options));
-  ask_for_run(memory, files, options, plan, request, profile);
+  ask_for_run(memory, replayed.files, options, plan, request, profile);
   const double limit_s = options.schedule_limit_s.value_or(least_limit_s);
-  const ProgramRun run(files, memory, -1, limit_s);
+  const ProgramRun run(replayed.files, memory, replayed.begin_run(-1), limit_s);
+  const std::string output = replayed.streams ? replayed.streams->whole_output() : "";
+  write_standard_output(output);
   Finding finding =
-      finding_of_run(memory, run.status(), "", request, trace.has_value(), options.races != Races::ignore);
+      finding_of_run(memory, run.status(), output, request, trace.has_value(), options.races != Races::ignore);
+  if (options.has_nodes) tell_unmet(finding);
+  if (options.has_nodes) finding.words = finding.headline();
   if (run.is_over_limit()) {
     finding.kind = Finding::Kind::no_progress;
     finding.words = over_limit(limit_s);

@@ -52,7 +52,8 @@ ReplayRecord of_file(ExploreOptions& options, std::uint64_t fingerprint) {
   if (record.stored.fingerprint != fingerprint)
     throw BadInput(options.replay, 2,
                    fmt::format("expected a schedule of this {}, {:016x}, found one of {:016x}",
-                               options.program.empty() ? "scenario with these --set and --property" : "program",
+                               options.program.empty() || options.has_nodes ? "scenario with these --set and --property"
+                                                                            : "program",
                                fingerprint, record.stored.fingerprint));
   if (record.stored.from != Time() + options.from.value_or(Duration()))
     throw BadInput(options.replay, 4, "expected the same time as --from");

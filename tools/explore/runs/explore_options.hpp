@@ -29,7 +29,8 @@ inline constexpr double least_limit_s = 60;
 struct ExploreOptions {
   std::filesystem::path scenario;
   std::vector<std::filesystem::path> confined_to;  ///< the only folders to read from; empty: all
-  std::vector<std::string> program;                ///< its words; instead of a scenario
+  std::vector<std::string> program;                ///< its words; instead of a scenario, or for it
+  bool has_nodes = false;                          ///< `program` is the run of `scenario`: see run_with_nodes.hpp
   std::vector<std::string> assignments;            ///< of --set, then of --property: "expect.collisions=0"
   std::vector<std::string> properties;             ///< of --property: "collisions=0"
   std::string strategy = "portfolio";

@@ -12,6 +12,7 @@
 #include "tools/explore/runs/learned_code.hpp"
 #include "tools/explore/runs/program_finding.hpp"
 #include "tools/explore/runs/run_watch.hpp"
+#include "tools/explore/runs/run_with_nodes.hpp"
 #include "tools/explore/runs/switch_points.hpp"
 #include "tools/output/progress.hpp"
 
@@ -68,6 +69,7 @@ ProgramTarget::ProgramTarget(const ExploreOptions& options)
   check_snapshots(options, calls_.files);
   check_memory(options, calls_.files);
   if (options.races == Races::ignore) ignore_races();
+  if (options.has_nodes) logs_.emplace();
 }
 
 ProgramTarget::~ProgramTarget() = default;
@@ -180,6 +182,7 @@ Finding ProgramTarget::run_once(Runs& runs, const Plan& plan, const Request& req
     calls_.server.reset();
     if (accesses_) accesses_->server.reset();
     std::signal(SIGTERM, note_stop);
+    if (logs_) own_logs_.emplace(*logs_).use();
     runs.server.emplace(runs.files, settings);
   }
   if (options_.snapshots > 0) settings.makes_reruns = false;
@@ -208,6 +211,7 @@ RunMemory& ProgramTarget::begin_run(Runs& runs, const posix::Settings& settings,
 Finding ProgramTarget::run_in_process(Runs& runs, const posix::Settings& settings, const Plan& plan,
                                       const Request& request, const exploration::Profile& profile,
                                       bool makes_snapshots) {
+  if (own_logs_) own_logs_->clear();
   RunMemory& memory = begin_run(runs, settings, plan, request, makes_snapshots);
   ask_for_run(memory, runs.files, options_, plan, request, profile);
   runs.server->is_rerun() ? runs.streams.rewind() : runs.streams.open();
@@ -227,6 +231,7 @@ Finding ProgramTarget::run_in_process(Runs& runs, const posix::Settings& setting
   if (watch.words().empty() && !request.stop_before) end_others(memory.record(), is_to_end_by_now);
   Finding finding =
       finding_of_run(memory, *status, runs.streams.end_of_output(), request, options_.trace.has_value(), races_fail());
+  if (options_.has_nodes) tell_unmet(finding);
   if (options_.races == Races::report && !request.learn && !request.places && shows_new_races(finding))
     tell_races(memory.record(), finding);
   if (!watch.words().empty()) {

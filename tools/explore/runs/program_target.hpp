@@ -12,6 +12,7 @@
 #include "tools/explore/runs/run_streams.hpp"
 #include "tools/explore/runs/snapshot_tree.hpp"
 #include "tools/explore/runs/target.hpp"
+#include "tools/nodes/log_folder.hpp"
 
 namespace waitpoint::tools {
 
@@ -22,7 +23,9 @@ class ProgramTarget final : public Target {
 
   ~ProgramTarget() override;
 
-  std::string name() const override { return calls_.files.programs.title(); }
+  std::string name() const override {
+    return options_.has_nodes ? options_.scenario.stem().string() : calls_.files.programs.title();
+  }
   std::uint64_t fingerprint() const override { return fingerprint_; }
   bool has_noise() const override { return false; }
   const ExploreOptions& options() const override { return options_; }
@@ -61,8 +64,9 @@ class ProgramTarget final : public Target {
   std::optional<Runs> accesses_;  // with breakpoints
   std::optional<posix::AccessObstacle> obstacle_ = {};
   std::uint64_t fingerprint_;
-  std::set<RacingCode> told_;  // the races of this process's findings so far
-  SnapshotTree snapshots_;     // of runs at calls; they end before their server
+  std::set<RacingCode> told_;                      // the races of this process's findings so far
+  std::optional<LogFolder> logs_, own_logs_ = {};  // of all processes that make runs, and of this one; for nodes
+  SnapshotTree snapshots_;                         // of runs at calls; they end before their server
 };
 
 /// A digest of the program's file, its words and the settings that its runs share.

@@ -41,11 +41,16 @@ void RunStreams::rewind() const {
   if (lseek(output_, 0, SEEK_END) > 0 && ftruncate(output_, 0) == 0) lseek(output_, 0, SEEK_SET);
 }
 
-std::string RunStreams::end_of_output() const {
-  const off_t size = lseek(output_, 0, SEEK_END), from = std::max<off_t>(0, size - output_shown);
-  std::string text(static_cast<std::size_t>(size - from), '\0');
+std::string RunStreams::output_from(off_t from) const {
+  std::string text(static_cast<std::size_t>(lseek(output_, 0, SEEK_END) - from), '\0');
   const ssize_t got = pread(output_, text.data(), text.size(), from);
   text.resize(static_cast<std::size_t>(std::max<ssize_t>(0, got)));
+  return text;
+}
+
+std::string RunStreams::end_of_output() const {
+  const off_t from = std::max<off_t>(0, lseek(output_, 0, SEEK_END) - output_shown);
+  std::string text = output_from(from);
   if (from > 0) text.erase(0, text.find('\n') + 1);
   while (text.ends_with('\n')) text.pop_back();
   std::string indented = from > 0 ? "  ..." : "";

@@ -3,6 +3,8 @@
 // writes its outputs to memory.
 #pragma once
 
+#include <sys/types.h>
+
 #include <string>
 
 namespace waitpoint::tools {
@@ -24,8 +26,12 @@ class RunStreams {
   int output() const { return output_; }
   /// The last lines that the run has written, indented.
   std::string end_of_output() const;
+  /// All that the run has written.
+  std::string whole_output() const { return output_from(0); }
 
  private:
+  std::string output_from(off_t from) const;
+
   int given_, input_ = -1, output_ = -1;
 };
 

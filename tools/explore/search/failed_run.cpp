@@ -43,19 +43,20 @@ namespace {
 /// Without the program's name.
 std::string explore_words(const ExploreOptions& options, const std::string& replayed) {
   std::string line = "explore ";
-  line += options.program.empty() ? quoted(options.scenario.string()) : "--exec";
+  const bool is_program = !options.program.empty() && !options.has_nodes;
+  line += is_program ? "--exec" : quoted(options.scenario.string());
   line += " --seed " + std::to_string(options.seed);
   if (options.until) line += " --until " + to_string(Time() + *options.until);
-  line += options.conditions.words();
+  if (is_program) line += options.conditions.words();
   if (options.races != Races::report) line += options.races == Races::fail ? " --races fail" : " --races ignore";
-  if (options.switch_at == SwitchAt::accesses) line += " --switch-at accesses";
+  if (is_program && options.switch_at == SwitchAt::accesses) line += " --switch-at accesses";
   if (options.memory == Memory::weak) line += " --memory weak";
   if (options.from) line += " --from " + to_string(Time() + *options.from);
   const std::size_t sets = options.assignments.size() - options.properties.size();
   for (std::size_t i = 0; i < sets; ++i) line += " --set " + quoted(options.assignments[i]);
   for (const std::string& property : options.properties) line += " --property " + quoted(property);
   if (!replayed.empty()) line += " --replay " + quoted(replayed);
-  if (!options.program.empty()) line += " --" + quoted(options.program);
+  if (is_program) line += " --" + quoted(options.program);
   return line;
 }
 
