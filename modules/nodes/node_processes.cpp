@@ -60,7 +60,7 @@ std::string ending(int status) {
 
 }  // namespace
 
-NodeProcesses::NodeProcesses(std::vector<NodeCommand> commands, const NodeSide& master) : master_(master) {
+NodeProcesses::NodeProcesses(std::vector<NodeCommand> commands, const MasterSide& master) : master_(master) {
   processes_.reserve(commands.size());
   for (NodeCommand& command : commands) processes_.push_back({.command = std::move(command)});
 }
@@ -144,6 +144,16 @@ void NodeProcesses::note_end(Process& process, int status) {
   const bool is_failure = !WIFEXITED(status) || WEXITSTATUS(status) != 0;
   news_.push_back({process.command.node.global_name(), ending(status), is_failure});
   is_over_ = is_over_ || process.command.node.required;
+}
+
+bool NodeProcesses::have_ended() const {
+  return std::ranges::all_of(processes_, [](const Process& process) { return process.state == State::ended; });
+}
+
+bool NodeProcesses::are_there() const {
+  return std::ranges::all_of(processes_, [](const Process& process) {
+    return process.state != State::running || process.is_registered || process.is_missed;
+  });
 }
 
 // One after the other, the last one first: roscpp's nodes poll for a tenth of a second before they end, and several

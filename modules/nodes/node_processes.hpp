@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/time.hpp"
-#include "modules/nodes/node_side.hpp"
+#include "modules/nodes/master_side.hpp"
 #include "modules/ros1/launch.hpp"
 
 namespace waitpoint::nodes {
@@ -29,7 +29,7 @@ struct NodeNews {
 class NodeProcesses {
  public:
   /// `master` must outlive this.
-  NodeProcesses(std::vector<NodeCommand> commands, const NodeSide& master);
+  NodeProcesses(std::vector<NodeCommand> commands, const MasterSide& master);
   ~NodeProcesses() { end(); }
   NodeProcesses(const NodeProcesses&) = delete;
   NodeProcesses& operator=(const NodeProcesses&) = delete;
@@ -40,6 +40,10 @@ class NodeProcesses {
   std::vector<NodeNews> take_news() { return std::exchange(news_, {}); }
   /// True when a required node has ended.
   bool is_over() const { return is_over_; }
+  /// True when all have ended.
+  bool have_ended() const;
+  /// True when those that could start so far have registered with the master, ended, or been told of.
+  bool are_there() const;
   /// Asks all nodes to end, and kills those that do not within some seconds.
   void end();
 
@@ -61,7 +65,7 @@ class NodeProcesses {
   void note_end(Process& process, int status);
   void reap();
 
-  const NodeSide& master_;
+  const MasterSide& master_;
   std::vector<Process> processes_;  // in their order
   std::vector<NodeNews> news_;
   bool is_over_ = false, is_ending_ = false;

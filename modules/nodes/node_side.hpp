@@ -20,6 +20,9 @@
 #include <utility>
 #include <vector>
 
+#include "modules/nodes/bag_side.hpp"
+#include "modules/nodes/master_side.hpp"
+
 namespace waitpoint::nodes {
 
 struct Place {
@@ -111,16 +114,8 @@ struct Command {
   std::uint32_t messages = 1;  ///< those that came, as far as the queue has kept them
 };
 
-class NodeSide {
+class NodeSide : public MasterSide {
  public:
-  virtual ~NodeSide() = default;
-
-  /// "http://127.0.0.1:PORT/".
-  virtual std::string master_address() const = 0;
-  virtual bool is_published(const std::string& topic) const = 0;
-  virtual bool is_served(const std::string& service) const = 0;
-  virtual bool is_registered(const std::string& node) const = 0;
-
   /// The readings of all robots at the world's step at this virtual time.
   virtual void publish(std::int64_t now_ns, const std::vector<RobotReadings>& robots) = 0;
   /// True if somebody takes the robot's goals.
@@ -138,6 +133,10 @@ struct Library {
 
   /// Starts the master. Throws std::runtime_error.
   std::unique_ptr<NodeSide> (*make)(const NodeSideSetup& setup);
+  /// Reads the bag from its beginning to its end. Throws std::runtime_error for what cannot be played: a line.
+  void (*check_bag)(const BagChoice& choice);
+  /// Starts the master, and advertises the topics. Throws std::runtime_error.
+  std::unique_ptr<BagSide> (*make_bag_side)(const BagSideSetup& setup);
 };
 
 }  // namespace waitpoint::nodes

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <map>
+#include <span>
 
 #include "core/confinement.hpp"
 #include "modules/ros1/graph_name.hpp"
@@ -15,7 +16,8 @@
 namespace waitpoint::scenario {
 namespace {
 
-constexpr std::string_view keys_of_nodes[] = {"ros", "launch", "nodes"};
+constexpr std::string_view keys_of_robot[] = {"ros", "launch", "nodes"};
+constexpr std::string_view keys_beside_bag[] = {"launch", "nodes"};
 
 ros1::LaunchSurroundings surroundings_of_process() {
   const auto environment = [](const std::string& name) -> std::optional<std::string> {
@@ -171,17 +173,46 @@ void read_launch_of(NodesScenario& nodes) {
   nodes.launch = std::move(launch);
 }
 
+/// The values of these keys; none if there are none.
+std::optional<NodesScenario> taken(const YamlMap& holder, std::span<const std::string_view> keys) {
+  YamlNode document;
+  document.kind = YamlNode::Kind::map;
+  for (const YamlEntry& entry : holder.node().entries)
+    if (std::find(keys.begin(), keys.end(), entry.key) != keys.end() && !entry.value.is_null())
+      document.entries.push_back(entry);
+  if (document.entries.empty()) return std::nullopt;
+  NodesScenario nodes;
+  nodes.written = document.written = document.entries.front().written;
+  nodes.document = std::make_shared<const YamlNode>(std::move(document));
+  return nodes;
+}
+
+/// What it adds to the scenario.
+void read_and_add_launch(NodesScenario& nodes, std::vector<std::string>& warnings, std::uint64_t& fingerprint) {
+  if (Confinement::exists()) throw nodes.written.bad("nodes of ROS are not started with --confined");
+  read_launch_of(nodes);
+  const ros1::Launch& launch = *nodes.launch;
+  warnings.insert(warnings.end(), launch.warnings.begin(), launch.warnings.end());
+  if (launch.fingerprint != 0) fingerprint = fingerprint * 31 + launch.fingerprint;
+}
+
 // Within one master there is one node of a name.
 void check_names_of_robots(const Scenario& scenario) {
-  std::map<std::string, Location> nodes, namespaces;
+  std::map<std::string, Location> namespaces;
   for (const RobotScenario& robot : scenario.robots) {
     if (!robot.nodes) continue;
     const auto [other, is_new] = namespaces.emplace(robot.nodes->ns, robot.written);
     if (!is_new)
       throw robot.written.bad("there are two robots with the namespace '" + robot.nodes->ns +
                               "' of ROS, the first at " + other->second.text());
-    for (const ros1::Node& node : robot.nodes->launch->nodes) {
-      const auto [first, is_first] = nodes.emplace(node.global_name(), node.written);
+  }
+}
+
+void check_names_of_nodes(const Scenario& scenario) {
+  std::map<std::string, Location> names;
+  for (const NodesScenario* const nodes : scenario.all_nodes()) {
+    for (const ros1::Node& node : nodes->launch->nodes) {
+      const auto [first, is_first] = names.emplace(node.global_name(), node.written);
       if (!is_first)
         throw node.written.bad("there are two nodes called '" + first->first + "', the first at " +
                                first->second.text());
@@ -195,9 +226,15 @@ bool RobotScenario::goals_are_for_nodes() const {
   return nodes && std::none_of(modules.begin(), modules.end(), [](const auto& module) { return module.enabled; });
 }
 
-bool Scenario::has_nodes() const {
-  return std::any_of(robots.begin(), robots.end(), [](const RobotScenario& robot) { return robot.nodes.has_value(); });
+std::vector<const NodesScenario*> Scenario::all_nodes() const {
+  std::vector<const NodesScenario*> all;
+  if (nodes) all.push_back(&*nodes);
+  for (const RobotScenario& robot : robots)
+    if (robot.nodes) all.push_back(&*robot.nodes);
+  return all;
 }
+
+bool Scenario::has_nodes() const { return !all_nodes().empty(); }
 
 RosScenario read_ros(const YamlNode& node) {
   const YamlMap map(node, "ros", {"clock", "master"});
@@ -209,33 +246,27 @@ RosScenario read_ros(const YamlNode& node) {
   return ros;
 }
 
-std::optional<NodesScenario> take_nodes(const YamlMap& robot) {
-  YamlNode document;
-  document.kind = YamlNode::Kind::map;
-  for (const YamlEntry& entry : robot.node().entries)
-    if (std::find(std::begin(keys_of_nodes), std::end(keys_of_nodes), entry.key) != std::end(keys_of_nodes) &&
-        !entry.value.is_null())
-      document.entries.push_back(entry);
-  if (document.entries.empty()) return std::nullopt;
-  NodesScenario nodes;
-  nodes.written = document.written = document.entries.front().written;
-  nodes.document = std::make_shared<const YamlNode>(std::move(document));
-  return nodes;
+std::optional<NodesScenario> take_nodes(const YamlMap& robot) { return taken(robot, keys_of_robot); }
+
+void take_nodes_beside_bag(const YamlMap& scenario, Scenario& taking) {
+  taking.nodes = taken(scenario, keys_beside_bag);
+  if (taking.nodes && !taking.play)
+    throw taking.nodes->written.bad("expected nodes and launch in a robot, or a bag that is played to them: play");
 }
 
 void read_nodes(Scenario& scenario) {
   const auto count = std::count_if(scenario.robots.begin(), scenario.robots.end(),
                                    [](const RobotScenario& robot) { return robot.nodes.has_value(); });
+  if (scenario.nodes) read_and_add_launch(*scenario.nodes, scenario.warnings, scenario.fingerprint);
   for (RobotScenario& robot : scenario.robots) {
     if (!robot.nodes) continue;
-    if (Confinement::exists()) throw robot.nodes->written.bad("nodes of ROS are not started with --confined");
     read_namespace(robot, count == 1, *robot.nodes);
-    read_launch_of(*robot.nodes);
-    const ros1::Launch& launch = *robot.nodes->launch;
-    robot.warnings.insert(robot.warnings.end(), launch.warnings.begin(), launch.warnings.end());
-    if (launch.fingerprint != 0) scenario.fingerprint = scenario.fingerprint * 31 + launch.fingerprint;
+    read_and_add_launch(*robot.nodes, robot.warnings, scenario.fingerprint);
   }
   check_names_of_robots(scenario);
+  check_names_of_nodes(scenario);
+  if (scenario.play && !scenario.has_nodes())
+    throw scenario.play->written.bad("expected nodes or launch, since the bag is played to nodes of ROS, found none");
 }
 
 }  // namespace waitpoint::scenario

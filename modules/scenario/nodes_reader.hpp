@@ -22,9 +22,12 @@ RosScenario read_ros(const YamlNode& node);
 /// The three keys of a robot, as they are, for read_nodes(); none if it has none of them.
 std::optional<NodesScenario> take_nodes(const YamlMap& robot);
 
-/// Reads what take_nodes() took for each robot, when all robots are known: with several of them, each one's names are
-/// in a namespace of its own. Extends the scenario's fingerprint by the launch files. BadInput, among others, for two
-/// nodes or robots of one name in ROS, and if files are confined: nodes are programs.
+/// `launch` and `nodes` of the scenario itself. BadInput if it has them, but no bag.
+void take_nodes_beside_bag(const YamlMap& scenario, Scenario& taking);
+
+/// Reads what was taken of the scenario and for each robot, when all robots are known: with several of them, each one's
+/// names are in a namespace of its own. Extends the scenario's fingerprint by the launch files. BadInput, among others,
+/// for two nodes or robots of one name in ROS, and if files are confined: nodes are programs.
 void read_nodes(Scenario& scenario);
 
 }  // namespace waitpoint::scenario

@@ -145,6 +145,22 @@ struct RosScenario {
   Location written;
 };
 
+/// A bag of ROS, in the place of a world: its topics are for nodes.
+struct PlayScenario {
+  std::filesystem::path bag;                     ///< resolved
+  std::vector<std::string> topics;               ///< global names; empty: all
+  Duration start;                                ///< of the bag's time, from its first message
+  std::optional<Duration> duration;              ///< of the bag's time, from `start`; none: up to its end
+  double rate = 1;                               ///< of the bag's time by virtual time
+  Duration delay = std::chrono::seconds(1);      ///< from when the nodes are there to the first message
+  Duration idle = std::chrono::seconds(1);       ///< without a message of a node, after the last one: the run's end
+  Duration end_most = std::chrono::seconds(10);  ///< after the last message: the run's end in any case
+  double clock_hz = 100;                         ///< of /clock, if it is published
+  bool hears = true;                             ///< the run subscribes to what nodes publish
+  std::vector<std::string> outputs;              ///< files of the nodes, relative to the current directory
+  Location written, bag_written, topics_written;
+};
+
 struct RobotScenario {
   std::string name;
   world::BodyDescription body;           ///< including the robot's name
@@ -178,6 +194,8 @@ struct Scenario {
   std::optional<MapFile> map;
   std::optional<LogFile> log;  ///< then the world is empty, and there is one robot
   RosScenario ros;
+  std::optional<PlayScenario> play;         ///< then nothing is done by the robots but by their nodes
+  std::optional<NodesScenario> nodes;       ///< of no robot, beside `play`
   std::optional<io::Medium> medium;         ///< between robots; none: no communication between robots
   std::vector<world::Obstacle> shapes;      ///< without those of the map
   std::vector<Location> shapes_written;     ///< of each shape
@@ -186,8 +204,10 @@ struct Scenario {
   std::vector<RobotScenario> robots;  ///< in the order of the file, then those of the map; unique names
   std::vector<std::string> warnings;  ///< from the map's robots and the files of shapes
 
-  /// True if some robot has nodes.
+  /// True if there are nodes, of robots or beside a bag.
   bool has_nodes() const;
+  /// Those beside a bag, then those of the robots.
+  std::vector<const NodesScenario*> all_nodes() const;
   /// The world without the map's obstacles; bodies in the order of the robots.
   world::WorldDescription world_without_map() const;
 };

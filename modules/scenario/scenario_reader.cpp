@@ -12,6 +12,7 @@
 #include "modules/scenario/map_robots.hpp"
 #include "modules/scenario/medium_reader.hpp"
 #include "modules/scenario/nodes_reader.hpp"
+#include "modules/scenario/play_reader.hpp"
 #include "modules/scenario/robot_reader.hpp"
 #include "modules/scenario/scenario_document.hpp"
 #include "modules/scenario/shape_reader.hpp"
@@ -169,7 +170,7 @@ Scenario read_scenario(const std::filesystem::path& file, const std::vector<std:
   const YamlNode document = scenario_document(file, assignments);
   const YamlMap map(document, "the scenario",
                     {"format", "name", "description", "expect", "until_s", "world", "medium", "robot_types", "robots",
-                     "robots_from_map", "control", "log", "ros"});
+                     "robots_from_map", "control", "log", "ros", "play", "launch", "nodes"});
   Scenario scenario;
   scenario.file = file.string();
   scenario.fingerprint = fingerprint(document);
@@ -181,6 +182,10 @@ Scenario read_scenario(const std::filesystem::path& file, const std::vector<std:
   if (const YamlNode* log = map.find("log")) {
     check_beside_log(map);
     scenario.log = read_log(*log);
+    scenario.until = Time::max().since_start();
+  }
+  if (const YamlNode* play = map.find("play")) {
+    scenario.play = read_play(*play);
     scenario.until = Time::max().since_start();
   }
   map.read("until_s", scenario.until, 1s);
@@ -196,11 +201,12 @@ Scenario read_scenario(const std::filesystem::path& file, const std::vector<std:
   }
   if (scenario.log)
     scenario.robots.push_back(read_robot_of_log(map.require("robots"), types));
-  else if (from_map == nullptr || map.has("robots"))
+  else if (map.has("robots") || (from_map == nullptr && !scenario.play))
     read_robots(map.require("robots"), types, scenario);
   if (from_map != nullptr) read_robots_from_map(*from_map, types, scenario);
   if (const YamlNode* control = map.find("control")) read_common_control(*control, scenario);
   if (const YamlNode* ros = map.find("ros")) scenario.ros = read_ros(*ros);
+  take_nodes_beside_bag(map, scenario);
   read_nodes(scenario);
   add_rules_to_fingerprint(scenario);
   for (const RobotScenario& robot : scenario.robots)

@@ -17,6 +17,7 @@
 #include "modules/scenario/scenario_reader.hpp"
 #include "tools/command/interruption.hpp"
 #include "tools/command/program_layer.hpp"
+#include "tools/nodes/bag_play.hpp"
 #include "tools/nodes/seed_with_nodes.hpp"
 #include "tools/nodes/simulated_nodes.hpp"
 #include "tools/nodes/world_partner.hpp"
@@ -190,6 +191,27 @@ void check_for_nodes(const RunOptions& options) {
     if (is_given) throw BadInput(option, "cannot be used for a scenario with nodes");
 }
 
+// Without a world there is nothing to write but what nodes do.
+void check_for_bag(const RunOptions& options) {
+  const std::pair<const char*, bool> of_worlds[] = {
+      {"--place", !options.places.empty()},       {"--order", options.order != RunOptions().order},
+      {"--journal", options.journal.has_value()}, {"--replay-journal", options.replay_journal.has_value()},
+      {"--summary", options.summary.has_value()}, {"--picture", options.picture.has_value()},
+      {"--page", options.page.has_value()},       {"--trajectory", options.trajectory.has_value()},
+      {"--record", options.record.has_value()},   {"--digests", options.digests.has_value()},
+      {"--events", options.events.has_value()},   {"--decisions", options.decisions.has_value()}};
+  for (const auto& [option, is_given] : of_worlds)
+    if (is_given) throw BadInput(option, "cannot be used where a bag is played in the place of a world");
+}
+
+int run_bag(const RunOptions& options, const scenario::Scenario& scenario) {
+  if (is_among_nodes()) return play_bag(scenario, options.seed, options.limit(scenario.until));
+  check_for_nodes(options);
+  check_for_bag(options);
+  check_bag_play(scenario);
+  return run_among_nodes(options.arguments, options.seed);
+}
+
 // In one process, or as the leader of several.
 int run_alone(const RunOptions& options, const scenario::Scenario& scenario, std::span<const genom::ModuleType> types,
               run::Ranks* ranks, view::Channel* viewer) {
@@ -273,6 +295,7 @@ int run(const RunOptions& options, std::span<const genom::ModuleType> types) {
   }
   const scenario::Scenario scenario = scenario_of(options);
   heed_signals();
+  if (scenario.play) return run_bag(options, scenario);
   if (scenario.has_nodes() && !is_among_nodes() && !options.replay_journal) {
     check_nodes(scenario);
     check_for_nodes(options);

@@ -31,6 +31,13 @@ void check_picture(const std::string& name) {
     refuse("--picture", "a name that ends in .svg, the format of pictures", name);
 }
 
+/// As a text of YAML.
+std::string in_quotation_marks_of_yaml(const std::string& text) {
+  std::string quoted = "'";
+  for (const char c : text) quoted += c == '\'' ? "''" : std::string(1, c);
+  return quoted + "'";
+}
+
 /// SCHEME://HOST:PORT without a path; of a file's page it is "file://".
 bool is_origin(const std::string& text) {
   const std::size_t end = text.find("://");
@@ -113,6 +120,9 @@ RunArguments::RunArguments(CommandLine& line)
                   "divide the robots among N processes, started by mpirun of Open MPI, also on\n"
                   "other hosts: mpirun ... waitpoint run ...; the run and its digest are the same");
   command_.repeated("--place", places_, "ROBOT=RANK", "with ranks: the process of this robot, from 0; may be repeated");
+  command_.option("--play", play_, "BAG",
+                  "publish the topics of this bag to the scenario's nodes of ROS at their times, with\n"
+                  "no world: play.bag of the scenario (docs/ros.md)");
   command_.option("--order", order_, "ORDER",
                   "order of events of one instant: fifo, or seeded: by hashes of the seed\n(default: fifo)");
   command_.option("--until", until_, "S", "end at virtual time S, in seconds (default: the scenario's until_s)");
@@ -271,6 +281,7 @@ RunOptions RunArguments::options() const {
   options.scenario = find_scenario(scenario_.file);
   options.confined_to = scenario_.confinement.folders(options.scenario);
   options.assignments = scenario_.assignments;
+  if (!play_.empty()) options.assignments.push_back("play.bag=" + in_quotation_marks_of_yaml(play_));
   const char* const environment = std::getenv("WAITPOINT_SEED");
   if (!seed_.empty()) {
     options.seed = seed_of("--seed", seed_);

@@ -95,7 +95,7 @@ class RunArguments {
   ScenarioArguments scenario_;
   std::string seed_, seeds_, jobs_, ranks_, order_, until_, speed_, watchdog_, idle_, journal_, replay_journal_;
   std::string serve_, summary_, picture_, page_, trajectory_, record_, digests_, events_, decisions_;
-  std::string record_durations_, replay_durations_;
+  std::string record_durations_, replay_durations_, play_;
   std::vector<std::string> places_, serve_origins_;
   PartnerOptions partners_;
   bool serve_control_ = false, interactive_ = false, tcl_ = false, check_ = false;

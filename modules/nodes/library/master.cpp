@@ -6,6 +6,7 @@
 #include <xmlrpcpp/XmlRpcServer.h>
 #include <xmlrpcpp/XmlRpcServerMethod.h>
 
+#include <algorithm>
 #include <functional>
 #include <stdexcept>
 
@@ -150,6 +151,15 @@ bool Master::is_served(const std::string& service) const {
 bool Master::is_node(const std::string& name) const {
   const std::lock_guard lock(mutex_);
   return registrations_.node_address(name).has_value();
+}
+
+std::vector<std::string> Master::topics_not_only_of(const std::string& node) const {
+  const std::lock_guard lock(mutex_);
+  std::vector<std::string> topics;
+  for (const Registrations::Names& topic : registrations_.publishers())
+    if (std::any_of(topic.nodes.begin(), topic.nodes.end(), [&](const std::string& name) { return name != node; }))
+      topics.push_back(topic.name);
+  return topics;
 }
 
 // A call that is answered ends the round of the loop, so that what follows from it goes out at once.

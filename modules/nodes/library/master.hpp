@@ -8,6 +8,7 @@
 #include <mutex>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "modules/nodes/library/calls_to_nodes.hpp"
 #include "modules/nodes/library/parameters.hpp"
@@ -36,6 +37,8 @@ class Master {
   bool is_published(const std::string& topic) const;
   bool is_served(const std::string& service) const;
   bool is_node(const std::string& name) const;
+  /// By name: topics that another node publishes, too.
+  std::vector<std::string> topics_not_only_of(const std::string& node) const;
 
  private:
   struct Method;

@@ -7,49 +7,22 @@
 #include <rosgraph_msgs/Clock.h>
 #include <tf2_msgs/TFMessage.h>
 
-#include <cstdlib>
-
 #include "modules/nodes/library/master.hpp"
 #include "modules/nodes/library/messages.hpp"
+#include "modules/nodes/library/own_node.hpp"
 #include "modules/nodes/library/robot_node.hpp"
+#include "modules/nodes/library/sides.hpp"
 
 namespace waitpoint::nodes {
 namespace {
 
 constexpr std::uint32_t queue = 100;
 constexpr bool latched = true;
-constexpr const char* own_name = "waitpoint";
-
-Value value_of(const nlohmann::json& json) {
-  if (json.is_boolean()) return Value(json.get<bool>());
-  if (json.is_number_integer()) return Value(json.get<int>());
-  if (json.is_number()) return Value(json.get<double>());
-  if (json.is_string()) return Value(json.get<std::string>());
-  Value array;
-  array.setSize(0);
-  int i = 0;
-  for (const nlohmann::json& element : json) array[i++] = value_of(element);
-  return array;
-}
-
-/// Before roscpp asks for it.
-void set_parameters(Master& master, const NodeSideSetup& setup) {
-  for (const auto& [name, parameter] : setup.parameters) master.set_parameter(name, value_of(parameter));
-  master.set_parameter("/rosdistro", Value("noetic\n"));
-  master.set_parameter("/rosversion", Value("1.15.15\n"));
-  if (setup.has_clock) master.set_parameter("/use_sim_time", Value(true));
-}
-
-void start_own_node(const Master& master) {
-  setenv("ROS_IP", "127.0.0.1", 1);
-  ros::M_string remappings{{"__master", master.address()}};
-  ros::init(remappings, own_name, ros::init_options::NoSigintHandler | ros::init_options::NoRosout);
-}
 
 class WorldAndMaster final : public NodeSide {
  public:
   explicit WorldAndMaster(const NodeSideSetup& setup) : has_clock_(setup.has_clock) {
-    set_parameters(master_, setup);
+    set_parameters(master_, setup.has_clock, setup.parameters);
     start_own_node(master_);
     node_.emplace();
     const ros::WallTime now = ros::WallTime::now();
@@ -126,9 +99,8 @@ class WorldAndMaster final : public NodeSide {
   std::vector<std::unique_ptr<RobotNode>> robots_;
 };
 
-std::unique_ptr<NodeSide> make(const NodeSideSetup& setup) { return std::make_unique<WorldAndMaster>(setup); }
-
 }  // namespace
-}  // namespace waitpoint::nodes
 
-extern "C" [[gnu::visibility("default")]] const waitpoint::nodes::Library waitpoint_nodes = {waitpoint::nodes::make};
+std::unique_ptr<NodeSide> make_node_side(const NodeSideSetup& setup) { return std::make_unique<WorldAndMaster>(setup); }
+
+}  // namespace waitpoint::nodes

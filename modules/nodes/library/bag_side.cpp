@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "modules/nodes/bag_side.hpp"
+
+#include <ros/callback_queue.h>
+#include <ros/ros.h>
+#include <rosgraph_msgs/Clock.h>
+
+#include <map>
+#include <stdexcept>
+
+#include "modules/nodes/library/heard_topics.hpp"
+#include "modules/nodes/library/master.hpp"
+#include "modules/nodes/library/own_node.hpp"
+#include "modules/nodes/library/played_bag.hpp"
+#include "modules/nodes/library/sides.hpp"
+
+namespace waitpoint::nodes {
+namespace {
+
+constexpr std::uint32_t any_number = 0;  // of messages in a queue: none is lost on this side
+
+class BagAndMaster final : public BagSide {
+ public:
+  explicit BagAndMaster(const BagSideSetup& setup) : hears_(setup.hears), bag_(setup.choice) {
+    set_parameters(master_, setup.has_clock, setup.parameters);
+    start_own_node(master_);
+    node_.emplace();
+    if (setup.has_clock) clock_ = node_->advertise<rosgraph_msgs::Clock>("/clock", any_number);
+    // A bag may have its own clock, which is that of the run.
+    for (const rosbag::ConnectionInfo* connection : bag_.connections())
+      if (!setup.has_clock || topic_of(connection->topic) != "/clock") advertise(*connection);
+    first_ = begin_of_clock();
+  }
+  ~BagAndMaster() override {
+    heard_.reset();
+    publishers_.clear();
+    clock_ = {};
+    node_.reset();
+    ros::shutdown();
+  }
+  BagAndMaster(const BagAndMaster&) = delete;
+  BagAndMaster& operator=(const BagAndMaster&) = delete;
+
+  std::string master_address() const override { return master_.address(); }
+  bool is_published(const std::string& topic) const override { return master_.is_published(topic); }
+  bool is_served(const std::string& service) const override { return master_.is_served(service); }
+  bool is_registered(const std::string& node) const override { return master_.is_node(node); }
+
+  std::optional<std::int64_t> next_ns() override {
+    const rosbag::MessageInstance* const message = bag_.next();
+    return message == nullptr ? std::nullopt : std::optional<std::int64_t>(bag_.time_ns(*message));
+  }
+
+  void play_next() override {
+    publish(*bag_.next());
+    bag_.advance();
+  }
+
+  void play_latched() override {
+    for (const rosbag::MessageInstance& message : bag_.latched_before()) publish(message);
+  }
+
+  void show_clock(std::int64_t time_ns) override {
+    rosgraph_msgs::Clock clock;
+    clock.clock = first_ + ros::Duration().fromNSec(time_ns);
+    clock_.publish(clock);
+  }
+
+  std::vector<HeardMessage> hear() override {
+    if (!hears_) return {};
+    if (!heard_) heard_.emplace(*node_);
+    for (const std::string& topic : master_.topics_not_only_of(own_name)) heard_->subscribe(topic);
+    ros::getGlobalCallbackQueue()->callAvailable();
+    return heard_->take();
+  }
+
+  std::vector<TopicCount> played() const override {
+    std::vector<TopicCount> all;
+    for (const auto& [topic, messages] : played_) all.push_back({topic, messages});
+    return all;
+  }
+
+ private:
+  using Key = std::pair<std::string, std::string>;  // the publisher in the recording, and the topic
+
+  static Key key_of(const ros::M_string& header, const std::string& topic) {
+    const auto caller = header.find("callerid");
+    return {caller == header.end() ? std::string() : caller->second, topic};
+  }
+
+  ros::Time begin_of_clock() { return bag_.next()->getTime() - ros::Duration().fromNSec(bag_.time_ns(*bag_.next())); }
+
+  // One publisher for each of the recording, since each has a last message of its own.
+  void advertise(const rosbag::ConnectionInfo& connection) {
+    const std::string topic = topic_of(connection.topic);
+    ros::Publisher& publisher = publishers_[key_of(*connection.header, topic)];
+    if (publisher) return;
+    ros::AdvertiseOptions options(topic, any_number, connection.md5sum, connection.datatype, connection.msg_def);
+    const auto latching = connection.header->find("latching");
+    options.latch = latching != connection.header->end() && latching->second == "1";
+    publisher = node_->advertise(options);
+    played_[topic] = 0;
+  }
+
+  void publish(const rosbag::MessageInstance& message) {
+    const std::string topic = topic_of(message.getTopic());
+    const auto publisher = publishers_.find(key_of(*message.getConnectionHeader(), topic));
+    if (publisher == publishers_.end()) return;
+    publisher->second.publish(message);
+    ++played_[topic];
+  }
+
+  bool hears_;
+  PlayedBag bag_;
+  Master master_;
+  std::optional<ros::NodeHandle> node_;
+  ros::Publisher clock_;
+  ros::Time first_;  // the time of the bag where what is played begins
+  std::map<Key, ros::Publisher> publishers_;
+  std::map<std::string, std::uint64_t> played_;
+  std::optional<HeardTopics> heard_;
+};
+
+}  // namespace
+
+std::unique_ptr<BagSide> make_bag_side(const BagSideSetup& setup) { return std::make_unique<BagAndMaster>(setup); }
+
+}  // namespace waitpoint::nodes
