@@ -66,7 +66,8 @@ struct GridValues {
 };
 
 struct NodeSideSetup {
-  bool has_clock = false;  ///< publishes /clock; use_sim_time is set
+  bool has_clock = false;          ///< publishes /clock; use_sim_time is set
+  bool has_debian_master = false;  ///< in place of one inside
   std::vector<RobotTopics> robots;
   GridValues map;
   std::vector<std::pair<std::string, nlohmann::json>> parameters;  ///< by global name; no maps

@@ -69,7 +69,11 @@ std::vector<std::size_t> robots_with_nodes(const scenario::Scenario& scenario) {
 }
 
 NodeSideSetup node_side_setup(const scenario::Scenario& scenario, const OccupancyGrid& map) {
-  NodeSideSetup setup{.has_clock = scenario.ros.publishes_clock, .robots = {}, .map = values_of(map), .parameters = {}};
+  NodeSideSetup setup{.has_clock = scenario.ros.publishes_clock,
+                      .has_debian_master = scenario.ros.master == scenario::RosScenario::Master::outside,
+                      .robots = {},
+                      .map = values_of(map),
+                      .parameters = {}};
   for (const std::size_t i : robots_with_nodes(scenario)) {
     const scenario::RobotScenario& robot = scenario.robots[i];
     const scenario::NodesScenario& nodes = *robot.nodes;

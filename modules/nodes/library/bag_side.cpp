@@ -9,7 +9,6 @@
 #include <stdexcept>
 
 #include "modules/nodes/library/heard_topics.hpp"
-#include "modules/nodes/library/master.hpp"
 #include "modules/nodes/library/own_node.hpp"
 #include "modules/nodes/library/played_bag.hpp"
 #include "modules/nodes/library/sides.hpp"
@@ -21,9 +20,10 @@ constexpr std::uint32_t any_number = 0;  // of messages in a queue: none is lost
 
 class BagAndMaster final : public BagSide {
  public:
-  explicit BagAndMaster(const BagSideSetup& setup) : hears_(setup.hears), bag_(setup.choice) {
-    set_parameters(master_, setup.has_clock, setup.parameters);
-    start_own_node(master_);
+  explicit BagAndMaster(const BagSideSetup& setup)
+      : hears_(setup.hears), bag_(setup.choice), master_(make_master(setup.has_debian_master)) {
+    set_parameters(*master_, setup.has_clock, setup.parameters);
+    start_own_node(*master_);
     node_.emplace();
     if (setup.has_clock) clock_ = node_->advertise<rosgraph_msgs::Clock>("/clock", any_number);
     // A bag may have its own clock, which is that of the run.
@@ -41,10 +41,10 @@ class BagAndMaster final : public BagSide {
   BagAndMaster(const BagAndMaster&) = delete;
   BagAndMaster& operator=(const BagAndMaster&) = delete;
 
-  std::string master_address() const override { return master_.address(); }
-  bool is_published(const std::string& topic) const override { return master_.is_published(topic); }
-  bool is_served(const std::string& service) const override { return master_.is_served(service); }
-  bool is_registered(const std::string& node) const override { return master_.is_node(node); }
+  std::string master_address() const override { return master_->address(); }
+  bool is_published(const std::string& topic) const override { return master_->is_published(topic); }
+  bool is_served(const std::string& service) const override { return master_->is_served(service); }
+  bool is_registered(const std::string& node) const override { return master_->is_node(node); }
 
   std::optional<std::int64_t> next_ns() override {
     const rosbag::MessageInstance* const message = bag_.next();
@@ -69,7 +69,7 @@ class BagAndMaster final : public BagSide {
   std::vector<HeardMessage> hear() override {
     if (!hears_) return {};
     if (!heard_) heard_.emplace(*node_);
-    for (const std::string& topic : master_.topics_not_only_of(own_name)) heard_->subscribe(topic);
+    for (const std::string& topic : master_->topics_not_only_of(own_name)) heard_->subscribe(topic);
     ros::getGlobalCallbackQueue()->callAvailable();
     return heard_->take();
   }
@@ -112,7 +112,7 @@ class BagAndMaster final : public BagSide {
 
   bool hears_;
   PlayedBag bag_;
-  Master master_;
+  std::unique_ptr<UsedMaster> master_;
   std::optional<ros::NodeHandle> node_;
   ros::Publisher clock_;
   ros::Time first_;  // the time of the bag where what is played begins

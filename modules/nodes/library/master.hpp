@@ -13,6 +13,7 @@
 #include "modules/nodes/library/calls_to_nodes.hpp"
 #include "modules/nodes/library/parameters.hpp"
 #include "modules/nodes/library/registrations.hpp"
+#include "modules/nodes/library/used_master.hpp"
 
 namespace XmlRpc {
 class XmlRpcServer;
@@ -20,25 +21,22 @@ class XmlRpcServer;
 
 namespace waitpoint::nodes {
 
-class Master {
+class Master final : public UsedMaster {
  public:
   /// Listens at a free port. Throws std::runtime_error if there is none.
   Master();
-  ~Master();
+  ~Master() override;
   Master(const Master&) = delete;
   Master& operator=(const Master&) = delete;
 
-  /// "http://127.0.0.1:PORT/".
-  const std::string& address() const { return address_; }
+  const std::string& address() const override { return address_; }
+  void set_parameter(const std::string& key, const Value& value) override;
+  bool is_published(const std::string& topic) const override;
+  bool is_served(const std::string& service) const override;
+  bool is_node(const std::string& name) const override;
+  std::vector<std::string> topics_not_only_of(const std::string& node) const override;
 
-  // From any thread.
-  void set_parameter(const std::string& key, const Value& value);
   std::optional<Value> parameter(const std::string& key) const;
-  bool is_published(const std::string& topic) const;
-  bool is_served(const std::string& service) const;
-  bool is_node(const std::string& name) const;
-  /// By name: topics that another node publishes, too.
-  std::vector<std::string> topics_not_only_of(const std::string& node) const;
 
  private:
   struct Method;

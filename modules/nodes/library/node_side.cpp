@@ -7,7 +7,6 @@
 #include <rosgraph_msgs/Clock.h>
 #include <tf2_msgs/TFMessage.h>
 
-#include "modules/nodes/library/master.hpp"
 #include "modules/nodes/library/messages.hpp"
 #include "modules/nodes/library/own_node.hpp"
 #include "modules/nodes/library/robot_node.hpp"
@@ -21,9 +20,10 @@ constexpr bool latched = true;
 
 class WorldAndMaster final : public NodeSide {
  public:
-  explicit WorldAndMaster(const NodeSideSetup& setup) : has_clock_(setup.has_clock) {
-    set_parameters(master_, setup.has_clock, setup.parameters);
-    start_own_node(master_);
+  explicit WorldAndMaster(const NodeSideSetup& setup)
+      : has_clock_(setup.has_clock), master_(make_master(setup.has_debian_master)) {
+    set_parameters(*master_, setup.has_clock, setup.parameters);
+    start_own_node(*master_);
     node_.emplace();
     const ros::WallTime now = ros::WallTime::now();
     begin_ = has_clock_ ? ros::Time(1, 0) : ros::Time(now.sec, now.nsec);
@@ -38,10 +38,10 @@ class WorldAndMaster final : public NodeSide {
   WorldAndMaster(const WorldAndMaster&) = delete;
   WorldAndMaster& operator=(const WorldAndMaster&) = delete;
 
-  std::string master_address() const override { return master_.address(); }
-  bool is_published(const std::string& topic) const override { return master_.is_published(topic); }
-  bool is_served(const std::string& service) const override { return master_.is_served(service); }
-  bool is_registered(const std::string& node) const override { return master_.is_node(node); }
+  std::string master_address() const override { return master_->address(); }
+  bool is_published(const std::string& topic) const override { return master_->is_published(topic); }
+  bool is_served(const std::string& service) const override { return master_->is_served(service); }
+  bool is_registered(const std::string& node) const override { return master_->is_node(node); }
 
   void publish(std::int64_t now_ns, const std::vector<RobotReadings>& robots) override {
     stamp_ = begin_ + ros::Duration().fromNSec(now_ns);
@@ -91,7 +91,7 @@ class WorldAndMaster final : public NodeSide {
   }
 
   bool has_clock_;
-  Master master_;
+  std::unique_ptr<UsedMaster> master_;
   std::optional<ros::NodeHandle> node_;
   ros::Time begin_, stamp_;  // of the run's beginning; of the last step
   ros::Publisher clock_, tf_, fixed_, map_;

@@ -8,12 +8,14 @@
 namespace waitpoint::nodes {
 namespace {
 
-Value value_of(const nlohmann::json& json) {
-  if (json.is_boolean()) return Value(json.get<bool>());
-  if (json.is_number_integer()) return Value(json.get<int>());
-  if (json.is_number()) return Value(json.get<double>());
-  if (json.is_string()) return Value(json.get<std::string>());
-  Value array;
+using XmlRpc::XmlRpcValue;
+
+XmlRpcValue value_of(const nlohmann::json& json) {
+  if (json.is_boolean()) return XmlRpcValue(json.get<bool>());
+  if (json.is_number_integer()) return XmlRpcValue(json.get<int>());
+  if (json.is_number()) return XmlRpcValue(json.get<double>());
+  if (json.is_string()) return XmlRpcValue(json.get<std::string>());
+  XmlRpcValue array;
   array.setSize(0);
   int i = 0;
   for (const nlohmann::json& element : json) array[i++] = value_of(element);
@@ -22,15 +24,15 @@ Value value_of(const nlohmann::json& json) {
 
 }  // namespace
 
-void set_parameters(Master& master, bool has_clock,
+void set_parameters(UsedMaster& master, bool has_clock,
                     const std::vector<std::pair<std::string, nlohmann::json>>& parameters) {
   for (const auto& [name, parameter] : parameters) master.set_parameter(name, value_of(parameter));
-  master.set_parameter("/rosdistro", Value("noetic\n"));
-  master.set_parameter("/rosversion", Value("1.15.15\n"));
-  if (has_clock) master.set_parameter("/use_sim_time", Value(true));
+  master.set_parameter("/rosdistro", XmlRpcValue("noetic\n"));
+  master.set_parameter("/rosversion", XmlRpcValue("1.15.15\n"));
+  if (has_clock) master.set_parameter("/use_sim_time", XmlRpcValue(true));
 }
 
-void start_own_node(const Master& master) {
+void start_own_node(const UsedMaster& master) {
   setenv("ROS_IP", "127.0.0.1", 1);
   ros::M_string remappings{{"__master", master.address()}};
   ros::init(remappings, own_name + 1, ros::init_options::NoSigintHandler | ros::init_options::NoRosout);

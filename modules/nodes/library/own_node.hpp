@@ -7,16 +7,16 @@
 #include <utility>
 #include <vector>
 
-#include "modules/nodes/library/master.hpp"
+#include "modules/nodes/library/used_master.hpp"
 
 namespace waitpoint::nodes {
 
 inline constexpr const char* own_name = "/waitpoint";
 
 /// By global name; no maps. With a clock use_sim_time is set. Before roscpp asks for them.
-void set_parameters(Master& master, bool has_clock,
+void set_parameters(UsedMaster& master, bool has_clock,
                     const std::vector<std::pair<std::string, nlohmann::json>>& parameters);
 /// From now on, ros::NodeHandle is that of the node.
-void start_own_node(const Master& master);
+void start_own_node(const UsedMaster& master);
 
 }  // namespace waitpoint::nodes
