@@ -34,7 +34,7 @@ Speeds speeds_of(const world::Velocity& velocity) {
 
 WorldNode::WorldNode(const scenario::Scenario& scenario, const std::vector<std::size_t>& robots,
                      std::unique_ptr<NodeSide> nodes, std::vector<NodeCommand> commands)
-    : scenario_(scenario), nodes_(std::move(nodes)), processes_(std::move(commands), *nodes_) {
+    : scenario_(scenario), nodes_(std::move(nodes)), air_(scenario, robots), processes_(std::move(commands), *nodes_) {
   robots_.reserve(robots.size());
   for (const std::size_t index : robots) {
     const world::BodyDescription& body = scenario.robots[index].body;
@@ -55,6 +55,7 @@ void WorldNode::publish(outside::Host& host) {
   std::vector<RobotReadings> all;
   all.reserve(robots_.size());
   for (Robot& robot : robots_) all.push_back(readings(robot, world, now));
+  air_.move(world);
   nodes_->publish(now.since_start().ns(), all);
 }
 
@@ -178,7 +179,7 @@ void WorldNode::show_goal(outside::Host& host, std::size_t number) {
 }
 
 std::string WorldNode::account() const {
-  return "nodes: " + counted(goals_, "goal") + ", " + counted(commands_, "command") + faults_.text();
+  return "nodes: " + counted(goals_, "goal") + ", " + counted(commands_, "command") + air_.losses() + faults_.text();
 }
 
 }  // namespace waitpoint::nodes

@@ -10,6 +10,7 @@
 
 #include "modules/nodes/node_processes.hpp"
 #include "modules/nodes/node_side.hpp"
+#include "modules/nodes/robots_air.hpp"
 #include "modules/outside/fault_counts.hpp"
 #include "modules/outside/partner.hpp"
 #include "modules/rflex/dead_reckoning.hpp"
@@ -50,6 +51,7 @@ class WorldNode final : public outside::Partner {
   const scenario::Scenario& scenario_;
   std::vector<Robot> robots_;
   std::unique_ptr<NodeSide> nodes_;
+  RobotsAir air_;
   NodeProcesses processes_;  // end before the master
   std::uint64_t commands_ = 0, goals_ = 0;
   Time second_;                             // the virtual second of which messages are counted

@@ -22,10 +22,10 @@ void deliver_signals(kernel::Task& task) {
 }
 
 template <bool in_order>
-bool carry(void* network, const kernel::Robot& from, const kernel::Robot& to, std::size_t bytes, void (*arrive)(void*),
+bool carry(void* network, const kernel::Robot& from, const void* to, std::size_t bytes, void (*arrive)(void*),
            void (*drop)(void*), void* message) {
   const std::shared_ptr<io::Node> node = static_cast<io::Network*>(network)->node(from.name);
-  io::Link* const link = node != nullptr ? node->link_to(to.name) : nullptr;
+  io::Link* const link = node != nullptr ? node->link_to(static_cast<const kernel::Robot*>(to)->name) : nullptr;
   if (link == nullptr) return false;
   io::Parcels& parcels = node->parcels();
   const io::Packet packet{.kind = io::PacketKind::parcel, .number = parcels.keep(message, arrive, drop)};
@@ -55,7 +55,7 @@ bool has_commands(const scenario::Scenario& scenario) { return has_programs(scen
 bool can_load_programs() { return guests() != nullptr; }
 
 void RobotPrograms::set_network(io::Network& network) {
-  carrier_ = {&network, carry<false>, carry<true>};
+  carrier_ = {.network = &network, .carry = carry<false>, .carry_in_order = carry<true>};
   if (can_load_programs()) guests()->set_carrier(&carrier_);
 }
 

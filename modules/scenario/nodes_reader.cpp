@@ -237,10 +237,11 @@ std::vector<const NodesScenario*> Scenario::all_nodes() const {
 bool Scenario::has_nodes() const { return !all_nodes().empty(); }
 
 RosScenario read_ros(const YamlNode& node) {
-  const YamlMap map(node, "ros", {"clock", "master"});
+  const YamlMap map(node, "ros", {"clock", "master", "delay_us"});
   RosScenario ros;
   ros.written = node.written;
   map.read("clock", ros.publishes_clock);
+  map.read("delay_us", ros.delay, std::chrono::microseconds(1));
   ros.master =
       map.one_of("master", {"inside", "outside"}, 0) == 0 ? RosScenario::Master::inside : RosScenario::Master::outside;
   return ros;

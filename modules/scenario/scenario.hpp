@@ -142,6 +142,7 @@ struct RosScenario {
 
   bool publishes_clock = false;    ///< the topic /clock
   Master master = Master::inside;  ///< outside: the one of ROS_MASTER_URI
+  Duration delay;                  ///< of what is sent over a connection within a robot
   Location written;
 };
 

@@ -129,6 +129,17 @@ class Nodes(unittest.TestCase):
         for row in rows:
             alone = self.run_scenario(self.folder / "hall.yaml", "--seed", row[0])
             self.assertEqual(self.digests(alone)[0], row[-1])
+    def test_computing_takes_the_time_of_a_node_s_clock(self):
+        node = self.node("calls", "import os, time\nbegin = time.monotonic()\nfor _ in range(100):\n    os.write(2, b'')\n"
+                         "print('took', (time.monotonic() - begin) * 1000, 'ms', flush=True)\ntime.sleep(100)\n")
+        slow = f"{{name: slow, command: [{node}], output: screen, clock: 'fixed:100'}}"
+        done = self.run_hall(f"    nodes: [{{name: quick, command: [{node}], output: screen}}, {slow}]\n", "--until", "3")
+        quick_ms, slow_ms = sorted(float(ms) for ms in re.findall(r"took (\S+) ms", done.stderr))
+        self.assertLess(quick_ms, 10)
+        self.assertGreater(slow_ms, 50)
+        done = self.run_hall(f"    nodes: [{{name: slow, command: [{node}], clock: cpu}}]\n")
+        self.assertEqual(done.returncode, 2)
+        self.assertRegex(done.stderr, r"hall\.yaml:16: expected the clock of node 'slow' to be fixed:US, .*, found 'cpu'\n")
 
     def test_options_that_exclude_nodes(self):
         for option in ["--serve"], ["--speed", "1"], ["--check"], ["--interactive"]:

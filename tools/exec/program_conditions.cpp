@@ -47,7 +47,9 @@ bool parse_scale(std::string_view text, ClockOptions& clock) {
   return scale >= 0 && scale <= 1e6;
 }
 
-ClockOptions clock_of(const std::string& where, const std::string& text) {
+}  // namespace
+
+std::optional<ClockOptions> parse_clock(const std::string& text) {
   const std::size_t colon = std::min(text.size(), text.find(':'));
   const std::string kind = text.substr(0, colon);
   const std::string_view value = std::string_view(text).substr(std::min(text.size(), colon + 1));
@@ -66,11 +68,12 @@ ClockOptions clock_of(const std::string& where, const std::string& text) {
     clock.kind = kind == "cpu" ? ClockKind::cpu : ClockKind::proportional;
     good = parse_scale(value, clock);
   }
-  if (!good) refuse(where, "fixed:US, interval:US..US, counted[:NS], cpu[:xFACTOR] or proportional[:xFACTOR]", text);
-  return clock;
+  return good ? std::optional(clock) : std::nullopt;
 }
 
-}  // namespace
+bool repeats(const ClockOptions& clock) {
+  return clock.kind != ClockKind::cpu && clock.kind != ClockKind::proportional;
+}
 
 void ProgramConditions::apply_to(posix::Settings& settings) const {
   settings.has_clock = clock.has_value();
@@ -139,7 +142,11 @@ void ConditionArguments::add_to(Command& command) {
 
 ProgramConditions ConditionArguments::conditions(bool is_repeated) const {
   ProgramConditions conditions;
-  if (!clock_.empty()) conditions.clock = clock_of("--clock", clock_);
+  if (!clock_.empty()) {
+    conditions.clock = parse_clock(clock_);
+    if (!conditions.clock)
+      refuse("--clock", "fixed:US, interval:US..US, counted[:NS], cpu[:xFACTOR] or proportional[:xFACTOR]", clock_);
+  }
   conditions.clock_text = clock_;
   if (!call_cost_.empty()) {
     Duration cost;
@@ -164,8 +171,7 @@ ProgramConditions ConditionArguments::conditions(bool is_repeated) const {
       refuse("--idle-limit", "seconds of virtual time from 0 to 1e9", idle_limit_);
     conditions.idle_limit = Duration::from_seconds(seconds);
   }
-  const bool is_measured = conditions.clock && (conditions.clock->kind == kernel::ClockKind::cpu ||
-                                                conditions.clock->kind == kernel::ClockKind::proportional);
+  const bool is_measured = conditions.clock && !repeats(*conditions.clock);
   if (strict_ && !conditions.children) throw BadInput("--strict", "cannot be used together with --children native");
   if (is_measured && (is_repeated || strict_))
     refuse("--clock", "fixed:US, interval:US..US or counted[:NS], as measured clocks are not repeatable", clock_);

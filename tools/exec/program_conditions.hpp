@@ -12,6 +12,11 @@
 
 namespace waitpoint::tools {
 
+/// A clock as `--clock` has it; nothing if the text is none.
+std::optional<kernel::ClockOptions> parse_clock(const std::string& text);
+/// False if it measures real time.
+bool repeats(const kernel::ClockOptions& clock);
+
 struct ProgramConditions {
   std::optional<kernel::ClockOptions> clock;  ///< cost of computing; default: none
   std::string clock_text;                     ///< as given

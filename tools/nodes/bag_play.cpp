@@ -61,9 +61,7 @@ class RunClock {
 void check_bag_play(const scenario::Scenario& scenario) {
   const scenario::PlayScenario& play = *scenario.play;
   check_library(play.written);
-  for (const nodes::NodeCommand& command : node_commands(scenario))
-    if (!command.node.clock.empty())
-      throw command.node.written.bad("expected no clock: computing of nodes takes no virtual time yet");
+  (void)node_commands(scenario);
   try {
     library_of_nodes(play.written).check_bag(choice_of(play));
   } catch (const BadInput&) {

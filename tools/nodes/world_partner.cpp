@@ -21,9 +21,7 @@ const scenario::RobotScenario& first_with_nodes(const scenario::Scenario& scenar
 
 void check_nodes(const scenario::Scenario& scenario) {
   check_library(first_with_nodes(scenario).nodes->written);
-  for (const nodes::NodeCommand& command : node_commands(scenario))
-    if (!command.node.clock.empty())
-      throw command.node.written.bad("expected no clock: computing of nodes takes no virtual time yet");
+  (void)node_commands(scenario);
 }
 
 std::unique_ptr<outside::Partner> make_world_partner(const scenario::Scenario& scenario) {

@@ -95,6 +95,8 @@ Partner partner_at(int descriptor) {
 
 bool has_partner() { return certain_count > 0; }
 
+void (*after_own_port)(std::uint16_t port) = nullptr;
+
 namespace {
 
 // 0 if the socket has none.
@@ -103,7 +105,9 @@ in_port_t note_own_port(int descriptor, Ports& all) {
   InternetAddress own{};
   if (!read_own_address(descriptor, own)) return 0;
   const in_port_t port = port_of(own);
-  if (port != 0) all.words[port / 64] |= std::uint64_t{1} << (port % 64);
+  if (port == 0) return 0;
+  all.words[port / 64] |= std::uint64_t{1} << (port % 64);
+  if (after_own_port != nullptr) after_own_port(port);
   return port;
 }
 

@@ -28,6 +28,8 @@ void note_connecting(int descriptor);
 /// The number of the connection between two ports, in the order in which the family made them, by the one that it was
 /// made from; 0 if it did not make it from there.
 std::uint32_t connection_from(in_port_t port);
+/// Called, unless null, for a port of the family.
+extern void (*after_own_port)(std::uint16_t port);
 /// `epoll` watches the descriptor outside from now on.
 void note_watched(int epoll, int descriptor);
 /// The descriptor is closed.

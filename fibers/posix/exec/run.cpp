@@ -11,6 +11,7 @@
 #include <cstring>
 
 #include "core/error.hpp"
+#include "fibers/clocks/clock_text.hpp"
 #include "fibers/posix/base/import_binding.hpp"
 #include "fibers/posix/base/interposed.hpp"
 #include "fibers/posix/base/preload.hpp"
@@ -28,6 +29,7 @@
 #include "fibers/posix/exec/run_memory.hpp"
 #include "fibers/posix/exec/snapshot.hpp"
 #include "fibers/posix/family/turn.hpp"
+#include "fibers/posix/links/air.hpp"
 #include "fibers/posix/processes/children.hpp"
 #include "fibers/posix/processes/process_end.hpp"
 #include "fibers/posix/program/randomness.hpp"
@@ -76,6 +78,12 @@ Time keep_pace(kernel::Scheduler& scheduler) {
   return later(look_at_pace(scheduler, next), nanosecond);
 }
 
+// Of one process of the run: its program's computing may take another time than that of others.
+void take_own_clock() {
+  const char* const text = WAITPOINT_NEXT(getenv)(clock_variable);
+  if (text != nullptr && kernel::read_clock(text, record->settings.clock)) record->settings.has_clock = true;
+}
+
 // The C library calls this constructor before those of libraries, which may make threads that must be simulated.
 [[gnu::constructor(101)]] void begin() {
   if (record != nullptr) return;
@@ -99,6 +107,8 @@ Time keep_pace(kernel::Scheduler& scheduler) {
   if (record->settings.order == kernel::Order::explored) mallopt(M_ARENA_MAX, 1);
   begin_to_answer();
   draw_random_bytes_of_the_process();
+  begin_air();
+  take_own_clock();
   if (record->settings.trap_rdtsc) trap_processor_counter();
   if (record->settings.trap_library) trap_library_calls();
   trap_processor_features();

@@ -41,6 +41,7 @@ enum class Part {
   misuses,
   last_calls,
   history,
+  air,
   count
 };
 

@@ -170,8 +170,11 @@ Changes take_ring(kernel::Scheduler& scheduler) {
   return std::exchange(own->rung_for, 0);
 }
 
+void (*before_leaving)() = nullptr;
+
 void leave(int status) {
   if (own == nullptr || own->state == Process::State::ended) return;
+  if (before_leaving != nullptr) before_leaving();
   const bool is_alone = !has_others();
   note_time(record->scheduler);
   note_end_of(*own, status);

@@ -35,6 +35,8 @@ void hand_over_to(kernel::Scheduler& scheduler, Process& process);
 /// What other processes that rang may have changed; then the run is at the present instant of the family. 0: none rang.
 Changes take_ring(kernel::Scheduler& scheduler);
 
+/// Called, unless null, before it leaves: what it has under way to other processes arrives.
+extern void (*before_leaving)();
 /// The process is about to end, with a status as of waitpid(): hands over the turn for good.
 void leave(int status);
 /// Ends another process; returns when that has happened.

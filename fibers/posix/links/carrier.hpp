@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The transport of messages between programs of different robots: the host's network.
+// The transport of messages between programs of different robots: the host's network, or that of a family.
 #pragma once
 
 #include <cstddef>
@@ -8,9 +8,12 @@
 
 namespace waitpoint::posix {
 
-/// The host's network, which carries messages between guests of different robots.
+struct SocketAddress;
+
+/// The network that carries messages between programs of different robots.
 struct Carrier {
-  using Carry = bool (*)(void* network, const kernel::Robot& from, const kernel::Robot& to, std::size_t bytes,
+  /// `to` is a receiver as `find` has returned it.
+  using Carry = bool (*)(void* network, const kernel::Robot& from, const void* to, std::size_t bytes,
                          void (*arrive)(void*), void (*drop)(void*), void* message);
 
   void* network;
@@ -19,6 +22,9 @@ struct Carrier {
   Carry carry;
   /// The same, but lossless and in the order of sending.
   Carry carry_in_order;
+  /// The receiver with a socket of this type at this address; null if no link leads there. Without this function
+  /// receivers are the robots (kernel::Robot) of other programs in this process.
+  const void* (*find)(const SocketAddress& address, int type) = nullptr;
 };
 
 }  // namespace waitpoint::posix

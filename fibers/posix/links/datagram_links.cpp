@@ -66,7 +66,7 @@ bool send_over_link(int descriptor, const msghdr& message, std::size_t& size) {
   SocketAddress address;
   if (!take_target(descriptor, static_cast<const sockaddr*>(message.msg_name), message.msg_namelen, address))
     return false;
-  const Program* const receiver = program_at(address, SOCK_DGRAM, nullptr);
+  const void* const receiver = receiver_at(address, SOCK_DGRAM, nullptr);
   if (receiver == nullptr) return false;
   size = 0;
   for (std::size_t i = 0; i < message.msg_iovlen; ++i)
@@ -85,8 +85,7 @@ bool send_over_link(int descriptor, const msghdr& message, std::size_t& size) {
   }
   WAITPOINT_CHECK(at == datagram->bytes() + size, "the parts of a datagram have another size than their sum");
   pass(kernel::Operation::send, nullptr);
-  if (carrier->carry(carrier->network, *this_program().robot, *receiver->robot, size, arrive_datagram, drop_datagram,
-                     datagram))
+  if (carrier->carry(carrier->network, *this_program().robot, receiver, size, arrive_datagram, drop_datagram, datagram))
     return true;
   drop_datagram(datagram);
   return false;

@@ -33,7 +33,8 @@ bool is_connected_to(int descriptor, const SocketAddress& peer) {
 void set_carrier(const Carrier* to) { carrier = to; }
 
 const Carrier* carrier_here() {
-  return carrier != nullptr && is_simulated() && this_program().is_member ? carrier : nullptr;
+  const bool carries = carrier != nullptr && is_simulated() && (this_program().is_member || carrier->find != nullptr);
+  return carries ? carrier : nullptr;
 }
 
 bool take_own_address(int descriptor, SocketAddress& address) {
@@ -64,13 +65,15 @@ bool is_at(const SocketAddress& bound, const SocketAddress& address) {
 
 int type_of_socket(int descriptor) { return option_of(descriptor, SO_TYPE); }
 
-const Program* program_at(const SocketAddress& address, int type, const SocketAddress* peer) {
+const void* receiver_at(const SocketAddress& address, int type, const SocketAddress* peer) {
+  WAITPOINT_CHECK(carrier != nullptr, "a receiver is looked for without a carrier");
+  if (carrier->find != nullptr) return carrier->find(address, type);
   const Program* owner = nullptr;
   for (int at = next_owned(0, owner); at >= 0; at = next_owned(at + 1, owner)) {
     SocketAddress bound;
     if (owner->robot == this_program().robot || type_of_socket(at) != type) continue;
     if (!take_own_address(at, bound) || !is_at(bound, address)) continue;
-    if (peer == nullptr || option_of(at, SO_ACCEPTCONN) == 1 || is_connected_to(at, *peer)) return owner;
+    if (peer == nullptr || option_of(at, SO_ACCEPTCONN) == 1 || is_connected_to(at, *peer)) return owner->robot;
   }
   return nullptr;
 }

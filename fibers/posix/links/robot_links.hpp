@@ -8,8 +8,6 @@
 
 namespace waitpoint::posix {
 
-struct Program;
-
 /// Sets the run's carrier. Before null, at the run's end, forget_streams() must be called (stream_links.hpp).
 void set_carrier(const Carrier* carrier);
 /// The carrier from the running thread's program to those of other robots; null without one.
@@ -28,8 +26,8 @@ bool is_at(const SocketAddress& bound, const SocketAddress& address);
 
 /// SOCK_STREAM, SOCK_DGRAM etc.; -1 if the descriptor is no socket.
 int type_of_socket(int descriptor);
-/// The program of another robot with a socket of this type at this address; with `peer`, one that is connected to it or
+/// The carrier's receiver with a socket of this type at this address; with `peer`, one that is connected to it or
 /// listens. Null without one.
-const Program* program_at(const SocketAddress& address, int type, const SocketAddress* peer);
+const void* receiver_at(const SocketAddress& address, int type, const SocketAddress* peer);
 
 }  // namespace waitpoint::posix

@@ -31,9 +31,9 @@ static_assert(most_of_a_piece + around_a_piece <= most_under_way,
 /// A sending socket with the data under way from it.
 struct Stream {
   explicit Stream(int of) : descriptor(of) {}
-  int descriptor;                     ///< the program's; -1 once it is closed
-  int own = -1;                       ///< our duplicate
-  const Program* receiver = nullptr;  ///< null: it goes over no link
+  int descriptor;                  ///< the program's; -1 once it is closed
+  int own = -1;                    ///< our duplicate
+  const void* receiver = nullptr;  ///< the carrier's; null: it goes over no link
   std::size_t under_way = 0;
   struct Piece* first_arrived = nullptr;
   struct Piece* last_arrived = nullptr;
@@ -127,6 +127,7 @@ void arrive(void* message) {
   ++arrived_count;
   before_look = deliver_streams;
   deliver(stream);
+  if (arrived_count > 0 && await_room != nullptr) await_room();
   look_at_descriptors();
 }
 
@@ -142,11 +143,11 @@ void drop(void* message) {
     let_go(piece);
 }
 
-const Program* receiver_of(int descriptor) {
+const void* receiver_of(int descriptor) {
   SocketAddress own, peer;
   if (type_of_socket(descriptor) != SOCK_STREAM || !take_own_address(descriptor, own)) return nullptr;
   if (own.bytes.ss_family != AF_INET && own.bytes.ss_family != AF_INET6) return nullptr;
-  return take_peers_address(descriptor, peer) ? program_at(peer, SOCK_STREAM, &own) : nullptr;
+  return take_peers_address(descriptor, peer) ? receiver_at(peer, SOCK_STREAM, &own) : nullptr;
 }
 
 Stream* known(int descriptor) {
@@ -180,8 +181,7 @@ bool launch(Stream& stream, const Carrier& carrier, const void* bytes, std::size
   if (size > 0) std::memcpy(piece->bytes(), bytes, size);
   stream.under_way += size + around_a_piece;
   ++stream.pieces;
-  if (carrier.carry_in_order(carrier.network, *this_program().robot, *stream.receiver->robot, size, arrive, drop,
-                             piece))
+  if (carrier.carry_in_order(carrier.network, *this_program().robot, stream.receiver, size, arrive, drop, piece))
     return true;
   piece->is_kept = false;
   let_go(*piece);
@@ -207,6 +207,8 @@ bool wait_for_room(Stream& stream) {
 }
 
 }  // namespace
+
+void (*await_room)() = nullptr;
 
 bool goes_over_link(int descriptor) {
   if (carrier_here() == nullptr) return false;
@@ -259,6 +261,7 @@ void deliver_streams() {
     next = stream->next;
     if (stream->first_arrived != nullptr) deliver(*stream);
   }
+  if (arrived_count > 0 && await_room != nullptr) await_room();
 }
 
 // Pieces on the link are dropped with the link.

@@ -23,6 +23,8 @@ bool end_stream_over_link(int descriptor);
 void close_stream_over_link(int descriptor);
 /// Writes arrived data: a reader may have made room.
 void deliver_streams();
+/// Called, unless null, while a reader, in another process, has no room for arrived data: to deliver it later.
+extern void (*await_room)();
 /// Frees all streams: data under way never arrives.
 void forget_streams();
 

@@ -23,6 +23,9 @@ inline constexpr char record_variable[] = "WAITPOINT_EXEC";
 /// The name that a session gives to a program, in place of that of its file.
 inline constexpr char name_variable[] = "WAITPOINT_NAME";
 
+/// A clock of the program's own, and of what it starts, in place of the run's (fibers/clocks/clock_text.hpp).
+inline constexpr char clock_variable[] = "WAITPOINT_CLOCK";
+
 /// Exit statuses set by the layer, not by the program.
 inline constexpr int status_of_deadlock = 124, status_of_own_errors = 125;
 
