@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <optional>
+#include <utility>
 
 #include "core/nearest_name.hpp"
+#include "modules/scenario/poster_topics.hpp"
 #include "world/sensors/laser_timing.hpp"
 #include "world/sensors/sonar.hpp"
 
@@ -52,6 +54,8 @@ void RobotBridge::find_device_values() {
     device_values_.push_back({"infrareds.reading", [this](Row& row) { add_infrared_reading(row); }});
   if (robot_.body.imu) device_values_.push_back({"imu.reading", [this](Row& row) { add_imu_reading(row); }});
   if (robot_.body.gps) device_values_.push_back({"gps.reading", [this](Row& row) { add_gps_reading(row); }});
+  if (robot_.nodes)
+    device_values_.push_back({std::string(scenario::pose_topic_device), [this](Row& row) { add_pose_of_topic(row); }});
   for (std::size_t i = 0; i < lasers_.size(); ++i) {
     Laser& laser = lasers_[i];
     device_values_.push_back(
@@ -169,6 +173,22 @@ void RobotBridge::add_gps_reading(Row& row) {
     if (fix.number == given) return;
     given = fix.number;
     poster.write({date, fix.number, fix.position, fix.height_m});
+  };
+}
+
+bool RobotBridge::take(const posters::PoseOfTopic& pose) {
+  if (takes_poses_) pose_of_topic_ = pose;
+  return takes_poses_;
+}
+
+void RobotBridge::add_pose_of_topic(Row& row) {
+  takes_poses_ = true;
+  row.exchange = [this, &poster = create_poster<posters::Localisation>(row)](Time) {
+    const std::optional<posters::PoseOfTopic> taken = std::exchange(pose_of_topic_, std::nullopt);
+    if (!taken) return;
+    posters::Localisation localisation;
+    localisation.position = {Time() + Duration::from_seconds(taken->date_s), taken->pose, taken->covariance};
+    poster.write(localisation);
   };
 }
 

@@ -8,6 +8,7 @@
 //   infrareds.reading       InfraredReading   world -> poster
 //   imu.reading             Inertial          world -> poster
 //   gps.reading             PositionFix       world -> poster
+//   topic.pose              Localisation      nodes of ROS -> poster
 //   <laser's name>.command  LaserCommand      poster -> world
 //   <laser's name>.reading  LaserReading      world -> poster
 //
@@ -31,6 +32,7 @@
 #include "modules/bridge/scan_line.hpp"
 #include "modules/genom/name_space.hpp"
 #include "modules/posters/base.hpp"
+#include "modules/posters/from_topics.hpp"
 #include "modules/posters/inertial.hpp"
 #include "modules/posters/laser.hpp"
 #include "modules/scenario/scenario.hpp"
@@ -51,6 +53,10 @@ class RobotBridge {
 
   /// Before the run: each command given to the body is also appended to `log`, which must outlive the run.
   void set_command_log(std::vector<BodyCommand>& log) { command_log_ = &log; }
+
+  /// A pose that a node has published: at the next exchange it is in the poster that the table has for `topic.pose`;
+  /// false if there is none.
+  bool take(const posters::PoseOfTopic& pose);
 
   /// The exchange after a step of the world, and once before the first; readings are dated `date`.
   void exchange(Time date);
@@ -106,6 +112,7 @@ class RobotBridge {
   void add_infrared_reading(Row& row);
   void add_imu_reading(Row& row);
   void add_gps_reading(Row& row);
+  void add_pose_of_topic(Row& row);
   void add_laser_command(Row& row, Laser& laser);
   void add_laser_reading(Row& row, Laser& laser);
   template <class T>
@@ -125,7 +132,8 @@ class RobotBridge {
   world::World& world_;
   world::BodyId body_;
   bool has_battery_;
-  bool sonars_on_ = false;
+  bool sonars_on_ = false, takes_poses_ = false;
+  std::optional<posters::PoseOfTopic> pose_of_topic_;  // the newest, for the next exchange
   std::vector<Laser> lasers_;
   std::vector<Row> rows_;
   std::vector<SonarRing> sonar_rings_;

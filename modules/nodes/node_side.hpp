@@ -18,6 +18,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "modules/nodes/bag_side.hpp"
@@ -54,7 +55,9 @@ struct RobotTopics {
   std::vector<LaserTopic> lasers;
   std::vector<SonarTopic> sonars;
   bool has_imu = false;
-  bool gives_map_to_odom = false;  ///< the transform between them is the true one, as no node estimates it
+  std::vector<std::string> posters;  ///< topics of modules' posters, within `space`
+  bool takes_pose = false;           ///< from the topic `pose`
+  bool gives_map_to_odom = false;    ///< the transform between them is the true one, as no node estimates it
 };
 
 /// A map known to the robots.
@@ -95,6 +98,33 @@ struct BatteryReading {
   double charge = 1;  ///< of 1
 };
 
+// What modules have in their posters: poster_topics.hpp.
+struct PoseReading {
+  Place place;                         ///< in the map
+  std::array<double, 9> covariance{};  ///< of x, y, heading, in row order
+};
+struct OdometryReading {
+  Place place;  ///< in the frame of the module that has made it
+  std::array<double, 9> covariance{};
+  Speeds speeds;
+};
+struct EchoesReading {
+  double first_angle = 0, angle_step = 0, range_max = 0;
+  std::vector<double> ranges;  ///< from range_max on: no echo
+};
+using PosterValue = std::variant<PoseReading, OdometryReading, EchoesReading, Speeds, ImuReading>;
+struct PosterReading {
+  std::size_t topic = 0;     ///< of RobotTopics::posters; one topic has values of one type
+  std::int64_t date_ns = 0;  ///< virtual
+  PosterValue value;
+};
+
+/// What a node has published as `pose`.
+struct PublishedPose {
+  std::int64_t date_ns = 0;  ///< virtual, of its stamp
+  PoseReading pose;
+};
+
 /// Of one robot, after a step of the world.
 struct RobotReadings {
   bool has_odometry = false;                    ///< odometry and transforms are due: what follows up to `measured`
@@ -107,6 +137,7 @@ struct RobotReadings {
   std::vector<SonarReading> sonars;  ///< those that are due
   std::optional<ImuReading> imu;
   std::optional<BatteryReading> battery;
+  std::vector<PosterReading> posters;  ///< those with new values
 };
 
 /// What nodes ask of a robot by cmd_vel.
@@ -125,6 +156,8 @@ class NodeSide : public MasterSide {
   virtual void send_goal(std::size_t robot, const Place& goal) = 0;
   /// By robot, what has come since the last call.
   virtual std::vector<std::optional<Command>> take_commands() = 0;
+  /// After that: by robot, the newest pose since the last call, as it is.
+  virtual std::vector<std::optional<PublishedPose>> take_poses() = 0;
 };
 
 /// What the library offers.

@@ -26,6 +26,14 @@ bool is_number(const Speeds& speeds) {
          std::isfinite(speeds.turn);
 }
 
+bool is_usable(const PoseReading& pose) {
+  constexpr std::size_t diagonal[] = {0, 4, 8};
+  const auto is_finite = [](double number) { return std::isfinite(number); };
+  return is_finite(pose.place.x) && is_finite(pose.place.y) && is_finite(pose.place.heading) &&
+         std::all_of(pose.covariance.begin(), pose.covariance.end(), is_finite) &&
+         std::all_of(std::begin(diagonal), std::end(diagonal), [&](std::size_t i) { return pose.covariance[i] > 0; });
+}
+
 Speeds speeds_of(const world::Velocity& velocity) {
   return {velocity.v_m_s, velocity.side_m_s, velocity.climb_m_s, velocity.w_rad_s};
 }
@@ -45,7 +53,12 @@ WorldNode::WorldNode(const scenario::Scenario& scenario, const std::vector<std::
   }
 }
 
-void WorldNode::begin(outside::Host& host) { publish(host); }
+void WorldNode::begin(outside::Host& host) {
+  for (Robot& robot : robots_)
+    robot.posters.emplace(scenario::poster_topics(*scenario_.robots[robot.index].nodes),
+                          host.experiment().robots()[robot.index]->names());
+  publish(host);
+}
 
 void WorldNode::publish(outside::Host& host) {
   const world::World& world = host.experiment().world();
@@ -73,6 +86,7 @@ RobotReadings WorldNode::readings(Robot& robot, const world::World& world, Time 
   readings.odometry_covariance = position.covariance;
   readings.measured = speeds_of(odometer.velocity);
   read_sensors(robot, world, now, readings);
+  if (robot.posters) robot.posters->read(readings.posters);
   return readings;
 }
 
@@ -105,6 +119,7 @@ void WorldNode::read_sensors(Robot& robot, const world::World& world, Time now, 
 
 void WorldNode::take_in(outside::Host& host) {
   const std::vector<std::optional<Command>> commands = nodes_->take_commands();
+  const std::vector<std::optional<PublishedPose>> poses = nodes_->take_poses();
   const bool is_new_second = host.next_step() >= second_ + Duration(std::chrono::seconds(1));
   if (is_new_second) second_ = host.next_step();
   processes_.go_on(host.next_step());
@@ -115,6 +130,7 @@ void WorldNode::take_in(outside::Host& host) {
       count(host, robots_[i], commands[i]->messages);
       drive(host, robots_[i], commands[i]->speeds);
     }
+    if (poses[i]) pass_pose(host, robots_[i], *poses[i]);
     show_goal(host, i);
   }
   if (processes_.is_over()) host.finish();
@@ -151,6 +167,23 @@ void WorldNode::drive(outside::Host& host, const Robot& robot, const Speeds& spe
   host.intervene(fmt::format("command {} v_m_s={} w_rad_s={} side_m_s={} climb_m_s={}", outside::quoted_word(name),
                              speeds.ahead, speeds.turn, speeds.left, speeds.up),
                  {place, 0});
+}
+
+void WorldNode::pass_pose(outside::Host& host, const Robot& robot, const PublishedPose& published) {
+  const std::string& name = scenario_.robots[robot.index].name;
+  if (!is_usable(published.pose)) {
+    if (faults_.add("poses that are no numbers"))
+      host.tell_fault(name,
+                      "pose: expected finite numbers and positive variances, found others: such messages are not "
+                      "taken");
+    return;
+  }
+  const Place& at = published.pose.place;
+  std::string text = fmt::format("pose {} date_s={} pose.x={} pose.y={} pose.heading={}", outside::quoted_word(name),
+                                 Duration::from_ns(published.date_ns).seconds(), at.x, at.y, at.heading);
+  for (std::size_t i = 0; i < published.pose.covariance.size(); ++i)
+    text += fmt::format(" covariance.{}={}", i, published.pose.covariance[i]);
+  host.intervene(text, {place, 0});
 }
 
 // Goals are judged by the truth: a node's own opinion is not what the robot did.

@@ -10,6 +10,7 @@
 
 #include "modules/nodes/node_processes.hpp"
 #include "modules/nodes/node_side.hpp"
+#include "modules/nodes/poster_topics.hpp"
 #include "modules/nodes/robots_air.hpp"
 #include "modules/outside/fault_counts.hpp"
 #include "modules/outside/partner.hpp"
@@ -36,15 +37,17 @@ class WorldNode final : public outside::Partner {
     rflex::DeadReckoning odometry;
     std::vector<std::uint64_t> scans = {}, firings = {};  // so far, by laser and ring
     std::uint64_t imu_samples = 0;
-    std::size_t goals_sent = 0;  // so far
-    Time sent_at = {};           // the last one
-    std::uint32_t messages = 0;  // of cmd_vel, within a second
+    std::optional<PosterTopics> posters = {};  // from the run's begin on
+    std::size_t goals_sent = 0;                // so far
+    Time sent_at = {};                         // the last one
+    std::uint32_t messages = 0;                // of cmd_vel, within a second
   };
 
   RobotReadings readings(Robot& robot, const world::World& world, Time now);
   void read_sensors(Robot& robot, const world::World& world, Time now, RobotReadings& readings);
   void show_goal(outside::Host& host, std::size_t number);
   void count(outside::Host& host, Robot& robot, std::uint32_t messages);
+  void pass_pose(outside::Host& host, const Robot& robot, const PublishedPose& published);
   void drive(outside::Host& host, const Robot& robot, const Speeds& speeds);
   void tell_news(outside::Host& host);
 

@@ -2,6 +2,7 @@
 #include "modules/nodes/world_topics.hpp"
 
 #include "modules/ros1/launch.hpp"
+#include "modules/scenario/poster_topics.hpp"
 
 namespace waitpoint::nodes {
 namespace {
@@ -57,6 +58,12 @@ GridValues values_of(const OccupancyGrid& map) {
   return values;
 }
 
+std::vector<std::string> topics_of_posters(const scenario::NodesScenario& nodes) {
+  std::vector<std::string> topics;
+  for (scenario::PosterTopic& row : scenario::poster_topics(nodes)) topics.push_back(std::move(row.topic));
+  return topics;
+}
+
 }  // namespace
 
 Place place_of(const Pose& pose, double z) { return {pose.x, pose.y, pose.heading, z}; }
@@ -84,6 +91,8 @@ NodeSideSetup node_side_setup(const scenario::Scenario& scenario, const Occupanc
                             .lasers = lasers_of(robot, prefix),
                             .sonars = sonars_of(robot, prefix),
                             .has_imu = robot.body.imu.has_value(),
+                            .posters = topics_of_posters(nodes),
+                            .takes_pose = scenario::takes_pose(robot),
                             .gives_map_to_odom = nodes.gives_map_to_odom});
     for (const auto& [name, parameter] : nodes.launch->parameters) setup.parameters.emplace_back(name, parameter.value);
   }

@@ -141,6 +141,14 @@ What parse_command(std::string_view text, const scenario::Location& written) {
   return command;
 }
 
+What parse_pose(std::string_view text, const scenario::Location& written) {
+  PublishedPose published{require(text, "a robot", written), {}};
+  genom::Settings settings(parse_settings(text, written));
+  settings.read(published.pose);
+  settings.check_all_used();
+  return published;
+}
+
 What parse_goal_end(std::string_view text, const scenario::Location& written) {
   GoalEnd end{require(text, "a robot", written)};
   const std::string how = scenario::take_word(text, written);
@@ -166,13 +174,15 @@ constexpr Verb verbs[] = {{"request", parse_request},
                           {"external", parse_external},
                           {"report", parse_report_of},
                           {"command", parse_command},
+                          {"pose", parse_pose},
                           {"goal", parse_goal_end}};
 
 }  // namespace
 
 bool is_frequent(const Intervention& intervention) {
   return std::holds_alternative<ExternalReport>(intervention.what) ||
-         std::holds_alternative<DriveCommand>(intervention.what);
+         std::holds_alternative<DriveCommand>(intervention.what) ||
+         std::holds_alternative<PublishedPose>(intervention.what);
 }
 
 std::vector<std::string_view> intervention_verbs() {
@@ -192,7 +202,7 @@ Intervention parse_intervention(std::string_view text, const scenario::Location&
   throw written.bad("unknown intervention '" + word + "'" +
                     (hint.empty()
                          ? ", expected request, move, obstacle, move-obstacle, remove-obstacle, push, seed, tcl, "
-                           "external, report, command or goal"
+                           "external, report, command, pose or goal"
                          : hint));
 }
 

@@ -12,6 +12,7 @@
 //   external ROBOT [between=stay] [KEY=VALUE ...]     from now on its body is moved by reports: see external_robot.hpp
 //   report ROBOT date_s=T x_m=X y_m=Y heading_rad=A ...  of an external robot's position: see position_report.hpp
 //   command ROBOT v_m_s=V w_rad_s=W ...               to its base, as by its software
+//   pose ROBOT date_s=T pose.x=X pose.y=Y pose.heading=A ...  that a node has published, for its modules
 //   goal ROBOT reached|given-up                       the end of its present goal, of a robot that others drive
 //
 // One line of text each, the same at the prompt, in a journal and in the programming interface; the digest hashes it.
@@ -27,6 +28,7 @@
 #include "core/pose.hpp"
 #include "core/setting.hpp"
 #include "core/time.hpp"
+#include "modules/posters/from_topics.hpp"
 #include "modules/run/external_robot.hpp"
 #include "modules/run/position_report.hpp"
 #include "modules/scenario/location.hpp"
@@ -90,6 +92,11 @@ struct DriveCommand {
   world::Velocity velocity;
 };
 
+struct PublishedPose {
+  std::string robot;
+  posters::PoseOfTopic pose;
+};
+
 struct GoalEnd {
   std::string robot;
   bool is_reached = false;
@@ -99,7 +106,7 @@ struct Intervention {
   std::string text;
   scenario::Location written;
   std::variant<ModuleRequest, RobotMove, ObstacleMove, ObstaclePut, ObstacleRemoval, Push, SeedChange, ShellCommand,
-               ExternalDeclaration, ExternalReport, DriveCommand, GoalEnd>
+               ExternalDeclaration, ExternalReport, DriveCommand, PublishedPose, GoalEnd>
       what;
 };
 

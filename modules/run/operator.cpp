@@ -73,6 +73,8 @@ void Operator::check(const Intervention& intervention) {
   if (const auto* report = std::get_if<ExternalReport>(&intervention.what)) check(*report, intervention.written);
   if (const auto* command = std::get_if<DriveCommand>(&intervention.what))
     (void)bridge::index_of(command->robot, robots_, intervention.written);
+  if (const auto* pose = std::get_if<PublishedPose>(&intervention.what))
+    (void)bridge::index_of(pose->robot, robots_, intervention.written);
   if (const auto* end = std::get_if<GoalEnd>(&intervention.what))
     (void)bridge::index_of(end->robot, robots_, intervention.written);
 }
@@ -175,6 +177,12 @@ std::string Operator::carry_out(const ExternalReport& report, const Intervention
 std::string Operator::carry_out(const DriveCommand& command, const Intervention& whole) {
   world_.command(world::BodyId(bridge::index_of(command.robot, robots_, whole.written)), command.velocity);
   return "done";
+}
+
+std::string Operator::carry_out(const PublishedPose& published, const Intervention& whole) {
+  bridge::Robot& robot = *robots_[bridge::index_of(published.robot, robots_, whole.written)];
+  const bool is_taken = robot.presence() == bridge::Presence::here && robot.bridge().take(published.pose);
+  return is_taken ? "done" : "ignored: no poster of the robot is filled from the topic 'pose'";
 }
 
 // Streams have no state but these seeds; links and programs that begin later ask the chooser for its own.

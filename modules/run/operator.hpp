@@ -83,6 +83,7 @@ class Operator {
   std::string carry_out(const ExternalDeclaration& external, const Intervention& whole);
   std::string carry_out(const ExternalReport& report, const Intervention& whole);
   std::string carry_out(const DriveCommand& command, const Intervention& whole);
+  std::string carry_out(const PublishedPose& published, const Intervention& whole);
   std::string carry_out(const GoalEnd& end, const Intervention& whole);
 
   world::World& world_;

@@ -12,6 +12,7 @@
 #include "modules/ros1/substitution.hpp"
 #include "modules/scenario/command_reader.hpp"
 #include "modules/scenario/parameter_value.hpp"
+#include "modules/scenario/poster_topics.hpp"
 
 namespace waitpoint::scenario {
 namespace {
@@ -147,7 +148,7 @@ void read_namespace(const RobotScenario& robot, bool is_only_one, NodesScenario&
   const YamlNode* const ros = nodes.document->find("ros");
   const bool has_namespace = ros != nullptr && ros->find("namespace") != nullptr;
   if (ros != nullptr) {
-    const YamlMap map(*ros, "ros", {"namespace", "tf_prefix", "map_to_odom"});
+    const YamlMap map(*ros, "ros", {"namespace", "tf_prefix", "map_to_odom", "publish"});
     // Both may be empty.
     const auto text_of = [&map](std::string_view key, const std::string& otherwise) {
       const YamlNode* const value = map.find(key);
@@ -263,6 +264,7 @@ void read_nodes(Scenario& scenario) {
     if (!robot.nodes) continue;
     read_namespace(robot, count == 1, *robot.nodes);
     read_and_add_launch(*robot.nodes, robot.warnings, scenario.fingerprint);
+    (void)poster_topics(*robot.nodes);
   }
   check_names_of_robots(scenario);
   check_names_of_nodes(scenario);

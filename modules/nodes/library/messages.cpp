@@ -42,6 +42,15 @@ boost::array<double, 36> covariance_of(const std::array<double, 9>& covariance) 
   return all;
 }
 
+std::array<double, 9> plane_covariance_of(const boost::array<double, 36>& all) {
+  constexpr std::size_t places[] = {0, 1, 5}, rows = 6;
+  std::array<double, 9> covariance{};
+  for (std::size_t row = 0; row < 3; ++row)
+    for (std::size_t column = 0; column < 3; ++column)
+      covariance[3 * row + column] = all[rows * places[row] + places[column]];
+  return covariance;
+}
+
 // As REP 117 has it.
 float range_or_none(double range, double range_max) {
   return range < range_max ? static_cast<float>(range) : std::numeric_limits<float>::infinity();
@@ -66,6 +75,30 @@ geometry_msgs::PoseStamped pose_in(const ros::Time& stamp, const std::string& fr
   message.header = header(stamp, frame);
   message.pose = pose_of(place);
   return message;
+}
+
+geometry_msgs::PoseWithCovarianceStamped pose_with_covariance(const ros::Time& stamp, const std::string& frame,
+                                                              const PoseReading& pose) {
+  geometry_msgs::PoseWithCovarianceStamped message;
+  message.header = header(stamp, frame);
+  message.pose.pose = pose_of(pose.place);
+  message.pose.covariance = covariance_of(pose.covariance);
+  return message;
+}
+
+PoseReading pose_reading(const geometry_msgs::PoseWithCovarianceStamped& message) {
+  const geometry_msgs::Point& at = message.pose.pose.position;
+  const geometry_msgs::Quaternion& turn = message.pose.pose.orientation;
+  return {{at.x, at.y, 2 * exact::atan2(turn.z, turn.w), at.z}, plane_covariance_of(message.pose.covariance)};
+}
+
+geometry_msgs::Twist twist_of(const Speeds& speeds) {
+  geometry_msgs::Twist twist;
+  twist.linear.x = speeds.ahead;
+  twist.linear.y = speeds.left;
+  twist.linear.z = speeds.up;
+  twist.angular.z = speeds.turn;
+  return twist;
 }
 
 sensor_msgs::LaserScan scan(const ros::Time& stamp, const LaserTopic& laser, const ScanReading& reading) {
@@ -100,10 +133,7 @@ nav_msgs::Odometry odometry(const ros::Time& stamp, const std::string& frame, co
   message.child_frame_id = child;
   message.pose.pose = pose_of(place);
   message.pose.covariance = covariance_of(covariance);
-  message.twist.twist.linear.x = speeds.ahead;
-  message.twist.twist.linear.y = speeds.left;
-  message.twist.twist.linear.z = speeds.up;
-  message.twist.twist.angular.z = speeds.turn;
+  message.twist.twist = twist_of(speeds);
   return message;
 }
 

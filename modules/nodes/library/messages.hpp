@@ -3,7 +3,9 @@
 #pragma once
 
 #include <geometry_msgs/PoseStamped.h>
+#include <geometry_msgs/PoseWithCovarianceStamped.h>
 #include <geometry_msgs/TransformStamped.h>
+#include <geometry_msgs/Twist.h>
 #include <nav_msgs/OccupancyGrid.h>
 #include <nav_msgs/Odometry.h>
 #include <ros/time.h>
@@ -21,6 +23,11 @@ namespace waitpoint::nodes {
 geometry_msgs::TransformStamped transform(const ros::Time& stamp, const std::string& parent, const std::string& child,
                                           const Place& place);
 geometry_msgs::PoseStamped pose_in(const ros::Time& stamp, const std::string& frame, const Place& place);
+geometry_msgs::PoseWithCovarianceStamped pose_with_covariance(const ros::Time& stamp, const std::string& frame,
+                                                              const PoseReading& pose);
+/// The opposite.
+PoseReading pose_reading(const geometry_msgs::PoseWithCovarianceStamped& message);
+geometry_msgs::Twist twist_of(const Speeds& speeds);
 sensor_msgs::LaserScan scan(const ros::Time& stamp, const LaserTopic& laser, const ScanReading& reading);
 /// Of sonar number `sonar` of the ring.
 sensor_msgs::Range range(const ros::Time& stamp, const SonarTopic& ring, std::size_t sonar, double range);

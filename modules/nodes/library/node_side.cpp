@@ -66,6 +66,13 @@ class WorldAndMaster final : public NodeSide {
     return commands;
   }
 
+  std::vector<std::optional<PublishedPose>> take_poses() override {
+    std::vector<std::optional<PublishedPose>> poses;
+    poses.reserve(robots_.size());
+    for (const auto& robot : robots_) poses.push_back(robot->take_pose(begin_));
+    return poses;
+  }
+
  private:
   void advertise(const NodeSideSetup& setup) {
     if (has_clock_) clock_ = node_->advertise<rosgraph_msgs::Clock>("/clock", queue);

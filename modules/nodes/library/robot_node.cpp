@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "modules/nodes/library/robot_node.hpp"
 
-#include <geometry_msgs/PoseWithCovarianceStamped.h>
-
 #include "core/exact_math.hpp"
 #include "modules/nodes/library/messages.hpp"
 
@@ -34,6 +32,10 @@ RobotNode::RobotNode(const RobotTopics& topics) : topics_(topics), node_(topics.
   battery_ = node_.advertise<sensor_msgs::BatteryState>("battery", queue, latched);
   goal_ = node_.advertise<geometry_msgs::PoseStamped>("move_base_simple/goal", queue, latched);
   start_ = node_.advertise<geometry_msgs::PoseWithCovarianceStamped>("initialpose", 1, latched);
+  posters_.resize(topics.posters.size());
+  if (topics.takes_pose)
+    pose_ = node_.subscribe<geometry_msgs::PoseWithCovarianceStamped>(
+        "pose", queue, [this](const geometry_msgs::PoseWithCovarianceStamped::ConstPtr& pose) { taken_pose_ = pose; });
   drive_ = node_.subscribe<geometry_msgs::Twist>("cmd_vel", queue,
                                                  [this](const geometry_msgs::Twist::ConstPtr& twist) { take(*twist); });
 }
@@ -60,6 +62,40 @@ void RobotNode::publish(std::int64_t now_ns, const ros::Time& stamp, const Robot
       sonars_[reading.ring].publish(range(stamp, topics_.sonars[reading.ring], i, reading.ranges[i]));
   if (readings.imu) imu_.publish(imu(stamp, base, *readings.imu));
   if (readings.battery) battery_.publish(battery(stamp, *readings.battery));
+  for (const PosterReading& reading : readings.posters)
+    publish(stamp - ros::Duration().fromNSec(now_ns - reading.date_ns), reading);
+}
+
+void RobotNode::publish(const ros::Time& stamp, const PosterReading& reading) {
+  ros::Publisher& topic = posters_[reading.topic];
+  const auto send = [&](const auto& message) {
+    using Message = std::decay_t<decltype(message)>;
+    if (!topic) topic = node_.advertise<Message>(topics_.posters[reading.topic], queue);
+    topic.publish(message);
+  };
+  const std::string base = topics_.prefix + "base_link";
+  if (const auto* pose = std::get_if<PoseReading>(&reading.value)) {
+    send(pose_with_covariance(stamp, map_frame, *pose));
+  } else if (const auto* motion = std::get_if<OdometryReading>(&reading.value)) {
+    send(odometry(stamp, topics_.prefix + "modules_odom", base, motion->place, motion->covariance, motion->speeds));
+  } else if (const auto* echoes = std::get_if<EchoesReading>(&reading.value)) {
+    const LaserTopic laser{"",
+                           topics_.lasers.empty() ? base : topics_.lasers.front().frame,
+                           {},
+                           echoes->range_max,
+                           topics_.lasers.empty() ? 0 : topics_.lasers.front().period_s};
+    send(scan(stamp, laser, {0, reading.date_ns, echoes->first_angle, echoes->angle_step, echoes->ranges}));
+  } else if (const auto* speeds = std::get_if<Speeds>(&reading.value)) {
+    send(twist_of(*speeds));
+  } else {
+    send(imu(stamp, base, std::get<ImuReading>(reading.value)));
+  }
+}
+
+std::optional<PublishedPose> RobotNode::take_pose(const ros::Time& begin) {
+  const auto taken = std::exchange(taken_pose_, nullptr);
+  if (taken == nullptr) return std::nullopt;
+  return PublishedPose{(taken->header.stamp - begin).toNSec(), pose_reading(*taken)};
 }
 
 void RobotNode::add_transforms(const ros::Time& stamp, const RobotReadings& readings, tf2_msgs::TFMessage& tf) const {
@@ -82,14 +118,8 @@ void RobotNode::send_goal(const ros::Time& stamp, const Place& goal) { goal_.pub
 
 void RobotNode::send_start(const ros::Time& stamp) {
   constexpr double variance_m2 = 0.05 * 0.05, variance_rad2 = 0.05 * 0.05;
-  constexpr std::size_t x = 0, y = 7, heading = 35;
-  geometry_msgs::PoseWithCovarianceStamped message;
-  const geometry_msgs::PoseStamped pose = pose_in(stamp, map_frame, topics_.start);
-  message.header = pose.header;
-  message.pose.pose = pose.pose;
-  message.pose.covariance[x] = message.pose.covariance[y] = variance_m2;
-  message.pose.covariance[heading] = variance_rad2;
-  start_.publish(message);
+  start_.publish(pose_with_covariance(stamp, map_frame,
+                                      {topics_.start, {variance_m2, 0, 0, 0, variance_m2, 0, 0, 0, variance_rad2}}));
 }
 
 }  // namespace waitpoint::nodes

@@ -21,6 +21,7 @@ class FakeMaster final : public NodeSide {
   bool has_driver(std::size_t) const override { return false; }
   void send_goal(std::size_t, const Place&) override {}
   std::vector<std::optional<Command>> take_commands() override { return {}; }
+  std::vector<std::optional<PublishedPose>> take_poses() override { return {}; }
 };
 
 NodeCommand node(const std::string& name, const std::string& script) {
