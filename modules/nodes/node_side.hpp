@@ -73,7 +73,7 @@ struct NodeSideSetup {
   bool has_debian_master = false;  ///< in place of one inside
   std::vector<RobotTopics> robots;
   GridValues map;
-  std::vector<std::pair<std::string, nlohmann::json>> parameters;  ///< by global name; no maps
+  std::vector<std::pair<std::string, nlohmann::json>> parameters;  ///< by global name; maps only within lists
 };
 
 struct ScanReading {

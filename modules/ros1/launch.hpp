@@ -54,8 +54,8 @@ struct LaunchTest {
   int retries = 0;
 };
 
-/// A value for the parameter server: a bool, 32-bit integer, double, string or list, but no map, whose elements are
-/// parameters of their own.
+/// A value for the parameter server: a bool, 32-bit integer, double, string or list. Elements of a map are parameters
+/// of their own, except within a list.
 struct Parameter {
   nlohmann::json value;
   Location written;

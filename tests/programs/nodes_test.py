@@ -94,6 +94,12 @@ class Nodes(unittest.TestCase):
         done = self.run_hall("    nodes:\n      - {name: driver, command: [./nowhere]}\n")
         self.assertRegex(done.stderr, r"/driver: cannot be started: .*nowhere: No such file or directory")
 
+    def test_lists_of_maps_among_the_parameters(self):
+        node = self.node("reader.py", "import rospy\nrospy.init_node('reader')\nprint('read', rospy.get_param('~plugins'))\n")
+        done = self.run_hall(f"    nodes: [{{name: reader, command: [{node}], output: screen, required: true, "
+                             "params: {plugins: [{name: walls, sizes: [1, {of: 2.5}]}, {}]}}]\n")
+        self.assertIn("read [{'name': 'walls', 'sizes': [1, {'of': 2.5}]}, {}]", done.stdout + done.stderr)
+
     def test_a_node_that_dies(self):
         node = self.node("dies", "import sys, time\ntime.sleep(3)\nsys.exit(7)\n")
         done = self.run_hall(f"    nodes: [{{name: frail, command: [{node}], required: true}}]\n")

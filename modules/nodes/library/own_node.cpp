@@ -5,16 +5,28 @@
 
 #include <cstdlib>
 
+#include "modules/nodes/library/parameters.hpp"
+
 namespace waitpoint::nodes {
 namespace {
 
 using XmlRpc::XmlRpcValue;
+
+XmlRpcValue value_of(const nlohmann::json& json);
+
+/// Of a map within a list; others are parameters of their own.
+XmlRpcValue structure_of(const nlohmann::json& json) {
+  XmlRpcValue structure = empty_structure();
+  for (const auto& [key, element] : json.items()) structure[key] = value_of(element);
+  return structure;
+}
 
 XmlRpcValue value_of(const nlohmann::json& json) {
   if (json.is_boolean()) return XmlRpcValue(json.get<bool>());
   if (json.is_number_integer()) return XmlRpcValue(json.get<int>());
   if (json.is_number()) return XmlRpcValue(json.get<double>());
   if (json.is_string()) return XmlRpcValue(json.get<std::string>());
+  if (json.is_object()) return structure_of(json);
   XmlRpcValue array;
   array.setSize(0);
   int i = 0;
