@@ -16,7 +16,8 @@ namespace {
 
 constexpr double arrived_m = 0.5;  // from the goal
 constexpr double at_rest_m_s = 0.1;
-constexpr Duration patience = std::chrono::minutes(5);
+constexpr double no_turn_rad_s = 0.02;
+constexpr Duration patience = std::chrono::minutes(5), repetition = std::chrono::seconds(10);
 constexpr Duration odometry_period = std::chrono::milliseconds(50), battery_period = std::chrono::seconds(1);
 constexpr std::uint32_t messages_per_s_at_most = 500;  // a controller sends 10 to 100
 constexpr const char* place = "nodes";
@@ -196,19 +197,28 @@ void WorldNode::show_goal(outside::Host& host, std::size_t number) {
   if (!current) return;
   const Time now = host.next_step();
   const world::BodyState& body = host.experiment().world().body(world::BodyId(robot.index));
+  const Point goal = of.goals[*current].position;
   if (robot.goals_sent <= *current) {
     if (!nodes_->has_driver(number)) return;
-    const Point goal = of.goals[*current].position, away = goal - body.pose.position();
-    nodes_->send_goal(number, {goal.x, goal.y, exact::atan2(away.y, away.x), 0});
+    send_goal(number, goal, body, now);
     robot.goals_sent = *current + 1;
     robot.sent_at = now;
     ++goals_;
     return;
   }
-  const bool has_arrived = length(of.goals[*current].position - body.pose.position()) < arrived_m &&
-                           std::fabs(body.velocity.v_m_s) < at_rest_m_s;
+  const bool is_at_rest = std::fabs(body.velocity.v_m_s) < at_rest_m_s;
+  const bool has_arrived = length(goal - body.pose.position()) < arrived_m && is_at_rest;
+  if (!is_at_rest || std::fabs(body.velocity.w_rad_s) > no_turn_rad_s) robot.told_at = now;
+  // As a person would, who sees that nothing happens: a planner that starts can lose a goal, or give it up.
+  if (!has_arrived && now - robot.told_at >= repetition) send_goal(number, goal, body, now);
   if (!has_arrived && now - robot.sent_at < patience) return;
   host.intervene("goal " + outside::quoted_word(of.name) + (has_arrived ? " reached" : " given-up"), {place, 0});
+}
+
+void WorldNode::send_goal(std::size_t number, const Point& position, const world::BodyState& body, Time now) {
+  const Point away = position - body.pose.position();
+  nodes_->send_goal(number, {position.x, position.y, exact::atan2(away.y, away.x), 0});
+  robots_[number].told_at = now;
 }
 
 std::string WorldNode::account() const {

@@ -41,6 +41,7 @@ class WorldNode final : public outside::Partner {
     std::size_t goals_sent = 0;                // so far
     Time sent_at = {};                         // the last one
     std::uint32_t messages = 0;                // of cmd_vel, within a second
+    Time told_at = {};                         // its last message, or when the robot moved since
   };
 
   RobotReadings readings(Robot& robot, const world::World& world, Time now);
@@ -48,6 +49,7 @@ class WorldNode final : public outside::Partner {
   void show_goal(outside::Host& host, std::size_t number);
   void count(outside::Host& host, Robot& robot, std::uint32_t messages);
   void pass_pose(outside::Host& host, const Robot& robot, const PublishedPose& published);
+  void send_goal(std::size_t number, const Point& position, const world::BodyState& body, Time now);
   void drive(outside::Host& host, const Robot& robot, const Speeds& speeds);
   void tell_news(outside::Host& host);
 

@@ -94,6 +94,15 @@ class Nodes(unittest.TestCase):
         done = self.run_hall("    nodes:\n      - {name: driver, command: [./nowhere]}\n")
         self.assertRegex(done.stderr, r"/driver: cannot be started: .*nowhere: No such file or directory")
 
+    def test_a_goal_is_shown_again_to_a_driver_that_lost_it(self):
+        node = self.node("forgets.py", "import rospy\nfrom geometry_msgs.msg import PoseStamped\nrospy.init_node('forgets')\n"
+                         "count = []\ndef take(goal):\n    count.append(goal)\n"
+                         "    print('goal', len(count), goal.pose.position.x, rospy.get_time() % 100)\n"
+                         "rospy.Subscriber('move_base_simple/goal', PoseStamped, take)\nrospy.spin()\n")
+        done = self.run_hall(f"    nodes: [{{name: forgets, command: [{node}], output: screen}}]\n    goals: [[9, 4]]\n",
+                             "--until", "15")
+        self.assertEqual(re.findall("goal ([0-9]) 9.0", done.stdout + done.stderr), ["1", "2"], done.stderr)
+
     def test_lists_of_maps_among_the_parameters(self):
         node = self.node("reader.py", "import rospy\nrospy.init_node('reader')\nprint('read', rospy.get_param('~plugins'))\n")
         done = self.run_hall(f"    nodes: [{{name: reader, command: [{node}], output: screen, required: true, "
