@@ -26,12 +26,22 @@ constinit kernel::Task ended_owner{.event = {},
                                    .search = {},
                                    .name = "a thread that has ended"};
 
+// Programs and debuggers read the owner where glibc has it.
+void show_owner(pthread_mutex_t& bytes, const kernel::Task& owner) { bytes.__data.__owner = thread_of(owner).id; }
+void show_no_owner(pthread_mutex_t& bytes) { bytes.__data.__owner = 0; }
+
+pthread_mutex_t& bytes_of(const Mutex& mutex) {
+  return *static_cast<pthread_mutex_t*>(const_cast<void*>(mutex.address));
+}
+
 void hand_on(Mutex& mutex) {
   take_from_owner(mutex.object);
   mutex.depth = 0;
+  show_no_owner(bytes_of(mutex));
   if (kernel::Task* next = wake_one(mutex.object); next != nullptr) {
     kernel::own(mutex.object, *next);
     mutex.depth = 1;
+    show_owner(bytes_of(mutex), *next);
   }
 }
 
@@ -41,6 +51,7 @@ void give_up(Mutex& mutex) {
   if (mutex.robust_state != Mutex::RobustState::inconsistent) return hand_on(mutex);
   mutex.robust_state = Mutex::RobustState::unrecoverable;
   take_from_owner(mutex.object);
+  show_no_owner(bytes_of(mutex));
   kernel::running->scheduler->wake_all(mutex.object);
 }
 
@@ -80,6 +91,7 @@ int wait_and_lock(Mutex& mutex, int type, Time deadline) {
   }
   kernel::own(mutex.object, *kernel::running);
   mutex.depth = 1;
+  show_owner(bytes_of(mutex), *kernel::running);
   return enter(mutex);
 }
 
@@ -103,7 +115,7 @@ Mutex* reach(const char* does, kernel::Operation operation, pthread_mutex_t* byt
 }
 
 // Short cuts for an uncontended lock and unlock, where no event can come between: the most frequent calls of programs.
-[[gnu::always_inline]] inline bool lock_at_once(const pthread_mutex_t& bytes) {
+[[gnu::always_inline]] inline bool lock_at_once(pthread_mutex_t& bytes) {
   Mutex* const mutex = reinterpret_cast<Mutex*>(bytes.__data.__list.__prev);
   kernel::Task* const task = kernel::running;
   if (mutex == nullptr || mutex->address != &bytes || mutex->object.owner != nullptr ||
@@ -113,10 +125,11 @@ Mutex* reach(const char* does, kernel::Operation operation, pthread_mutex_t* byt
   WAITPOINT_FAST_CHECK(mutex->object.owner == nullptr, "a mutex was taken during a short cut of its lock");
   kernel::own(mutex->object, *task);
   mutex->depth = 1;
+  show_owner(bytes, *task);
   return true;
 }
 
-[[gnu::always_inline]] inline bool unlock_at_once(const pthread_mutex_t& bytes) {
+[[gnu::always_inline]] inline bool unlock_at_once(pthread_mutex_t& bytes) {
   Mutex* const mutex = reinterpret_cast<Mutex*>(bytes.__data.__list.__prev);
   kernel::Task* const task = kernel::running;
   if (mutex == nullptr || mutex->address != &bytes || mutex->object.first_waiter != nullptr || mutex->depth != 1 ||
@@ -126,6 +139,7 @@ Mutex* reach(const char* does, kernel::Operation operation, pthread_mutex_t* byt
   WAITPOINT_FAST_CHECK(mutex->object.owner == task && mutex->object.first_waiter == nullptr,
                        "a mutex changed during a short cut of its unlock");
   kernel::disown(mutex->object, *task);
+  show_no_owner(bytes);
   return true;
 }
 

@@ -36,6 +36,31 @@ CASE(a_statically_initialised_mutex_is_free) {
   EXPECT_IS(pthread_mutex_trylock(&mutex), 0);
 }
 
+// Some programs look there whether they hold a mutex, as Fast DDS does.
+static pthread_cond_t given_up = PTHREAD_COND_INITIALIZER;
+static void* note_owner_during_a_wait(void* owner) {
+  EXPECT_IS(pthread_mutex_lock(&mutex), 0);
+  EXPECT_IS(mutex.__data.__owner, gettid());
+  *(int*)owner = mutex.__data.__owner;
+  EXPECT_IS(pthread_cond_signal(&given_up), 0);
+  EXPECT_IS(pthread_mutex_unlock(&mutex), 0);
+  return NULL;
+}
+CASE(the_owner_is_where_glibc_has_it) {
+  int other = 0;
+  EXPECT_IS(mutex.__data.__owner, 0);
+  EXPECT_IS(pthread_mutex_lock(&mutex), 0);
+  EXPECT_IS(mutex.__data.__owner, gettid());
+  const pthread_t id = start(note_owner_during_a_wait, &other);
+  while (other == 0) EXPECT_IS(pthread_cond_wait(&given_up, &mutex), 0);
+  EXPECT_IS(mutex.__data.__owner, gettid());
+  EXPECT_IS(pthread_mutex_unlock(&mutex), 0);
+  join(id);
+  EXPECT_IS(mutex.__data.__owner, 0);
+  EXPECT_IS(pthread_mutex_trylock(&mutex), 0);
+  EXPECT_IS(mutex.__data.__owner, gettid());
+}
+
 CASE(a_locked_mutex_is_busy_for_others) {
   EXPECT_IS(pthread_mutex_lock(&mutex), 0);
   EXPECT_IS(tried_by_another(), EBUSY);
