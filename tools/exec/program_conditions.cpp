@@ -9,6 +9,7 @@
 #include "core/error.hpp"
 #include "core/number_text.hpp"
 #include "tools/command/option_values.hpp"
+#include "tools/exec/own_machine_rights.hpp"
 #include "tools/exec/program_file.hpp"
 
 namespace waitpoint::tools {
@@ -17,7 +18,7 @@ namespace {
 using kernel::ClockKind;
 using kernel::ClockOptions;
 
-constexpr double idle_limit_s_max = 1e9, speed_max = 1e6;
+constexpr double idle_limit_s_max = 1e9, speed_max = 1e6, delay_us_max = 1e9;
 
 bool parse_cost(std::string_view text, Duration& cost) {
   double us = 0;
@@ -45,6 +46,20 @@ bool parse_scale(std::string_view text, ClockOptions& clock) {
   if (!text.empty() && (text[0] != 'x' || !parse_number(text.substr(1), scale))) return false;
   clock.scale_millionths = std::llround(scale * 1e6);
   return scale >= 0 && scale <= 1e6;
+}
+
+// Parses "200", or "100..300", in microseconds.
+bool parse_delay(std::string_view text, posix::Medium& medium) {
+  const auto parse = [](std::string_view number, Duration& delay) {
+    double us = 0;
+    const bool good = parse_number(number, us) && us >= 0 && us <= delay_us_max;
+    delay = Duration::from_ns(std::llround(us * 1e3));
+    return good;
+  };
+  const std::size_t dots = text.find("..");
+  const std::string_view greatest = dots == std::string_view::npos ? text : text.substr(dots + 2);
+  return parse(text.substr(0, dots), medium.delay_least) && parse(greatest, medium.delay_greatest) &&
+         medium.delay_least <= medium.delay_greatest;
 }
 
 }  // namespace
@@ -86,9 +101,12 @@ void ProgramConditions::apply_to(posix::Settings& settings) const {
   settings.simulates_started = children;
   if (speed) settings.speed = *speed;
   if (idle_limit) settings.idle_limit = *idle_limit;
+  settings.own_machine = own_machine;
+  settings.medium = medium;
 }
 
 void ProgramConditions::check(const std::vector<std::string>& programs) const {
+  if (own_machine) take_rights_for_own_machine();
   if (!clock || clock->kind != kernel::ClockKind::counted) return;
   for (const std::string& program : programs)
     if (!counts_blocks(program))
@@ -107,6 +125,9 @@ std::string ProgramConditions::words() const {
   if (!children) all += " --children native";
   if (speed) all += fmt::format(" --speed {}", *speed);
   if (idle_limit) all += " --idle-limit " + to_string(Time() + *idle_limit);
+  if (own_machine) all += " --own-machine";
+  if (medium.loss > 0) all += fmt::format(" --loss {}", medium.loss);
+  if (!delay_text.empty()) all += " --delay " + delay_text;
   return all;
 }
 
@@ -128,6 +149,13 @@ void ConditionArguments::add_to(Command& command) {
   command.option("--idle-limit", idle_limit_, "S",
                  "end the run after S seconds of virtual time in which only timers expire and no thread\n"
                  "wakes another; 0: never (default: 3600)");
+  command.flag("--own-machine", own_machine_,
+               "run the processes as on a machine of their own: its network is a loopback with multicast,\n"
+               "its /dev/shm is empty; no other process hears them");
+  command.option("--loss", loss_, "P", "lose each UDP datagram with this probability, drawn by the seed (default: 0)");
+  command.option("--delay", delay_, "US",
+                 "let each UDP datagram arrive after so many microseconds, or US..US, drawn by the seed\n"
+                 "(default: 0)");
   command.flag("--isolate", isolate_, "make calls fail that would leave this machine (EACCES)");
   command.flag("--trap-rdtsc", trap_rdtsc_,
                "show virtual time in the time-stamp counter, one nanosecond per tick, by trapping the\n"
@@ -171,6 +199,13 @@ ProgramConditions ConditionArguments::conditions(bool is_repeated) const {
       refuse("--idle-limit", "seconds of virtual time from 0 to 1e9", idle_limit_);
     conditions.idle_limit = Duration::from_seconds(seconds);
   }
+  conditions.own_machine = own_machine_;
+  if (!loss_.empty() &&
+      (!parse_number(loss_, conditions.medium.loss) || !(conditions.medium.loss >= 0 && conditions.medium.loss <= 1)))
+    refuse("--loss", "a probability from 0 to 1", loss_);
+  if (!delay_.empty() && !parse_delay(delay_, conditions.medium))
+    refuse("--delay", "microseconds from 0 to 1e9, or an interval US..US", delay_);
+  conditions.delay_text = delay_;
   const bool is_measured = conditions.clock && !repeats(*conditions.clock);
   if (strict_ && !conditions.children) throw BadInput("--strict", "cannot be used together with --children native");
   if (is_measured && (is_repeated || strict_))
@@ -183,6 +218,9 @@ std::string ConditionArguments::first_given() const {
          : !speed_.empty()          ? "--speed"
          : !idle_limit_.empty()     ? "--idle-limit"
          : isolate_                 ? "--isolate"
+         : own_machine_             ? "--own-machine"
+         : !loss_.empty()           ? "--loss"
+         : !delay_.empty()          ? "--delay"
          : trap_rdtsc_              ? "--trap-rdtsc"
          : children_ != "simulated" ? "--children"
                                     : "";

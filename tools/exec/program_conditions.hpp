@@ -27,10 +27,13 @@ struct ProgramConditions {
   bool trap_library = false;                  ///< the C library's internal waits are simulated
   std::optional<double> speed;                ///< of virtual time by real time, with partners outside; 0: no limit
   std::optional<Duration> idle_limit;         ///< a run that is idle for so long ends; 0: none does
+  bool own_machine = false;                   ///< a network and shared memory of its own
+  posix::Medium medium;                       ///< of UDP datagrams between the processes
+  std::string delay_text;                     ///< as given
   bool children = true;                       ///< programs that it starts are simulated, too
 
   void apply_to(posix::Settings& settings) const;
-  /// BadInput if the conditions are impossible for a program with one of these files.
+  /// Before these files are started: BadInput if the conditions are impossible for one of them, or not allowed here.
   void check(const std::vector<std::string>& programs) const;
   /// As options, each with a leading space.
   std::string words() const;
@@ -48,6 +51,8 @@ class ConditionArguments {
  private:
   std::string clock_, call_cost_, idle_limit_, speed_;
   std::string children_ = "simulated";
+  std::string loss_, delay_;
+  bool own_machine_ = false;
   bool isolate_ = false, trap_rdtsc_ = false, trap_library_ = false, strict_ = false;
 };
 

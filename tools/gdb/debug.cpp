@@ -48,6 +48,7 @@ std::filesystem::path commands() {
 /// gdb starts the program itself, with the environment of `waitpoint exec`.
 [[noreturn]] void debug_program(const DebugOptions& options, const ExecOptions& program) {
   const ProgramFiles files(program.words);
+  program.conditions.check(files.named());
   const RunMemory memory(settings_of(program, program.seed));
   std::vector<std::string> words = files.words;
   words.front() = files.program.string();

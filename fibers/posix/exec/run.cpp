@@ -24,6 +24,7 @@
 #include "fibers/posix/exec/idle_watch.hpp"
 #include "fibers/posix/exec/last_calls.hpp"
 #include "fibers/posix/exec/misuse_log.hpp"
+#include "fibers/posix/exec/own_machine.hpp"
 #include "fibers/posix/exec/race_log.hpp"
 #include "fibers/posix/exec/rerun.hpp"
 #include "fibers/posix/exec/run_memory.hpp"
@@ -146,6 +147,7 @@ kernel::Scheduler& begin_run() {
   } else {
     begin_crash_log();
   }
+  if (record->settings.own_machine && !family::is_joined()) enter_own_machine();
   WAITPOINT_CHECK(kernel::running == nullptr, "a run begins within a task");
   reserve_waitables();
   if (record->began) begin_anew();

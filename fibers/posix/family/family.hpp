@@ -42,6 +42,7 @@ enum class Part {
   last_calls,
   history,
   air,
+  chosen_ports,
   count
 };
 

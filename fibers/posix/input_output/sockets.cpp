@@ -19,9 +19,12 @@
 #include "fibers/posix/descriptors/connections.hpp"
 #include "fibers/posix/descriptors/owners.hpp"
 #include "fibers/posix/descriptors/partners.hpp"
+#include "fibers/posix/input_output/chosen_ports.hpp"
 #include "fibers/posix/input_output/input_output.hpp"
 #include "fibers/posix/links/datagram_links.hpp"
+#include "fibers/posix/links/datagram_medium.hpp"
 #include "fibers/posix/links/loopback.hpp"
+#include "fibers/posix/links/robot_links.hpp"
 #include "fibers/posix/links/stream_links.hpp"
 #include "fibers/posix/program/program.hpp"
 #include "fibers/posix/program/repeatability.hpp"
@@ -40,7 +43,7 @@ int option_of(int descriptor, int option) {
 
 // True for internet addresses beyond this machine's loopback.
 bool leaves(const sockaddr* address) {
-  if (address == nullptr) return false;
+  if (address == nullptr || record->settings.own_machine) return false;
   if (address->sa_family == AF_INET) {
     const auto& internet = *reinterpret_cast<const sockaddr_in*>(address);
     const std::uint32_t host = ntohl(internet.sin_addr.s_addr);
@@ -140,6 +143,27 @@ ssize_t send_message(int descriptor, int flags, Call call) {
     if (!point.wait_until(later(kernel::local_time(*kernel::running), pause))) return fail(EINTR);
     if (pause < longest_pause) pause = pause + pause;
   }
+}
+
+// A datagram that stays on this machine, to the address or, without one, to the socket's peer.
+bool send_through_medium_of_machine(int descriptor, const msghdr& message, std::size_t& size) {
+  if (!is_simulated() || has_host || !record->settings.medium.is_declared()) return false;
+  SocketAddress peer;
+  const auto* to = static_cast<const sockaddr*>(message.msg_name);
+  if (to == nullptr && take_peers_address(descriptor, peer)) to = peer.get();
+  return !leaves(to) && send_through_medium(descriptor, message, size);
+}
+
+// Of one part, without ancillary data.
+bool send_through_medium_of_machine(int descriptor, const void* bytes, std::size_t size, const sockaddr* to,
+                                    socklen_t length) {
+  iovec part{const_cast<void*>(bytes), size};
+  msghdr message{};
+  message.msg_name = const_cast<sockaddr*>(to);
+  message.msg_namelen = to != nullptr ? length : 0;
+  message.msg_iov = &part;
+  message.msg_iovlen = 1;
+  return send_through_medium_of_machine(descriptor, message, size);
 }
 
 ssize_t send_parts_over_link(int descriptor, const msghdr& message) {
@@ -281,6 +305,7 @@ WAITPOINT_INTERPOSED ssize_t send(int descriptor, const void* bytes, std::size_t
   if (class_of(descriptor) == DescriptorClass::socket && is_stream(descriptor) && size > 0)
     return send_to_stream(descriptor, bytes, size, flags);
   if (send_over_link(descriptor, bytes, size, nullptr, 0)) return static_cast<ssize_t>(size);
+  if (send_through_medium_of_machine(descriptor, bytes, size, nullptr, 0)) return static_cast<ssize_t>(size);
   return send_message(descriptor, flags, [&](int with) { return WAITPOINT_NEXT(send)(descriptor, bytes, size, with); });
 }
 
@@ -288,7 +313,9 @@ WAITPOINT_INTERPOSED ssize_t sendto(int descriptor, const void* bytes, std::size
                                     const sockaddr* address, socklen_t length) {
   if (is_forbidden(address)) return -1;
   if (address == nullptr) return send(descriptor, bytes, size, flags);
+  bind_to_next_port(descriptor);
   if (send_over_link(descriptor, bytes, size, address, length)) return static_cast<ssize_t>(size);
+  if (send_through_medium_of_machine(descriptor, bytes, size, address, length)) return static_cast<ssize_t>(size);
   return send_message(descriptor, flags,
                       [&](int with) { return WAITPOINT_NEXT(sendto)(descriptor, bytes, size, with, address, length); });
 }
@@ -297,8 +324,10 @@ WAITPOINT_INTERPOSED ssize_t sendmsg(int descriptor, const msghdr* message, int 
   if (!can_be_read(message)) return WAITPOINT_NEXT(sendmsg)(descriptor, message, flags);
   if (is_forbidden(static_cast<const sockaddr*>(message->msg_name))) return -1;
   if (message->msg_controllen > 0) end_counting_of_all();  // of which it may pass duplicates
+  bind_to_next_port(descriptor);
   std::size_t size = 0;
   if (send_over_link(descriptor, *message, size)) return static_cast<ssize_t>(size);
+  if (send_through_medium_of_machine(descriptor, *message, size)) return static_cast<ssize_t>(size);
   if (goes_over_link(descriptor)) return send_parts_over_link(descriptor, *message);
   if (class_of(descriptor) == DescriptorClass::socket && is_stream(descriptor) && has_bytes(*message) &&
       (flags & MSG_DONTWAIT) == 0 && blocks(descriptor))
@@ -334,6 +363,7 @@ WAITPOINT_INTERPOSED int connect(int descriptor, const sockaddr* address, sockle
   if (!is_simulated()) return WAITPOINT_NEXT(connect)(descriptor, address, length);
   if (is_forbidden(address)) return -1;
   if (can_be_read(address) && !leaves(address)) send_at_once(descriptor);
+  bind_to_next_port(descriptor);
   pass(kernel::Operation::connect, nullptr);
   const bool waits = class_of(descriptor) == DescriptorClass::socket && blocks(descriptor);
   forget_connection(descriptor);

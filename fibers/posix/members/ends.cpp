@@ -14,6 +14,7 @@
 #include "fibers/posix/base/interposed.hpp"
 #include "fibers/posix/family/turn.hpp"
 #include "fibers/posix/files/file_records.hpp"
+#include "fibers/posix/links/datagram_medium.hpp"
 #include "fibers/posix/members/members.hpp"
 #include "fibers/posix/program/program.hpp"
 #include "fibers/posix/program/waiting.hpp"
@@ -77,6 +78,7 @@ WAITPOINT_INTERPOSED void _exit(int status) {
   pass_exit();
   if (runs_in_member()) end_member(status);
   note_closing_all();
+  deliver_datagrams();
   family::leave(W_EXITCODE(status & 0xFF, 0));
   if (instead_of_ending != nullptr) instead_of_ending(status);
   WAITPOINT_NEXT(_exit)(status);

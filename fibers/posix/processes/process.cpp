@@ -19,6 +19,7 @@
 #include "fibers/posix/input_output/asynchronous.hpp"
 #include "fibers/posix/ipc/named_objects.hpp"
 #include "fibers/posix/ipc/system_v_ends.hpp"
+#include "fibers/posix/links/datagram_medium.hpp"
 #include "fibers/posix/processes/children.hpp"
 #include "fibers/posix/program/program.hpp"
 #include "fibers/posix/program/waiting.hpp"
@@ -117,6 +118,7 @@ void begin_as_child() {
   system_v::inherit_memory(family::own->parent);
   forget_waiters();
   note_shared_epolls();
+  forget_datagrams();
   forget_native_children();
   forget_vectors();
   leave_shared_mutexes();

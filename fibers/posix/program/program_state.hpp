@@ -25,7 +25,7 @@ struct Program {
   /// The default action of a signal that ends the program; null: it ends the process.
   void (*ends_by)(int signal) = nullptr;
   std::uint32_t threads_made = 0;
-  std::uint64_t numbers_drawn[2] = {};  ///< of each stream of random numbers (randomness.hpp)
+  std::uint64_t numbers_drawn[3] = {};  ///< of each stream of random numbers (randomness.hpp)
   /// Its processor time: the cost of its threads' uses of primitives and clocks.
   Duration spent;
   ProgramSignals signals{};

@@ -28,7 +28,8 @@ std::uint64_t drawn_before_main[streams] = {};
 
 // Each program has its own stream.
 std::uint64_t draw_random(Numbers numbers) {
-  constexpr std::uint64_t names[streams] = {0x67657472616E646F, 0x66696C656E616D65};  // "getrando", "filename"
+  constexpr std::uint64_t names[streams] = {0x67657472616E646F, 0x66696C656E616D65,
+                                            0x6461746167726D73};  // "getrando", "filename", "datagrms"
   const auto index = static_cast<std::size_t>(numbers);
   std::uint64_t stream = names[index];
   std::uint64_t* drawn = &drawn_before_main[index];

@@ -8,7 +8,7 @@
 namespace waitpoint::posix {
 
 /// The streams of numbers: those of one do not depend on how many of the others were drawn.
-enum class Numbers { of_the_system, of_file_names, count };
+enum class Numbers { of_the_system, of_file_names, of_datagrams, count };
 
 std::uint64_t draw_random(Numbers = Numbers::of_the_system);
 void fill_with_random(void* buffer, std::size_t size);

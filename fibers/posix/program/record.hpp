@@ -52,6 +52,13 @@ struct Asked;
 struct Explored;
 class HistoryRecorder;
 
+/// Of UDP datagrams between the processes: see links/datagram_medium.hpp.
+struct Medium {
+  double loss = 0;  ///< probability, from 0 to 1
+  Duration delay_least, delay_greatest;
+  bool is_declared() const { return loss > 0 || delay_greatest > Duration(); }
+};
+
 struct Settings {
   kernel::Order order = kernel::Order::seeded;
   std::uint64_t seed = 1;
@@ -73,14 +80,16 @@ struct Settings {
   bool simulates_started = false;               ///< programs that it starts are simulations too
   bool reports_ending = false;                  ///< the watching process ends the run when a signal asks to
   bool makes_reruns = false;                    ///< see exec/rerun.hpp
-  int server = -1;                              ///< a socket on which runs are requested, see fork_server.hpp
+  bool own_machine = false;                     ///< see exec/own_machine.hpp
+  Medium medium;
+  int server = -1;  ///< a socket on which runs are requested, see fork_server.hpp
 };
 
 /// How a run ended: `own` as the program ends by itself.
 enum class Ending : std::uint8_t { own, deadlock, no_progress, idle, cut_off };
 
 struct alignas(Arena::alignment) Record {
-  static constexpr std::uint64_t mark_of_version = 0x7770657865633038;  // "wpexec08"
+  static constexpr std::uint64_t mark_of_version = 0x7770657865633039;  // "wpexec09"
 
   std::uint64_t mark = mark_of_version;
   Settings settings;

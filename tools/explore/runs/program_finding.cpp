@@ -116,7 +116,7 @@ posix::Settings settings_of(const ExploreOptions& options) {
   settings.seed = options.seed;
   settings.looks_at_once = looks_at_once;
   settings.batches_at_once = batches_at_once;
-  settings.makes_reruns = !options.forks_each;
+  settings.makes_reruns = !options.forks_each && !options.conditions.own_machine;
   if (options.until && !options.has_nodes) settings.until = Time() + *options.until;
   options.conditions.apply_to(settings);
   return settings;
