@@ -15,6 +15,7 @@
 #include "fibers/posix/files/random_devices.hpp"
 #include "fibers/posix/input_output/input_output.hpp"
 #include "fibers/posix/input_output/sockets.hpp"
+#include "fibers/posix/program/program.hpp"
 #include "fibers/posix/program/randomness.hpp"
 #include "fibers/posix/timers/timer_descriptors.hpp"
 
@@ -22,6 +23,12 @@ using namespace waitpoint;
 using namespace waitpoint::posix;
 
 namespace {
+
+// Also before main(), where no descriptor has a class: constructors of libraries draw their seeds.
+bool reads_random(int descriptor) {
+  const bool may = is_simulated() ? class_of(descriptor) == DescriptorClass::other : !has_host;
+  return may && gives_random(descriptor);
+}
 
 ssize_t as_of_library(long result) {
   if (result >= 0) return result;
@@ -32,7 +39,7 @@ ssize_t as_of_library(long result) {
 }  // namespace
 
 WAITPOINT_INTERPOSED ssize_t read(int descriptor, void* bytes, std::size_t size) {
-  if (class_of(descriptor) == DescriptorClass::other && gives_random(descriptor)) {
+  if (reads_random(descriptor)) {
     fill_with_random(bytes, size);
     return static_cast<ssize_t>(size);
   }
@@ -44,7 +51,7 @@ WAITPOINT_INTERPOSED ssize_t read(int descriptor, void* bytes, std::size_t size)
 }
 
 WAITPOINT_INTERPOSED ssize_t readv(int descriptor, const iovec* pieces, int count) {
-  if (class_of(descriptor) == DescriptorClass::other && gives_random(descriptor)) {
+  if (reads_random(descriptor)) {
     ssize_t all = 0;
     for (int i = 0; i < count; ++i) all += read(descriptor, pieces[i].iov_base, pieces[i].iov_len);
     return all;

@@ -27,7 +27,10 @@ int flags_of(const char* mode) {
 }  // namespace
 
 WAITPOINT_INTERPOSED FILE* fopen64(const char* __restrict path, const char* __restrict mode) {
-  if (!is_simulated()) return WAITPOINT_NEXT(fopen64)(path, mode);
+  if (!is_simulated()) {
+    FILE* const stream = WAITPOINT_NEXT(fopen64)(path, mode);
+    return has_host ? stream : with_own_bytes(stream, mode);  // of the program, before main()
+  }
   note_use_of(path);
   const bool only_reads = mode[0] == 'r' && std::strchr(mode, '+') == nullptr;
   const int generated = only_reads && is_in_proc(path)

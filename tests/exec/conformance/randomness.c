@@ -117,6 +117,22 @@ CASE(random_files_give_bytes) {
   }
 }
 
+// Libraries draw their seeds when they are loaded.
+static unsigned char early[2][16];
+__attribute__((constructor)) static void draw_early(void) {
+  const int descriptor = open("/dev/urandom", O_RDONLY);
+  if (read(descriptor, early[0], sizeof early[0]) != (ssize_t)sizeof early[0]) abort();
+  close(descriptor);
+  FILE* const stream = fopen("/dev/urandom", "rb");
+  if (fread(early[1], sizeof early[1], 1, stream) != 1) abort();
+  fclose(stream);
+}
+CASE(random_files_give_bytes_before_main) {
+  EXPECT(memcmp(early[0], early[1], sizeof early[0]) != 0);
+  for (int i = 0; i < 2; ++i)
+    for (int k = 0; k < 16; ++k) printf("%02x", early[i][k]);
+}
+
 CASE(processor_time_repeats_with_the_seed) {
   struct rusage usage;
   for (int i = 0; i < 1000; ++i) now_ns(CLOCK_MONOTONIC);
