@@ -11,6 +11,8 @@ declare -A debian=(
          libuv1-dev cmake libopenmpi-dev openmpi-bin tcl8.6-dev'
   [ros]='python3-rosmaster libroscpp-dev libstd-msgs-dev libnav-msgs-dev libsensor-msgs-dev libtf2-ros-dev
         libnodeletlib-dev libnodeletlib-tools ros-robot-state-publisher python3-rospy python3-nav-msgs python3-sensor-msgs python3-tf2-ros librosbag-dev python3-rosbag'
+        libnodeletlib-dev libnodeletlib-tools ros-robot-state-publisher python3-rospy python3-tf2-ros librosbag-dev python3-rosbag'
+  [ros2]='cyclonedds-dev cyclonedds-tools libfastrtps-dev libfastcdr-dev'
   [view]="chromium $(command -v node >/dev/null && command -v npm >/dev/null || echo nodejs npm)"
   [builds]='clang libc++-dev libc++abi-dev'
   [wraps]=''
@@ -30,6 +32,7 @@ declare -A upstream=(
          rosbag_storage and its messages'
   [test]='GoogleTest, OctoMap, g++ and clang++, gdb, Z3; if available: zstd, xz, pigz, pbzip2, Perl, TBB, libuv, CMake, Open MPI 4, Tcl 8.6'
   [ros]='of ROS 1: roscpp, rospy, tf2_ros, nodelet, rosbag, robot_state_publisher, rosmaster'
+  [ros2]='Cyclone DDS 0.10 with idlc, Fast DDS 2.9'
   [view]='Chromium, Node.js 18, npm'
   [builds]='clang++ with libc++; Debian'"'"'s source packages'
   [wraps]='Debian'"'"'s source packages'
@@ -42,7 +45,7 @@ declare -A upstream=(
 )
 # Required for every build; all libraries except Google Benchmark and its peers come from subprojects/ if missing.
 declare -A tools=(
-  [run]='meson ninja c++ pkg-config python3' [test]='' [ros]='rosmaster' [view]='chromium node npm' [builds]='clang++ apt-get' [wraps]='apt-get' [valgrind]='valgrind'
+  [run]='meson ninja c++ pkg-config python3' [test]='' [ros]='rosmaster' [ros2]='idlc' [view]='chromium node npm' [builds]='clang++ apt-get' [wraps]='apt-get' [valgrind]='valgrind'
   [bench]='' [peers]='' [check]='' [format]='clang-format'
 )
 

@@ -50,6 +50,7 @@ OWN_CASES = {
     "exec, libc and children": [sys.executable, str(ROOT / "tests/exec/libc_and_children_test.py"), BUILD],
     "exec, ROS": [sys.executable, str(ROOT / "tests/exec/ros_test.py"), BUILD],
     "exec, machines of their own": [sys.executable, str(ROOT / "tests/exec/own_machine_test.py"), BUILD],
+    "transports of ROS 2": [sys.executable, str(ROOT / "tests/programs/dds_test.py"), BUILD],
     "nodes of ROS": [sys.executable, str(ROOT / "tests/programs/nodes_test.py"), BUILD],
     "bags of ROS": [sys.executable, str(ROOT / "tests/programs/bags_test.py"), BUILD],
     "nodes of robots": [sys.executable, str(ROOT / "tests/programs/nodes_of_robots_test.py"), BUILD],
