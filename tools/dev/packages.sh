@@ -11,7 +11,6 @@ declare -A debian=(
          libuv1-dev cmake libopenmpi-dev openmpi-bin tcl8.6-dev'
   [ros]='python3-rosmaster libroscpp-dev libstd-msgs-dev libnav-msgs-dev libsensor-msgs-dev libtf2-ros-dev
         libnodeletlib-dev libnodeletlib-tools ros-robot-state-publisher python3-rospy python3-nav-msgs python3-sensor-msgs python3-tf2-ros librosbag-dev python3-rosbag'
-        libnodeletlib-dev libnodeletlib-tools ros-robot-state-publisher python3-rospy python3-tf2-ros librosbag-dev python3-rosbag'
   [ros2]='cyclonedds-dev cyclonedds-tools libfastrtps-dev libfastcdr-dev'
   [view]="chromium $(command -v node >/dev/null && command -v npm >/dev/null || echo nodejs npm)"
   [builds]='clang libc++-dev libc++abi-dev'
