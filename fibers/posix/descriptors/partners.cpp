@@ -113,6 +113,10 @@ in_port_t note_own_port(int descriptor, Ports& all) {
 
 }  // namespace
 
+void note_bound(int descriptor) {
+  if (Ports* const all = ports(); all != nullptr) note_own_port(descriptor, *all);
+}
+
 void note_listening(int descriptor) {
   Ports* const all = ports();
   if (all == nullptr) return;

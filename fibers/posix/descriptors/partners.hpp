@@ -22,6 +22,8 @@ Partner partner_at(int descriptor);
 /// True if a descriptor is open at which a certain partner was found.
 bool has_partner();
 
+/// An internet socket of the family is bound.
+void note_bound(int descriptor);
 /// An internet socket of the family listens, or is about to be connected. Both before the other end can wait for it.
 void note_listening(int descriptor);
 void note_connecting(int descriptor);

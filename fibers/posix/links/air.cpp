@@ -283,11 +283,3 @@ extern "C" [[gnu::visibility("default")]] Air* waitpoint_air() {
   if (air == nullptr && (air = take_air()) != nullptr) use_air();
   return air;
 }
-
-WAITPOINT_INTERPOSED int bind(int descriptor, const sockaddr* address, socklen_t length) noexcept {
-  const int result = WAITPOINT_NEXT(bind)(descriptor, address, length);
-  if (result != 0 || air == nullptr || !is_simulated()) return result;
-  SocketAddress own;
-  if (take_own_address(descriptor, own)) own_port(port_of(own));
-  return 0;
-}
