@@ -26,7 +26,7 @@ enum class Outcome : std::uint8_t {
   deadlock,     ///< a cycle of waiting tasks, or no task can ever run again
   no_progress,  ///< tasks spin while virtual time stands still
   interrupted,  ///< a signal, at the end of the step
-  left,         ///< `quit` or end of input at the prompt
+  left,         ///< `quit`, end of input at the prompt, or a partner outside has ended it
   crashed,      ///< the process died in a task
 };
 
@@ -162,10 +162,11 @@ struct RunResult {
   std::uint64_t events = 0;
   Duration simulated;
   double wall_s = 0, real_time_factor = 0;
-  std::optional<Lag> lag;            ///< of a paced run
-  std::vector<RankFigures> ranks;    ///< of a run of several processes
-  std::vector<std::string> outside;  ///< one line for each partner outside, of the run that it took part in
-  std::string outside_fault;         ///< that ended the run; may be empty
+  std::optional<Lag> lag;                  ///< of a paced run
+  std::vector<RankFigures> ranks;          ///< of a run of several processes
+  std::vector<std::string> outside;        ///< one line for each partner outside, of the run that it took part in
+  std::string outside_fault;               ///< that ended the run; may be empty
+  std::vector<std::string> outside_unmet;  ///< what partners outside have found not to be as the scenario expects
 };
 
 /// Figures over all robots that have them: sums of counts and distances, maxima of maxima, means of means.

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdlib>
 #include <cstring>
 #include <thread>
 
@@ -60,7 +61,9 @@ std::string ending(int status) {
 
 }  // namespace
 
-NodeProcesses::NodeProcesses(std::vector<NodeCommand> commands, const MasterSide& master) : master_(master) {
+NodeProcesses::NodeProcesses(std::vector<NodeCommand> commands, const MasterSide& master, NodeEnds ends,
+                             std::vector<ros1::EnvironmentVariable> environment)
+    : master_(master), ends_(ends), environment_(std::move(environment)) {
   processes_.reserve(commands.size());
   for (NodeCommand& command : commands) processes_.push_back({.command = std::move(command)});
 }
@@ -97,6 +100,7 @@ const NodeProcesses::Process* NodeProcesses::find(const std::string& name) const
 void NodeProcesses::start(Process& process, Time now) {
   const ros1::Node& node = process.command.node;
   std::vector<ros1::EnvironmentVariable> variables = node.environment;
+  variables.insert(variables.end(), environment_.begin(), environment_.end());
   variables.push_back({"ROS_MASTER_URI", master_.master_address()});
   variables.push_back({"ROS_IP", "127.0.0.1"});
   if (node.ns != "/") variables.push_back({"ROS_NAMESPACE", node.ns});
@@ -116,8 +120,9 @@ void NodeProcesses::start(Process& process, Time now) {
   process.started = now;
   process.state = error == 0 ? State::running : State::ended;
   if (error == 0) return;
-  news_.push_back(
-      {node.global_name(), fmt::format("cannot be started: {}: {}", words.front(), std::strerror(error)), true});
+  process.status = W_EXITCODE(EXIT_FAILURE, 0);
+  news_.push_back({node.global_name(), fmt::format("cannot be started: {}: {}", words.front(), std::strerror(error)),
+                   true, !process.command.time_limit});
   is_over_ = is_over_ || node.required;
 }
 
@@ -140,10 +145,29 @@ void NodeProcesses::reap() {
 
 void NodeProcesses::note_end(Process& process, int status) {
   process.state = State::ended;
+  process.status = status;
   if (is_ending_) return;
   const bool is_failure = !WIFEXITED(status) || WEXITSTATUS(status) != 0;
-  news_.push_back({process.command.node.global_name(), ending(status), is_failure});
-  is_over_ = is_over_ || process.command.node.required;
+  const bool is_test = process.command.time_limit.has_value();
+  news_.push_back({process.command.node.global_name(), ending(status), is_failure, is_failure && !is_test});
+  const auto is_open = [](const Process& one) { return one.command.time_limit && one.state != State::ended; };
+  is_over_ = is_over_ || process.command.node.required ||
+             (is_test && std::none_of(processes_.begin(), processes_.end(), is_open));
+}
+
+std::vector<std::string> NodeProcesses::unmet_tests(std::optional<Time> now) const {
+  std::vector<std::string> lines;
+  for (const Process& process : processes_) {
+    if (!process.command.time_limit) continue;
+    const std::string name = "test " + process.command.node.global_name();
+    const bool is_late =
+        !now || (process.state == State::running && *now - process.started > *process.command.time_limit);
+    if (process.state != State::ended && is_late)
+      lines.push_back(name + " has not ended");
+    else if (process.state == State::ended && process.status != 0)
+      lines.push_back(name + " " + ending(process.status));
+  }
+  return lines;
 }
 
 bool NodeProcesses::have_ended() const {
@@ -162,6 +186,7 @@ void NodeProcesses::end() {
   is_ending_ = true;
   for (auto process = processes_.rbegin(); process != processes_.rend(); ++process) {
     for (const auto& [signal, patience] : {std::pair(SIGINT, end_patience), std::pair(SIGKILL, kill_patience)}) {
+      if (signal == SIGINT && ends_ == NodeEnds::killed) continue;
       if (process->state != State::running) break;
       kill(process->id, signal);
       for (Duration waited; waited < patience && process->state == State::running; waited = waited + look) {

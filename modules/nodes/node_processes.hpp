@@ -4,6 +4,7 @@
 
 #include <sys/types.h>
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -18,18 +19,24 @@ namespace waitpoint::nodes {
 struct NodeCommand {
   ros1::Node node;
   std::vector<std::string> words;
+  std::optional<Duration> time_limit = {};  ///< of a test, which is to end with status 0
 };
 
 /// A line for the person at the run.
 struct NodeNews {
   std::string node, text;
   bool is_fault = false;
+  bool is_failure = false;  ///< a fault: it has ended by a signal or with another status than 0, or did not start
 };
+
+/// How nodes end with the run.
+enum class NodeEnds : unsigned char { asked, killed };
 
 class NodeProcesses {
  public:
   /// `master` must outlive this.
-  NodeProcesses(std::vector<NodeCommand> commands, const MasterSide& master);
+  NodeProcesses(std::vector<NodeCommand> commands, const MasterSide& master, NodeEnds ends = NodeEnds::asked,
+                std::vector<ros1::EnvironmentVariable> environment = {});
   ~NodeProcesses() { end(); }
   NodeProcesses(const NodeProcesses&) = delete;
   NodeProcesses& operator=(const NodeProcesses&) = delete;
@@ -38,13 +45,15 @@ class NodeProcesses {
   void go_on(Time now);
   /// Since the last call.
   std::vector<NodeNews> take_news() { return std::exchange(news_, {}); }
-  /// True when a required node has ended.
+  /// True when a required node has ended, or all tests have.
   bool is_over() const { return is_over_; }
   /// True when all have ended.
   bool have_ended() const;
   /// True when those that could start so far have registered with the master, ended, or been told of.
   bool are_there() const;
-  /// Asks all nodes to end, and kills those that do not within some seconds.
+  /// A line for each test that has failed, or has not ended, within its time if `now` is given.
+  std::vector<std::string> unmet_tests(std::optional<Time> now) const;
+  /// Asks all nodes to end, unless they are to be killed, and kills those that do not within some seconds.
   void end();
 
  private:
@@ -55,6 +64,7 @@ class NodeProcesses {
     pid_t id = 0;
     Time started = {};
     bool is_registered = false, is_missed = false;
+    int status = 0;  // of its end
   };
 
   bool may_start(const Process& process) const;
@@ -66,7 +76,9 @@ class NodeProcesses {
   void reap();
 
   const MasterSide& master_;
-  std::vector<Process> processes_;  // in their order
+  NodeEnds ends_;
+  std::vector<ros1::EnvironmentVariable> environment_;  // of all nodes
+  std::vector<Process> processes_;                      // in their order
   std::vector<NodeNews> news_;
   bool is_over_ = false, is_ending_ = false;
 };

@@ -68,12 +68,23 @@ struct GridValues {
   std::vector<std::int8_t> cells;  ///< row by row: 0 free, 100 occupied, -1 unknown
 };
 
+/// What messages of a topic are to be, each of them.
+struct TopicBound {
+  enum class Relation : unsigned char { at_least, at_most, equal };
+
+  std::string topic, field;  ///< "/odom", "pose.pose.position.x"
+  Relation relation = Relation::equal;
+  double limit = 0;
+  std::string text;  ///< as written: "/odom.pose.pose.position.x<=10"
+};
+
 struct NodeSideSetup {
   bool has_clock = false;          ///< publishes /clock; use_sim_time is set
   bool has_debian_master = false;  ///< in place of one inside
   std::vector<RobotTopics> robots;
   GridValues map;
   std::vector<std::pair<std::string, nlohmann::json>> parameters;  ///< by global name; maps only within lists
+  std::vector<TopicBound> bounds;
 };
 
 struct ScanReading {
@@ -158,6 +169,8 @@ class NodeSide : public MasterSide {
   virtual std::vector<std::optional<Command>> take_commands() = 0;
   /// After that: by robot, the newest pose since the last call, as it is.
   virtual std::vector<std::optional<PublishedPose>> take_poses() = 0;
+  /// Since the last call, of each bound the first message that is not as expected, in words.
+  virtual std::vector<std::string> take_breaches() = 0;
 };
 
 /// What the library offers.

@@ -7,9 +7,11 @@
 #include <cmath>
 
 #include "core/number_text.hpp"
+#include "modules/nodes/node_waits.hpp"
 #include "modules/nodes/world_topics.hpp"
 #include "modules/outside/sensor_times.hpp"
 #include "modules/outside/words.hpp"
+#include "modules/run/expectation.hpp"
 
 namespace waitpoint::nodes {
 namespace {
@@ -42,8 +44,14 @@ Speeds speeds_of(const world::Velocity& velocity) {
 }  // namespace
 
 WorldNode::WorldNode(const scenario::Scenario& scenario, const std::vector<std::size_t>& robots,
-                     std::unique_ptr<NodeSide> nodes, std::vector<NodeCommand> commands)
-    : scenario_(scenario), nodes_(std::move(nodes)), air_(scenario, robots), processes_(std::move(commands), *nodes_) {
+                     std::unique_ptr<NodeSide> nodes, std::vector<NodeCommand> commands, NodeRunOptions options)
+    : scenario_(scenario),
+      nodes_(std::move(nodes)),
+      air_(scenario, robots),
+      is_brief_(options.is_brief),
+      processes_(std::move(commands), *nodes_, options.is_brief ? NodeEnds::killed : NodeEnds::asked,
+                 std::move(options.environment)) {
+  if (scenario.expect.service_call_max_s) watch_waits();
   robots_.reserve(robots.size());
   for (const std::size_t index : robots) {
     const world::BodyDescription& body = scenario.robots[index].body;
@@ -125,6 +133,8 @@ void WorldNode::take_in(outside::Host& host) {
   if (is_new_second) second_ = host.next_step();
   processes_.go_on(host.next_step());
   tell_news(host);
+  watch_calls(host);
+  for (const std::string& breach : nodes_->take_breaches()) breaches_.push_back(breach);
   for (std::size_t i = 0; i < robots_.size(); ++i) {
     if (is_new_second) robots_[i].messages = 0;
     if (commands[i]) {
@@ -134,7 +144,34 @@ void WorldNode::take_in(outside::Host& host) {
     if (poses[i]) pass_pose(host, robots_[i], *poses[i]);
     show_goal(host, i);
   }
-  if (processes_.is_over()) host.finish();
+  if (processes_.is_over() || (is_brief_ && is_lost(host))) host.finish();
+}
+
+// Told with all that waits: a call that does not return may wait for a lock.
+void WorldNode::watch_calls(outside::Host& host) {
+  if (!scenario_.expect.service_call_max_s || !long_calls_.empty()) return;
+  const Duration most = Duration::from_seconds(*scenario_.expect.service_call_max_s);
+  if (calls_longer_than(most).empty()) return;
+  const Duration long_time = Duration::from_ns(most.ns() / 2);
+  long_calls_ = calls_longer_than(long_time);
+  for (const std::string& wait : waits_longer_than(long_time)) host.tell("nodes", wait);
+}
+
+bool WorldNode::is_lost(outside::Host& host) const {
+  const scenario::Expectation& expect = scenario_.expect;
+  return (expect.node_failures && failures_.size() > *expect.node_failures) || !long_calls_.empty() ||
+         !breaches_.empty() || !processes_.unmet_tests(host.next_step()).empty() ||
+         !run::broken(expect, host.experiment().figures()).empty();
+}
+
+std::vector<std::string> WorldNode::unmet() const {
+  std::vector<std::string> lines = long_calls_;
+  lines.insert(lines.end(), breaches_.begin(), breaches_.end());
+  const scenario::Expectation& expect = scenario_.expect;
+  if (expect.node_failures && failures_.size() > *expect.node_failures)
+    lines.insert(lines.end(), failures_.begin(), failures_.end());
+  for (std::string& line : processes_.unmet_tests(std::nullopt)) lines.push_back(std::move(line));
+  return lines;
 }
 
 void WorldNode::tell_news(outside::Host& host) {
@@ -144,6 +181,7 @@ void WorldNode::tell_news(outside::Host& host) {
       continue;
     }
     faults_.add("faults of nodes");
+    if (news.is_failure) failures_.push_back("node " + news.node + " " + news.text);
     host.tell_fault(news.node, news.text);
   }
 }

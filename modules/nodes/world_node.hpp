@@ -19,17 +19,25 @@
 
 namespace waitpoint::nodes {
 
+/// Of a run with nodes.
+struct NodeRunOptions {
+  /// It ends as soon as an expectation of the scenario cannot be met any more, and its nodes are killed at the end.
+  bool is_brief = false;
+  std::vector<ros1::EnvironmentVariable> environment = {};  ///< of all nodes, besides the run's
+};
+
 class WorldNode final : public outside::Partner {
  public:
   /// `robots`: indices of the scenario's, as `nodes` has them. `commands` of the nodes of all their launches, in their
   /// order: the executable and its arguments. The scenario must outlive this.
   WorldNode(const scenario::Scenario& scenario, const std::vector<std::size_t>& robots, std::unique_ptr<NodeSide> nodes,
-            std::vector<NodeCommand> commands);
+            std::vector<NodeCommand> commands, NodeRunOptions options);
 
   void begin(outside::Host& host) override;
   void publish(outside::Host& host) override;
   void take_in(outside::Host& host) override;
   std::string account() const override;
+  std::vector<std::string> unmet() const override;
 
  private:
   struct Robot {
@@ -52,12 +60,16 @@ class WorldNode final : public outside::Partner {
   void send_goal(std::size_t number, const Point& position, const world::BodyState& body, Time now);
   void drive(outside::Host& host, const Robot& robot, const Speeds& speeds);
   void tell_news(outside::Host& host);
+  void watch_calls(outside::Host& host);
+  bool is_lost(outside::Host& host) const;
 
   const scenario::Scenario& scenario_;
   std::vector<Robot> robots_;
   std::unique_ptr<NodeSide> nodes_;
   RobotsAir air_;
-  NodeProcesses processes_;  // end before the master
+  bool is_brief_;
+  NodeProcesses processes_;                                    // end before the master
+  std::vector<std::string> failures_, long_calls_, breaches_;  // of expectations
   std::uint64_t commands_ = 0, goals_ = 0;
   Time second_;                             // the virtual second of which messages are counted
   std::optional<std::uint64_t> published_;  // step

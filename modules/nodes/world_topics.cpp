@@ -64,6 +64,17 @@ std::vector<std::string> topics_of_posters(const scenario::NodesScenario& nodes)
   return topics;
 }
 
+std::vector<TopicBound> bounds_of(const scenario::Expectation& expect) {
+  std::vector<TopicBound> bounds;
+  bounds.reserve(expect.topics.size());
+  for (const scenario::TopicExpectation& topic : expect.topics) {
+    constexpr TopicBound::Relation relations[] = {TopicBound::Relation::at_least, TopicBound::Relation::at_most,
+                                                  TopicBound::Relation::equal};
+    bounds.push_back({topic.topic, topic.field, relations[static_cast<int>(topic.relation)], topic.limit, topic.text});
+  }
+  return bounds;
+}
+
 }  // namespace
 
 Place place_of(const Pose& pose, double z) { return {pose.x, pose.y, pose.heading, z}; }
@@ -80,7 +91,8 @@ NodeSideSetup node_side_setup(const scenario::Scenario& scenario, const Occupanc
                       .has_debian_master = scenario.ros.master == scenario::RosScenario::Master::outside,
                       .robots = {},
                       .map = values_of(map),
-                      .parameters = {}};
+                      .parameters = {},
+                      .bounds = bounds_of(scenario.expect)};
   for (const std::size_t i : robots_with_nodes(scenario)) {
     const scenario::RobotScenario& robot = scenario.robots[i];
     const scenario::NodesScenario& nodes = *robot.nodes;

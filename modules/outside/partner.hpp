@@ -4,6 +4,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "core/time.hpp"
 #include "modules/run/experiment.hpp"
@@ -45,6 +46,8 @@ class Partner {
   virtual void take_in(Host& host) = 0;
   /// One line for the summary.
   virtual std::string account() const = 0;
+  /// So far, a line for each expectation of the scenario that only this partner can judge, and that is not met.
+  virtual std::vector<std::string> unmet() const { return {}; }
 };
 
 }  // namespace waitpoint::outside

@@ -21,4 +21,11 @@ std::vector<std::string> Partners::accounts() const {
   return lines;
 }
 
+std::vector<std::string> Partners::unmet() const {
+  std::vector<std::string> all;
+  for (const auto& partner : partners_)
+    for (std::string& line : partner->unmet()) all.push_back(std::move(line));
+  return all;
+}
+
 }  // namespace waitpoint::outside

@@ -19,6 +19,7 @@ class Partners {
   void publish(Host& host);
   void take_in(Host& host);
   std::vector<std::string> accounts() const;
+  std::vector<std::string> unmet() const;
 
  private:
   std::vector<std::unique_ptr<Partner>> partners_;

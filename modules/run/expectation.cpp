@@ -43,10 +43,14 @@ std::vector<std::string> broken(const scenario::Expectation& expect, const bridg
 }
 
 std::vector<std::string> unmet(const scenario::Expectation& expect, const bridge::RunResult& result) {
-  std::vector<std::string> lines;
   const bridge::RunTotals sum = bridge::totals(result);
+  std::vector<std::string> others = broken(expect, sum);
+  others.insert(others.end(), result.outside_unmet.begin(), result.outside_unmet.end());
+  std::vector<std::string> lines;
   if (result.outcome == bridge::Outcome::deadlock) lines.push_back("the run ended in a deadlock");
   if (result.outcome == bridge::Outcome::no_progress) lines.push_back("the run made no progress");
+  // A run that a partner has ended for another reason had no time to reach them.
+  if (result.outcome == bridge::Outcome::left && !result.outside.empty() && !others.empty()) return others;
   if (expect.all_goals_reached && sum.goals_reached != sum.goals) lines.push_back(goals_text(sum) + ", expected all");
   if (expect.goals_reached && sum.goals_reached < *expect.goals_reached)
     lines.push_back(goals_text(sum) + ", expected " + std::to_string(*expect.goals_reached));
@@ -55,7 +59,7 @@ std::vector<std::string> unmet(const scenario::Expectation& expect, const bridge
   if (expect.plans_completed && sum.plans_completed != sum.plans)
     lines.push_back(
         fmt::format("{} of {} plans completed, expected all{}", sum.plans_completed, sum.plans, first_abort(result)));
-  for (std::string& line : broken(expect, sum)) lines.push_back(std::move(line));
+  for (std::string& line : others) lines.push_back(std::move(line));
   return lines;
 }
 

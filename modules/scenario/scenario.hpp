@@ -32,6 +32,22 @@ struct Launch;
 
 namespace waitpoint::scenario {
 
+/// A number in each message of a topic of ROS is to be within a bound.
+struct TopicExpectation {
+  enum class Relation : unsigned char { at_least, at_most, equal };
+
+  std::string topic, field;
+  Relation relation = Relation::equal;
+  double limit = 0;
+  std::string text;  ///< as written
+};
+
+/// Parses "TOPIC[.FIELD]>=NUMBER", with ">=", "<=" or "=="; the field is `data` by default. False if it is no such
+/// text.
+bool parse(const std::string& text, TopicExpectation& expectation);
+/// What is said of such a text.
+std::string topic_expectation_words(const std::string& text);
+
 /// Expected results of a run; omitted ones are not checked.
 struct Expectation {
   bool all_goals_reached = false;
@@ -39,12 +55,19 @@ struct Expectation {
   std::optional<std::uint64_t> collisions;     ///< exact number, over all robots
   std::optional<double> position_error_max_m;  ///< upper bound for every robot's fused position
   bool plans_completed = false;                ///< every robot's temporal plan
+
+  // Of nodes of ROS.
+  std::optional<std::uint64_t> node_failures;  ///< the most that may end by a signal, or with another status than 0
+  std::optional<double> service_call_max_s;    ///< upper bound for a call of a service
+  std::vector<TopicExpectation> topics;
+  bool tests_passed = false;  ///< all tests of the launch files, which take part in the run
 };
 
 /// The keys of `expect`.
 inline std::initializer_list<std::string_view> expectation_keys() {
-  static const std::initializer_list<std::string_view> keys = {"goals_reached", "collisions", "position_error_max_m",
-                                                               "plans"};
+  static const std::initializer_list<std::string_view> keys = {"goals_reached", "collisions",    "position_error_max_m",
+                                                               "plans",         "node_failures", "service_call_max_s",
+                                                               "topics",        "tests"};
   return keys;
 }
 

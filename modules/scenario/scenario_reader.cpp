@@ -44,6 +44,15 @@ Expectation read_expectation(const YamlNode& node) {
   expect.plans_completed = map.one_of("plans", {"any", "completed"}, 0) == 1;
   if (map.has("position_error_max_m"))
     expect.position_error_max_m = map.number("position_error_max_m", number_from_zero);
+  if (const YamlNode* failures = map.find("node_failures"))
+    expect.node_failures = read_count(*failures, "node_failures", 0, count_max);
+  if (map.has("service_call_max_s")) expect.service_call_max_s = map.number("service_call_max_s", number_from_zero);
+  if (const YamlNode* topics = map.find("topics"))
+    for (const YamlNode& item : read_list(*topics, "topics")) {
+      const std::string text = read_lines(item, "the value of a topic");
+      if (!parse(text, expect.topics.emplace_back())) throw item.written.bad(topic_expectation_words(text));
+    }
+  expect.tests_passed = map.one_of("tests", {"any", "passed"}, 0) == 1;
   return expect;
 }
 

@@ -74,6 +74,12 @@ std::vector<nodes::NodeCommand> node_commands(const scenario::Scenario& scenario
       commands.push_back({node, words_of(node, packages)});
       add_environment(commands.back().node, robot_of(*of, scenario));
     }
+  if (!scenario.expect.tests_passed) return commands;
+  for (const scenario::NodesScenario* const of : scenario.all_nodes())
+    for (const ros1::LaunchTest& test : of->launch->tests) {
+      commands.push_back({test.node, words_of(test.node, packages), Duration::from_seconds(test.time_limit_s)});
+      add_environment(commands.back().node, robot_of(*of, scenario));
+    }
   return commands;
 }
 

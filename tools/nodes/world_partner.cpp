@@ -4,14 +4,24 @@
 #include <stdexcept>
 
 #include "fibers/sync/system_calls.hpp"
+#include "modules/nodes/node_waits.hpp"
 #include "modules/nodes/world_node.hpp"
 #include "modules/nodes/world_topics.hpp"
 #include "modules/run/known_map.hpp"
+#include "tools/command/installed_part.hpp"
 #include "tools/nodes/node_commands.hpp"
 #include "tools/nodes/nodes_library.hpp"
 
 namespace waitpoint::tools {
 namespace {
+
+// Calls of services are watched by a library in the nodes.
+nodes::NodeRunOptions options_of(const scenario::Scenario& scenario, bool is_brief) {
+  nodes::NodeRunOptions options{.is_brief = is_brief};
+  if (scenario.expect.service_call_max_s)
+    options.environment.push_back({"LD_PRELOAD", find_part(nodes::calls_library).string()});
+  return options;
+}
 
 const scenario::RobotScenario& first_with_nodes(const scenario::Scenario& scenario) {
   return scenario.robots[nodes::robots_with_nodes(scenario).front()];
@@ -24,7 +34,7 @@ void check_nodes(const scenario::Scenario& scenario) {
   (void)node_commands(scenario);
 }
 
-std::unique_ptr<outside::Partner> make_world_partner(const scenario::Scenario& scenario) {
+std::unique_ptr<outside::Partner> make_world_partner(const scenario::Scenario& scenario, bool is_brief) {
   const scenario::RobotScenario& first = first_with_nodes(scenario);
   std::vector<nodes::NodeCommand> commands = node_commands(scenario);
   std::optional<scenario::MapFile> map = scenario.map;
@@ -38,7 +48,7 @@ std::unique_ptr<outside::Partner> make_world_partner(const scenario::Scenario& s
     throw first.nodes->written.bad(error.what());
   }
   return std::make_unique<nodes::WorldNode>(scenario, nodes::robots_with_nodes(scenario), std::move(side),
-                                            std::move(commands));
+                                            std::move(commands), options_of(scenario, is_brief));
 }
 
 }  // namespace waitpoint::tools

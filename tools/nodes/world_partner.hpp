@@ -13,6 +13,7 @@ namespace waitpoint::tools {
 void check_nodes(const scenario::Scenario& scenario);
 
 /// Starts the master; the nodes start with the run. BadInput as above. The scenario must outlive it.
-std::unique_ptr<outside::Partner> make_world_partner(const scenario::Scenario& scenario);
+/// `is_brief`: see nodes::NodeRunOptions.
+std::unique_ptr<outside::Partner> make_world_partner(const scenario::Scenario& scenario, bool is_brief);
 
 }  // namespace waitpoint::tools

@@ -74,7 +74,8 @@ bridge::RunResult carry_out(const RunOptions& options, const scenario::Scenario&
     interrupted = session.carry_on(session.until()) == Session::Stop::interrupted;
   if (journal != nullptr) journal->write(run::to_text(session.here()));
   bridge::RunResult result = result_of(session, seed, interrupted);
-  if (!interrupted && (!session.over() || !session.fault().empty())) result.outcome = bridge::Outcome::left;
+  if (!interrupted && (!session.over() || !session.fault().empty() || session.is_finished()))
+    result.outcome = bridge::Outcome::left;
   return result;
 }
 
@@ -144,7 +145,7 @@ int run_once(const RunOptions& options, const scenario::Scenario& scenario, run:
       lines += to_text(experiment.intervene(intervention, date), intervention);
   }
   outside::Partners partners = make_partners(options.partners, scenario);
-  if (is_among_nodes() && !journal) partners.add(make_world_partner(scenario));
+  if (is_among_nodes() && !journal) partners.add(make_world_partner(scenario, options.is_brief));
   sync::tell_threads_outside();
   outputs.emplace(options, scenario, experiment);
   if (outputs->journal() != nullptr) outputs->journal()->write(lines);
@@ -295,6 +296,7 @@ int run(const RunOptions& options, std::span<const genom::ModuleType> types) {
   }
   const scenario::Scenario scenario = scenario_of(options);
   heed_signals();
+  if (options.is_brief && !scenario.has_nodes()) throw BadInput("--brief", "expected a scenario with nodes");
   if (scenario.play) return run_bag(options, scenario);
   if (scenario.has_nodes() && !is_among_nodes() && !options.replay_journal) {
     check_nodes(scenario);

@@ -133,6 +133,9 @@ RunArguments::RunArguments(CommandLine& line)
   command_.option("--idle", idle_, "S",
                   "at the end, list tasks that have waited without a timeout for S seconds of\n"
                   "virtual time; 0: none (default: 60)");
+  command_.flag("--brief", is_brief_,
+                "with nodes of ROS: end the run when an expectation cannot be met any more, and\n"
+                "kill nodes at its end, as in waitpoint explore");
   command_.flag("--interactive", interactive_,
                 "read commands from standard input: step, stop at a time or a condition, change\n"
                 "the speed, send requests, move robots and obstacles; help lists them");
@@ -321,6 +324,7 @@ RunOptions RunArguments::options() const {
     return name.empty() ? std::nullopt : std::optional<std::filesystem::path>(name);
   };
   take_served(options);
+  options.is_brief = is_brief_;
   options.interactive = interactive_;
   options.tcl = tcl_;
   if (tcl_ && interactive_) throw BadInput("--tcl", "cannot be used together with --interactive");

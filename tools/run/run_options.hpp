@@ -44,6 +44,7 @@ struct RunOptions {
   std::optional<std::string> serve;                     ///< ADDRESS:PORT of the viewer
   bool serve_control = false;                           ///< viewers may act on the run
   std::vector<std::string> serve_origins;               ///< of pages from elsewhere that may connect as Foxglove
+  bool is_brief = false;                                ///< of nodes: see nodes::NodeRunOptions
   bool check = false;                                   ///< self-check: compare runs instead of reporting a result
   std::optional<std::filesystem::path> summary, picture, page, trajectory, record, digests, events, decisions;
   std::optional<std::filesystem::path> record_durations, replay_durations;  ///< not both
@@ -98,7 +99,7 @@ class RunArguments {
   std::string record_durations_, replay_durations_, play_;
   std::vector<std::string> places_, serve_origins_;
   PartnerOptions partners_;
-  bool serve_control_ = false, interactive_ = false, tcl_ = false, check_ = false;
+  bool serve_control_ = false, interactive_ = false, tcl_ = false, check_ = false, is_brief_ = false;
 };
 
 }  // namespace waitpoint::tools

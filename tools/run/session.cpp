@@ -149,6 +149,7 @@ bridge::RunResult Session::result() const {
   result.wall_s = wall_s_;
   result.lag = pacing_.lag();
   if (partners_ != nullptr) result.outside = partners_->accounts();
+  if (partners_ != nullptr) result.outside_unmet = partners_->unmet();
   result.outside_fault = fault_;
   const Time here = end_ == RunEnd::time_reached ? now() : experiment_.simulation().global_time();
   const Time last = experiment_.last_end().value_or(here);

@@ -60,6 +60,8 @@ class Session : private outside::Host {
   Time now() const;
   Time until() const { return until_; }
   bool over() const { return end_ != RunEnd::time_reached || reached_ >= until_ || !fault_.empty() || is_finished_; }
+  /// A partner has ended the run.
+  bool is_finished() const { return is_finished_; }
   /// The fault of a partner that ended the run.
   const std::string& fault() const { return fault_; }
   /// True if partners take part: they live in real time, so that the speed cannot be changed.

@@ -43,6 +43,7 @@ enum class Part {
   history,
   air,
   chosen_ports,
+  waits,
   count
 };
 

@@ -3,10 +3,12 @@
 
 #include <cerrno>
 #include <cstring>
+#include <optional>
 
 #include "core/error.hpp"
 #include "fibers/kernel/ownership.hpp"
 #include "fibers/posix/base/interposed.hpp"
+#include "fibers/posix/family/lasting_waits.hpp"
 #include "fibers/posix/family/misuse.hpp"
 #include "fibers/posix/program/allocator.hpp"
 #include "fibers/posix/signals/signals.hpp"
@@ -72,13 +74,19 @@ int lock_again(Mutex& mutex, int type) {
   return 0;
 }
 
+Wait wait_for_owner(Mutex& mutex, Time deadline) {
+  std::optional<NotedWait> noted;
+  if (deadline == Time::max()) noted.emplace(*mutex.object.owner);
+  return wait_on(mutex.object, deadline);
+}
+
 int wait_and_lock(Mutex& mutex, int type, Time deadline) {
   if (mutex.robust_state == Mutex::RobustState::unrecoverable) return ENOTRECOVERABLE;
   if (mutex.object.owner == kernel::running)
     if (const int result = lock_again(mutex, type); result >= 0) return result;
   while (mutex.object.owner != nullptr) {
     if (deadline <= kernel::running->local_time) return ETIMEDOUT;
-    const Wait ended = wait_on(mutex.object, deadline);
+    const Wait ended = wait_for_owner(mutex, deadline);
     if (ended == Wait::timed_out) return ETIMEDOUT;
     if (ended == Wait::interrupted) handle_signals();
     if (mutex.robust_state == Mutex::RobustState::unrecoverable) return ENOTRECOVERABLE;

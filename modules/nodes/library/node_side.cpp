@@ -11,6 +11,7 @@
 #include "modules/nodes/library/own_node.hpp"
 #include "modules/nodes/library/robot_node.hpp"
 #include "modules/nodes/library/sides.hpp"
+#include "modules/nodes/library/topic_watch.hpp"
 
 namespace waitpoint::nodes {
 namespace {
@@ -28,8 +29,10 @@ class WorldAndMaster final : public NodeSide {
     const ros::WallTime now = ros::WallTime::now();
     begin_ = has_clock_ ? ros::Time(1, 0) : ros::Time(now.sec, now.nsec);
     advertise(setup);
+    watch_.emplace(*node_, setup.bounds);
   }
   ~WorldAndMaster() override {
+    watch_.reset();
     robots_.clear();
     map_server_ = {};
     node_.reset();
@@ -72,6 +75,7 @@ class WorldAndMaster final : public NodeSide {
     for (const auto& robot : robots_) poses.push_back(robot->take_pose(begin_));
     return poses;
   }
+  std::vector<std::string> take_breaches() override { return watch_->take_breaches(); }
 
  private:
   void advertise(const NodeSideSetup& setup) {
@@ -104,6 +108,7 @@ class WorldAndMaster final : public NodeSide {
   ros::Publisher clock_, tf_, fixed_, map_;
   ros::ServiceServer map_server_;
   std::vector<std::unique_ptr<RobotNode>> robots_;
+  std::optional<TopicWatch> watch_;
 };
 
 }  // namespace

@@ -22,6 +22,7 @@ class FakeMaster final : public NodeSide {
   void send_goal(std::size_t, const Place&) override {}
   std::vector<std::optional<Command>> take_commands() override { return {}; }
   std::vector<std::optional<PublishedPose>> take_poses() override { return {}; }
+  std::vector<std::string> take_breaches() override { return {}; }
 };
 
 NodeCommand node(const std::string& name, const std::string& script) {
@@ -65,6 +66,22 @@ TEST(NodeProcesses, EndTheRunWithARequiredOne) {
   NodeProcesses processes({command}, master);
   EXPECT_EQ(news_of(processes, 1), std::vector<std::string>{"/needed: ended with status 7"});
   EXPECT_TRUE(processes.is_over());
+}
+
+TEST(NodeProcesses, EndTheRunWhenAllTestsHaveEnded) {
+  FakeMaster master;
+  NodeCommand good = node("good", "exit 0"), bad = node("bad", "exit 3"), slow = node("slow", "sleep 100");
+  good.time_limit = bad.time_limit = slow.time_limit = Duration::from_seconds(1);
+  NodeProcesses processes({good, bad, node("server", "sleep 100")}, master, NodeEnds::killed);
+  EXPECT_EQ(processes.unmet_tests(std::nullopt).size(), 2U);
+  news_of(processes, 2);
+  EXPECT_TRUE(processes.is_over());
+  EXPECT_EQ(processes.unmet_tests(std::nullopt), std::vector<std::string>{"test /bad ended with status 3"});
+
+  NodeProcesses late({slow}, master, NodeEnds::killed);
+  late.go_on(Time());
+  EXPECT_TRUE(late.unmet_tests(Time()).empty());
+  EXPECT_EQ(late.unmet_tests(Time() + Duration::from_seconds(2)), std::vector<std::string>{"test /slow has not ended"});
 }
 
 TEST(NodeProcesses, WaitForTheirConditions) {

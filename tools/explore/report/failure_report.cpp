@@ -60,6 +60,7 @@ std::string reason_without_pair(const ReversedEvents& reversed, bool is_noise, b
   if (reversed.pair) return "";
   if (is_noise) return "it is the noise, not the order: the passing run has the default order, and its own noise";
   if (!is_minimized) return no_passing_sought;
+  if (!reversed.text.empty()) return reversed.text;
   return reversed.passing ? exploration::no_pair_in_words() : "no passing run was found in time";
 }
 

@@ -16,6 +16,10 @@ using exploration::EventPair;
 // Limit of alternatives tried: the durations of a computation are many and much alike.
 constexpr std::uint32_t alternatives_max = 8;
 
+// In the first process they are the world's, which is right.
+constexpr const char* not_among_nodes =
+    "the two events whose order matters are not looked for in the processes of nodes\n";
+
 class Comparison {
  public:
   Comparison(Target& target, SearchProgress& progress, Budget& budget, const LeastFailure& least,
@@ -78,6 +82,7 @@ class Comparison {
 
 ReversedEvents reversed_events(Target& target, SearchProgress& progress, Budget& budget, const LeastFailure& least,
                                const LastChoice& choice) {
+  if (target.options().has_nodes) return {not_among_nodes, choice.passing};
   return Comparison(target, progress, budget, least, choice).found();
 }
 

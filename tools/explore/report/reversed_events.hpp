@@ -19,7 +19,7 @@ struct ReversedEvents {
 };
 
 /// The passing run is the one with the fewest differences among the alternatives at that choice, each followed by the
-/// default order; else the run that showed the choice to be the last one.
+/// default order; else the run that showed the choice to be the last one, as always of a scenario with nodes.
 ReversedEvents reversed_events(Target& target, SearchProgress& progress, Budget& budget, const LeastFailure& least,
                                const LastChoice& choice);
 

@@ -49,6 +49,22 @@ Shard shard_of(const std::string& text) {
   return shard;
 }
 
+constexpr std::string_view topic_mark = "topic:";
+
+/// The --set assignment for all properties of topics: a list.
+std::string assignment_of_topics(const std::vector<std::string>& properties) {
+  std::string list;
+  for (const std::string& property : properties) {
+    if (!property.starts_with(topic_mark)) continue;
+    const std::string text = property.substr(topic_mark.size());
+    scenario::TopicExpectation ignored;
+    if (!scenario::parse(text, ignored))
+      throw BadInput("--property " + property, scenario::topic_expectation_words(text));
+    list += (list.empty() ? "\"" : ", \"") + text + "\"";
+  }
+  return list.empty() ? "" : "expect.topics=[" + list + "]";
+}
+
 /// The --set assignment for this property.
 std::string assignment_of(const std::string& property) {
   const std::string option = "--property " + property;
@@ -66,7 +82,10 @@ std::string assignment_of(const std::string& property) {
   double length_m = 0;
   if (key == "position_error_max_m" && (!parse_number(value, length_m) || !(length_m > 0)))
     refuse(option, "a positive number of metres", value);
-  if (key == "collisions" && !parse_number(value, count)) refuse(option, "a whole number", value);
+  if (key == "service_call_max_s" && (!parse_number(value, length_m) || !(length_m >= 0)))
+    refuse(option, "a number of seconds", value);
+  if ((key == "collisions" || key == "node_failures") && !parse_number(value, count))
+    refuse(option, "a whole number", value);
   if (key == "goals_reached" && value != "all" && !parse_number(value, count))
     refuse(option, "a whole number or all", value);
   return "expect." + property;
@@ -127,7 +146,10 @@ ExploreArguments::ExploreArguments(CommandLine& line)
   command_.option("--seed", seed_, "N", "seed of all schedules and noise (default: $WAITPOINT_SEED, or 1)");
   command_.repeated("--property", properties_, "KEY=VALUE",
                     "expectation of every run, overriding the scenario's `expect`; may be repeated:\n"
-                    "goals_reached, collisions, position_error_max_m");
+                    "goals_reached, collisions, position_error_max_m; with nodes of ROS also node_failures,\n"
+                    "the most nodes that may die (default: 0); service_call_max_s, the longest call of a\n"
+                    "service (10); tests=passed, of the launch files; and topic:/TOPIC.FIELD<=NUMBER, of each\n"
+                    "message, with >=, <= or == (docs/ros.md)");
   command_.option("--until", until_, "S", "end runs at virtual time S, in seconds (default: the scenario's until_s)");
   command_.option("--from", from_, "S",
                   "share one run in the default order up to virtual time S, in seconds (default: 0)");
@@ -248,8 +270,12 @@ ExploreOptions ExploreArguments::options(const std::vector<std::string>& words) 
   options.scenario = find_scenario(scenario_);
   options.confined_to = confinement_.folders(options.scenario);
   options.assignments = assignments_;
+  options.sets = assignments_.size();
   options.properties = properties_;
-  for (const std::string& property : properties_) options.assignments.push_back(assignment_of(property));
+  for (const std::string& property : properties_)
+    if (!property.starts_with(topic_mark)) options.assignments.push_back(assignment_of(property));
+  if (std::string topics = assignment_of_topics(properties_); !topics.empty())
+    options.assignments.push_back(std::move(topics));
   std::string where = "--strategy";
   if (const std::string strategy = text_of(strategy_, "WAITPOINT_STRATEGY", where); !strategy.empty())
     options.strategy = strategy;

@@ -32,6 +32,7 @@ struct ExploreOptions {
   std::vector<std::string> program;                ///< its words; instead of a scenario, or for it
   bool has_nodes = false;                          ///< `program` is the run of `scenario`: see run_with_nodes.hpp
   std::vector<std::string> assignments;            ///< of --set, then of --property: "expect.collisions=0"
+  std::size_t sets = 0;                            ///< so many of them are of --set
   std::vector<std::string> properties;             ///< of --property: "collisions=0"
   std::string strategy = "portfolio";
   std::uint64_t seed = 1;

@@ -20,12 +20,16 @@ std::vector<std::string> words_of_run(const ExploreOptions& options, const scena
     words.emplace_back(option);
     words.push_back(value);
   };
+  words.emplace_back("--brief");
   if (options.until) add("--until", to_string(Time() + *options.until));
   for (const std::string& assignment : options.assignments) add("--set", assignment);
   // A part of the run is not expected to reach all goals.
   const bool is_cut = options.limit(scenario.until) < Time() + scenario.until;
   if (is_cut && std::none_of(options.properties.begin(), options.properties.end(), is_of_goals))
     add("--set", "expect.goals_reached=");
+  // What fails a program fails nodes, too.
+  if (!scenario.expect.node_failures) add("--set", "expect.node_failures=0");
+  if (!scenario.expect.service_call_max_s) add("--set", "expect.service_call_max_s=10");
   return words;
 }
 

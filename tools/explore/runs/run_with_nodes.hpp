@@ -4,6 +4,7 @@
 #pragma once
 
 #include "modules/scenario/scenario.hpp"
+#include "tools/explore/runs/explore_options.hpp"
 #include "tools/explore/runs/finding.hpp"
 
 namespace waitpoint::tools {

@@ -52,8 +52,7 @@ std::string explore_words(const ExploreOptions& options, const std::string& repl
   if (is_program && options.switch_at == SwitchAt::accesses) line += " --switch-at accesses";
   if (options.memory == Memory::weak) line += " --memory weak";
   if (options.from) line += " --from " + to_string(Time() + *options.from);
-  const std::size_t sets = options.assignments.size() - options.properties.size();
-  for (std::size_t i = 0; i < sets; ++i) line += " --set " + quoted(options.assignments[i]);
+  for (std::size_t i = 0; i < options.sets; ++i) line += " --set " + quoted(options.assignments[i]);
   for (const std::string& property : options.properties) line += " --property " + quoted(property);
   if (!replayed.empty()) line += " --replay " + quoted(replayed);
   if (is_program) line += " --" + quoted(options.program);
