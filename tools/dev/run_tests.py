@@ -55,6 +55,7 @@ OWN_CASES = {
     "bags of ROS": [sys.executable, str(ROOT / "tests/programs/bags_test.py"), BUILD],
     "nodes of robots": [sys.executable, str(ROOT / "tests/programs/nodes_of_robots_test.py"), BUILD],
     "nodes and modules": [sys.executable, str(ROOT / "tests/programs/nodes_and_modules_test.py"), BUILD],
+    "nodes of ROS, explored": [sys.executable, str(ROOT / "tests/programs/explored_nodes_test.py"), BUILD],
     "exec, repeatability": [sys.executable, str(ROOT / "tests/exec/repeatability_test.py"), BUILD],
     "explore --exec": [sys.executable, str(ROOT / "tests/exec/exploring_test.py"), BUILD],
     "explore --exec, findings": [sys.executable, str(ROOT / "tests/exec/finding_test.py"), BUILD],
