@@ -48,6 +48,13 @@ struct SonarTopic {
   double field_of_view = 0, range_min = 0, range_max = 0;
 };
 
+/// A topic of nodes that is shown: a path, a cloud of poses or a grid.
+struct ShownTopic {
+  enum class Kind : unsigned char { path, cloud, grid };
+  std::string topic;
+  Kind kind = Kind::path;
+};
+
 struct RobotTopics {
   std::string space;   ///< of its topics: "/" or "/rackham"
   std::string prefix;  ///< of its frames: "" or "rackham/"
@@ -56,8 +63,9 @@ struct RobotTopics {
   std::vector<SonarTopic> sonars;
   bool has_imu = false;
   std::vector<std::string> posters;  ///< topics of modules' posters, within `space`
-  bool takes_pose = false;           ///< from the topic `pose`
-  bool gives_map_to_odom = false;    ///< the transform between them is the true one, as no node estimates it
+  std::vector<ShownTopic> shown;
+  bool takes_pose = false;         ///< from the topic `pose`
+  bool gives_map_to_odom = false;  ///< the transform between them is the true one, as no node estimates it
 };
 
 /// A map known to the robots.
@@ -136,6 +144,16 @@ struct PublishedPose {
   PoseReading pose;
 };
 
+/// A message of a topic that is shown.
+struct ShownReading {
+  std::string topic;  ///< global
+  ShownTopic::Kind kind = ShownTopic::Kind::path;
+  std::int64_t date_ns = 0;
+  std::string frame;
+  std::vector<Place> places;  ///< of paths and clouds
+  GridValues grid;            ///< of grids
+};
+
 /// Of one robot, after a step of the world.
 struct RobotReadings {
   bool has_odometry = false;                    ///< odometry and transforms are due: what follows up to `measured`
@@ -171,6 +189,8 @@ class NodeSide : public MasterSide {
   virtual std::vector<std::optional<PublishedPose>> take_poses() = 0;
   /// Since the last call, of each bound the first message that is not as expected, in words.
   virtual std::vector<std::string> take_breaches() = 0;
+  /// Likewise, all messages of a robot's topics that are shown.
+  virtual std::vector<ShownReading> take_shown(std::size_t robot) = 0;
 };
 
 /// What the library offers.

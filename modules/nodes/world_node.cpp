@@ -8,6 +8,7 @@
 
 #include "core/number_text.hpp"
 #include "modules/nodes/node_waits.hpp"
+#include "modules/nodes/shown_readings.hpp"
 #include "modules/nodes/world_topics.hpp"
 #include "modules/outside/sensor_times.hpp"
 #include "modules/outside/words.hpp"
@@ -48,6 +49,7 @@ WorldNode::WorldNode(const scenario::Scenario& scenario, const std::vector<std::
     : scenario_(scenario),
       nodes_(std::move(nodes)),
       air_(scenario, robots),
+      shown_(std::move(options.shown)),
       is_brief_(options.is_brief),
       processes_(std::move(commands), *nodes_, options.is_brief ? NodeEnds::killed : NodeEnds::asked,
                  std::move(options.environment)) {
@@ -143,6 +145,7 @@ void WorldNode::take_in(outside::Host& host) {
     }
     if (poses[i]) pass_pose(host, robots_[i], *poses[i]);
     show_goal(host, i);
+    show_topics(i);
   }
   if (processes_.is_over() || (is_brief_ && is_lost(host))) host.finish();
 }
@@ -172,6 +175,10 @@ std::vector<std::string> WorldNode::unmet() const {
     lines.insert(lines.end(), failures_.begin(), failures_.end());
   for (std::string& line : processes_.unmet_tests(std::nullopt)) lines.push_back(std::move(line));
   return lines;
+}
+
+void WorldNode::show_topics(std::size_t robot) {
+  for (const ShownReading& reading : nodes_->take_shown(robot)) shown_->add(message_of(reading));
 }
 
 void WorldNode::tell_news(outside::Host& host) {
@@ -217,6 +224,7 @@ void WorldNode::pass_pose(outside::Host& host, const Robot& robot, const Publish
                       "taken");
     return;
   }
+  ++poses_;
   const Place& at = published.pose.place;
   std::string text = fmt::format("pose {} date_s={} pose.x={} pose.y={} pose.heading={}", outside::quoted_word(name),
                                  Duration::from_ns(published.date_ns).seconds(), at.x, at.y, at.heading);
@@ -260,7 +268,8 @@ void WorldNode::send_goal(std::size_t number, const Point& position, const world
 }
 
 std::string WorldNode::account() const {
-  return "nodes: " + counted(goals_, "goal") + ", " + counted(commands_, "command") + air_.losses() + faults_.text();
+  return "nodes: " + counted(goals_, "goal") + ", " + counted(commands_, "command") +
+         (poses_ > 0 ? ", " + counted(poses_, "pose") : "") + air_.losses() + faults_.text();
 }
 
 }  // namespace waitpoint::nodes

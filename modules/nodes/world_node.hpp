@@ -12,6 +12,7 @@
 #include "modules/nodes/node_side.hpp"
 #include "modules/nodes/poster_topics.hpp"
 #include "modules/nodes/robots_air.hpp"
+#include "modules/nodes/shown_topics.hpp"
 #include "modules/outside/fault_counts.hpp"
 #include "modules/outside/partner.hpp"
 #include "modules/rflex/dead_reckoning.hpp"
@@ -24,6 +25,7 @@ struct NodeRunOptions {
   /// It ends as soon as an expectation of the scenario cannot be met any more, and its nodes are killed at the end.
   bool is_brief = false;
   std::vector<ros1::EnvironmentVariable> environment = {};  ///< of all nodes, besides the run's
+  std::shared_ptr<ShownTopics> shown = {};                  ///< gets the messages that pictures and recordings show
 };
 
 class WorldNode final : public outside::Partner {
@@ -62,15 +64,17 @@ class WorldNode final : public outside::Partner {
   void tell_news(outside::Host& host);
   void watch_calls(outside::Host& host);
   bool is_lost(outside::Host& host) const;
+  void show_topics(std::size_t robot);
 
   const scenario::Scenario& scenario_;
   std::vector<Robot> robots_;
   std::unique_ptr<NodeSide> nodes_;
   RobotsAir air_;
+  std::shared_ptr<ShownTopics> shown_;
   bool is_brief_;
   NodeProcesses processes_;                                    // end before the master
   std::vector<std::string> failures_, long_calls_, breaches_;  // of expectations
-  std::uint64_t commands_ = 0, goals_ = 0;
+  std::uint64_t commands_ = 0, goals_ = 0, poses_ = 0;
   Time second_;                             // the virtual second of which messages are counted
   std::optional<std::uint64_t> published_;  // step
   outside::FaultCounts faults_;

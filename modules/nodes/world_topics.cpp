@@ -58,6 +58,13 @@ GridValues values_of(const OccupancyGrid& map) {
   return values;
 }
 
+std::vector<ShownTopic> topics_shown(const scenario::NodesScenario& nodes) {
+  std::vector<ShownTopic> topics;
+  for (scenario::ShownTopic& row : scenario::shown_topics(nodes))
+    topics.push_back({std::move(row.topic), static_cast<ShownTopic::Kind>(row.kind)});
+  return topics;
+}
+
 std::vector<std::string> topics_of_posters(const scenario::NodesScenario& nodes) {
   std::vector<std::string> topics;
   for (scenario::PosterTopic& row : scenario::poster_topics(nodes)) topics.push_back(std::move(row.topic));
@@ -104,6 +111,7 @@ NodeSideSetup node_side_setup(const scenario::Scenario& scenario, const Occupanc
                             .sonars = sonars_of(robot, prefix),
                             .has_imu = robot.body.imu.has_value(),
                             .posters = topics_of_posters(nodes),
+                            .shown = topics_shown(nodes),
                             .takes_pose = scenario::takes_pose(robot),
                             .gives_map_to_odom = nodes.gives_map_to_odom});
     for (const auto& [name, parameter] : nodes.launch->parameters) setup.parameters.emplace_back(name, parameter.value);

@@ -148,7 +148,7 @@ void read_namespace(const RobotScenario& robot, bool is_only_one, NodesScenario&
   const YamlNode* const ros = nodes.document->find("ros");
   const bool has_namespace = ros != nullptr && ros->find("namespace") != nullptr;
   if (ros != nullptr) {
-    const YamlMap map(*ros, "ros", {"namespace", "tf_prefix", "map_to_odom", "publish"});
+    const YamlMap map(*ros, "ros", {"namespace", "tf_prefix", "map_to_odom", "publish", "show"});
     // Both may be empty.
     const auto text_of = [&map](std::string_view key, const std::string& otherwise) {
       const YamlNode* const value = map.find(key);
@@ -265,6 +265,7 @@ void read_nodes(Scenario& scenario) {
     read_namespace(robot, count == 1, *robot.nodes);
     read_and_add_launch(*robot.nodes, robot.warnings, scenario.fingerprint);
     (void)poster_topics(*robot.nodes);
+    (void)shown_topics(*robot.nodes);
   }
   check_names_of_robots(scenario);
   check_names_of_nodes(scenario);

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What modules of a robot and its nodes of ROS have of each other: the table `publish` of a robot's `ros`, of the
-// posters that are published as topics, and the rows of the bridge that fill posters from topics.
+// posters that are published as topics, and the rows of the bridge that fill posters from topics; and `show`, what
+// nodes publish that pictures and recordings have.
 //
-//   ros: {publish: {pom.position: pom/position, rflex.odometry: rflex/odom}}
+//   ros:
+//     publish: {pom.position: pom/position, rflex.odometry: rflex/odom}
+//     show: {plan: path, particlecloud: cloud, /map_of_gmapping: grid}
 //   bridge:
 //     - {poster: locate.localisation, device: topic.pose}
 #pragma once
@@ -24,6 +27,16 @@ struct PosterTopic {
 
 /// BadInput for a topic that is no name of ROS.
 std::vector<PosterTopic> poster_topics(const NodesScenario& nodes);
+
+struct ShownTopic {
+  enum class Kind : unsigned char { path, cloud, grid };
+
+  std::string topic;  ///< as written
+  Kind kind = Kind::path;
+};
+
+/// BadInput for a topic that is no name of ROS, and for another kind.
+std::vector<ShownTopic> shown_topics(const NodesScenario& nodes);
 
 /// True if a poster of the robot is filled from the topic `pose`.
 bool takes_pose(const RobotScenario& robot);

@@ -156,6 +156,32 @@ class Nodes(unittest.TestCase):
         self.assertEqual(done.returncode, 2)
         self.assertRegex(done.stderr, r"hall\.yaml:16: expected the clock of node 'slow' to be fixed:US, .*, found 'cpu'\n")
 
+    def test_pictures_and_recordings_have_what_nodes_publish(self):
+        node = self.node("belief", "import rospy\nfrom geometry_msgs.msg import Pose, PoseArray\n"
+                         "rospy.init_node('belief')\nout = rospy.Publisher('cloud', PoseArray, queue_size=1, latch=True)\n"
+                         "cloud = PoseArray(poses=[Pose() for _ in range(7)])\nfor i, pose in enumerate(cloud.poses):\n"
+                         "    pose.position.x, pose.position.y, pose.orientation.w = 1 + i, 5, 1\n"
+                         "cloud.header.frame_id, cloud.header.stamp = 'map', rospy.Time.now()\nout.publish(cloud)\nrospy.spin()\n")
+        robot = (f"    ros: {{show: {{plan: path, cloud: cloud, /map: grid}}}}\n    goals: [[10, 4]]\n"
+                 f"    nodes: [{{name: driver, command: [{DRIVER}]}}, {{name: belief, command: [{node}]}}]\n")
+        plain = self.run_hall(robot, "--until", "6")
+        picture, mcap, bag = (self.folder / name for name in ("hall.svg", "hall.mcap", "hall.bag"))
+        shown = self.run_hall(robot, "--until", "6", "--picture", picture, "--record", mcap)
+        self.assertIn("digest", plain.stdout, plain.stderr)
+        self.assertEqual(re.search(r"  digest +(wp1:\w+)", shown.stdout).group(1),
+                         re.search(r"  digest +(wp1:\w+)", plain.stdout).group(1))
+        drawn = picture.read_text()
+        for words in "paths of nodes", "poses of a node", "grid of a node":
+            self.assertIn(words, drawn)
+        self.assertEqual(drawn.count('r="1.6"'), 7)
+        for words in b"/plan", b"/cloud", b"foxglove.PosesInFrame":
+            self.assertIn(words, mcap.read_bytes())
+        self.run_hall(robot, "--until", "6", "--record", bag)
+        for words in b"/plan", b"nav_msgs/Path", b"geometry_msgs/PoseArray", b"nav_msgs/OccupancyGrid":
+            self.assertIn(words, bag.read_bytes())
+        refused = self.run_hall("    ros: {show: {plan: line}}\n")
+        self.assertRegex(refused.stderr, r"hall\.yaml:16: expected the kind of 'plan' to be path, cloud or grid, found 'line'\n")
+
     def test_options_that_exclude_nodes(self):
         for option in ["--serve"], ["--speed", "1"], ["--check"], ["--interactive"]:
             done = self.run_hall(f"    nodes: [{{name: driver, command: [{DRIVER}]}}]\n", *option)

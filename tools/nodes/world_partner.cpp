@@ -16,8 +16,9 @@ namespace waitpoint::tools {
 namespace {
 
 // Calls of services are watched by a library in the nodes.
-nodes::NodeRunOptions options_of(const scenario::Scenario& scenario, bool is_brief) {
-  nodes::NodeRunOptions options{.is_brief = is_brief};
+nodes::NodeRunOptions options_of(const scenario::Scenario& scenario, std::shared_ptr<nodes::ShownTopics> shown,
+                                 bool is_brief) {
+  nodes::NodeRunOptions options{.is_brief = is_brief, .shown = std::move(shown)};
   if (scenario.expect.service_call_max_s)
     options.environment.push_back({"LD_PRELOAD", find_part(nodes::calls_library).string()});
   return options;
@@ -34,7 +35,8 @@ void check_nodes(const scenario::Scenario& scenario) {
   (void)node_commands(scenario);
 }
 
-std::unique_ptr<outside::Partner> make_world_partner(const scenario::Scenario& scenario, bool is_brief) {
+std::unique_ptr<outside::Partner> make_world_partner(const scenario::Scenario& scenario,
+                                                     std::shared_ptr<nodes::ShownTopics> shown, bool is_brief) {
   const scenario::RobotScenario& first = first_with_nodes(scenario);
   std::vector<nodes::NodeCommand> commands = node_commands(scenario);
   std::optional<scenario::MapFile> map = scenario.map;
@@ -48,7 +50,7 @@ std::unique_ptr<outside::Partner> make_world_partner(const scenario::Scenario& s
     throw first.nodes->written.bad(error.what());
   }
   return std::make_unique<nodes::WorldNode>(scenario, nodes::robots_with_nodes(scenario), std::move(side),
-                                            std::move(commands), options_of(scenario, is_brief));
+                                            std::move(commands), options_of(scenario, std::move(shown), is_brief));
 }
 
 }  // namespace waitpoint::tools

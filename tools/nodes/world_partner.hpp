@@ -4,6 +4,7 @@
 
 #include <memory>
 
+#include "modules/nodes/shown_topics.hpp"
 #include "modules/outside/partner.hpp"
 #include "modules/scenario/scenario.hpp"
 
@@ -12,8 +13,9 @@ namespace waitpoint::tools {
 /// BadInput for a node whose executable is not found, and if this program has no nodes.
 void check_nodes(const scenario::Scenario& scenario);
 
-/// Starts the master; the nodes start with the run. BadInput as above. The scenario must outlive it.
-/// `is_brief`: see nodes::NodeRunOptions.
-std::unique_ptr<outside::Partner> make_world_partner(const scenario::Scenario& scenario, bool is_brief);
+/// Starts the master; the nodes start with the run. `shown` gets what they publish that is shown. BadInput as above.
+/// The scenario must outlive it. `is_brief`: see nodes::NodeRunOptions.
+std::unique_ptr<outside::Partner> make_world_partner(const scenario::Scenario& scenario,
+                                                     std::shared_ptr<nodes::ShownTopics> shown, bool is_brief);
 
 }  // namespace waitpoint::tools

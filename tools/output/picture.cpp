@@ -3,11 +3,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <string_view>
 #include <vector>
 
 #include "core/polyline.hpp"
+#include "tools/output/occupied_shapes.hpp"
 #include "tools/output/picture_frame.hpp"
 #include "tools/output/svg.hpp"
 
@@ -164,7 +166,28 @@ class Legend {
   Point at_;
 };
 
-void draw_legend(Svg& svg, const PictureFrame& frame, const RunResult& result) {
+constexpr std::string_view path_style = "fill=\"none\" stroke=\"#0ca678\" stroke-width=\"2\" stroke-dasharray=\"2 3\"";
+constexpr std::string_view cloud_style = "fill=\"#e8590c\" fill-opacity=\"0.5\"";
+constexpr std::string_view grid_style = "fill=\"#7048e8\" fill-opacity=\"0.35\"";
+
+// What nodes have published: below the robots' paths.
+void draw_shown(Svg& svg, const PictureFrame& frame, std::span<const nodes::ShownMessage> shown) {
+  for (const nodes::ShownMessage& message : shown) {
+    std::string cells;
+    for (const Shape& shape : occupied_shapes(message)) cells += outline_path(frame, shape);
+    svg.path(cells, grid_style);
+    std::vector<Point> points;
+    points.reserve(message.poses.size());
+    for (const Pose& pose : message.poses) points.push_back(frame.pixel(pose.position()));
+    if (message.kind == nodes::ShownMessage::Kind::path)
+      svg.polyline(points, path_style);
+    else
+      for (const Point& at : points) svg.circle(at, 1.6, cloud_style);
+  }
+}
+
+void draw_legend(Svg& svg, const PictureFrame& frame, const RunResult& result,
+                 std::span<const nodes::ShownMessage> shown) {
   const std::size_t robots = result.robots.size();
   const Pen pen = pen_of(0, robots);
   const double y = PictureFrame::top + frame.map_height();
@@ -173,7 +196,13 @@ void draw_legend(Svg& svg, const PictureFrame& frame, const RunResult& result) {
   lines.line(pen.estimate, "estimated (fused) path");
   lines.line(pen.odometry, "odometry alone");
   lines.line(pen.segments, "segments mapped by segloc");
+  const auto has = [&](nodes::ShownMessage::Kind kind) {
+    return std::any_of(shown.begin(), shown.end(), [&](const auto& message) { return message.kind == kind; });
+  };
+  if (has(nodes::ShownMessage::Kind::path)) lines.line(path_style, "paths of nodes");
   Legend areas(svg, {PictureFrame::left, y + 54});
+  if (has(nodes::ShownMessage::Kind::grid)) areas.box(grid_style, "grid of a node");
+  if (has(nodes::ShownMessage::Kind::cloud)) areas.disc(cloud_style, "poses of a node");
   areas.box(fmt::format("fill=\"{}\"", wall), "wall");
   areas.box(fmt::format("fill=\"{}\" stroke=\"{}\"", furniture, furniture_edge), "furniture");
   areas.box(fmt::format("fill=\"url(#unknown)\" stroke=\"{}\" stroke-width=\"1.5\"", unknown),
@@ -210,7 +239,8 @@ void draw_title(Svg& svg, const RunResult& result) {
 
 }  // namespace
 
-std::string picture_svg(std::span<const Obstacle> obstacles, const RunResult& result) {
+std::string picture_svg(std::span<const Obstacle> obstacles, const RunResult& result,
+                        std::span<const nodes::ShownMessage> shown) {
   const PictureFrame frame(obstacles, result);
   Svg svg(frame.width(), frame.height());
   svg.define(
@@ -227,6 +257,7 @@ std::string picture_svg(std::span<const Obstacle> obstacles, const RunResult& re
   svg.rectangle({PictureFrame::left, PictureFrame::top}, frame.map_width(), frame.map_height(),
                 fmt::format("fill=\"{}\"", floor_colour));
   draw_floor(svg, frame, obstacles);
+  draw_shown(svg, frame, shown);
   const std::size_t robots = result.robots.size();
   for (std::size_t i = 0; i < robots; ++i) {
     const RobotResult& robot = result.robots[i];
@@ -241,7 +272,7 @@ std::string picture_svg(std::span<const Obstacle> obstacles, const RunResult& re
   }
   for (std::size_t i = 0; i < robots; ++i) draw_marks(svg, frame, result.robots[i], pen_of(i, robots), robots > 1);
   svg.end_group();
-  draw_legend(svg, frame, result);
+  draw_legend(svg, frame, result, shown);
   draw_scale_bar(svg, frame);
   return svg.finish();
 }

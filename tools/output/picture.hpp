@@ -7,10 +7,13 @@
 #include <string>
 
 #include "modules/bridge/run_result.hpp"
+#include "modules/nodes/shown_topics.hpp"
 
 namespace waitpoint::tools {
 
 /// An SVG document. `obstacles` are all obstacles on the floor, including a map's boxes: thousands are fine.
-std::string picture_svg(std::span<const world::Obstacle> obstacles, const bridge::RunResult& result);
+/// `shown`: what nodes of ROS have published.
+std::string picture_svg(std::span<const world::Obstacle> obstacles, const bridge::RunResult& result,
+                        std::span<const nodes::ShownMessage> shown = {});
 
 }  // namespace waitpoint::tools

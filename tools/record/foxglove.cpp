@@ -123,6 +123,16 @@ std::string pose_in_frame(Time time, const std::string& frame, const Pose& pose)
   return Json{{"timestamp", of(time)}, {"frame_id", frame}, {"pose", of(pose)}}.dump();
 }
 
+Schema poses_in_frame() {
+  return schema("PosesInFrame", {{"timestamp", instant()}, {"frame_id", text()}, {"poses", list(placement())}});
+}
+
+std::string poses_in_frame(Time time, const std::string& frame, std::span<const Pose> poses) {
+  Json all = Json::array();
+  for (const Pose& pose : poses) all.push_back(of(pose));
+  return Json{{"timestamp", of(time)}, {"frame_id", frame}, {"poses", std::move(all)}}.dump();
+}
+
 Schema scene_update() {
   const Json cube = object({{"pose", placement()}, {"size", vector()}, {"color", colour()}});
   const Json cylinder = object({{"pose", placement()},

@@ -17,6 +17,7 @@ Schema frame_transform();
 Schema laser_scan();
 Schema log();
 Schema pose_in_frame();
+Schema poses_in_frame();
 Schema scene_update();
 
 /// The virtual time in ROS's format; Foxglove has no schema for it.
@@ -29,6 +30,7 @@ std::string laser_scan(const posters::LaserReading& scan, const std::string& fra
 /// A line of text with severity "information" or "warning".
 std::string log(Time time, const std::string& who, const std::string& text, bool is_warning = false);
 std::string pose_in_frame(Time time, const std::string& frame, const Pose& pose);
+std::string poses_in_frame(Time time, const std::string& frame, std::span<const Pose> poses);
 /// Static boxes and cylinders.
 std::string scene_update(Time time, const std::string& frame, std::span<const world::Shape> shapes);
 

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "tools/output/occupied_shapes.hpp"
 #include "tools/record/foxglove.hpp"
 
 namespace waitpoint::tools {
@@ -66,6 +67,17 @@ void FoxgloveRecording::write_scan(const OfRobot& robot, std::size_t laser, cons
                                    const posters::LaserReading& scan) {
   const Topic topic = topics_[robot.number].scans[laser];
   if (sink_->wants(topic)) sink_->write(topic, now_, foxglove::laser_scan(scan, frame));
+}
+
+void FoxgloveRecording::write_shown(const nodes::ShownMessage& message, const std::string& frame) {
+  const bool is_grid = message.kind == nodes::ShownMessage::Kind::grid;
+  const auto [topic, is_new] = shown_.try_emplace(message.topic, Topic());
+  if (is_new)
+    topic->second = sink_->add(is_grid ? foxglove::scene_update() : foxglove::poses_in_frame(), message.topic);
+  if (!sink_->wants(topic->second)) return;
+  sink_->write(topic->second, now_,
+               is_grid ? foxglove::scene_update(message.date, frame, occupied_shapes(message))
+                       : foxglove::poses_in_frame(message.date, frame, message.poses));
 }
 
 void FoxgloveRecording::write_log(const OfRobot& robot, const ModuleLog::Line& line) {

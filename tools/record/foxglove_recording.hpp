@@ -8,11 +8,13 @@
 //   /ROBOT/LASER      its scans, in the frame ROBOT/LASER
 //   /ROBOT/odometry, /ROBOT/position, /ROBOT/truth    its poses
 //   /ROBOT/modules    requests to its modules and their outcomes, in words
+//   topics of nodes   paths and clouds as poses, grids as boxes
 //   /ROBOT/goals      outcomes of its goals, in words; when the run is over
 //
 // A message is made only if the sink wants it.
 #pragma once
 
+#include <map>
 #include <memory>
 
 #include "tools/record/topic_sink.hpp"
@@ -45,6 +47,7 @@ class FoxgloveRecording final : public ViewerRecording {
   void write_position(const OfRobot& robot, const posters::PositionEstimate& position) override;
   void write_scan(const OfRobot& robot, std::size_t laser, const std::string& frame,
                   const posters::LaserReading& scan) override;
+  void write_shown(const nodes::ShownMessage& message, const std::string& frame) override;
   void write_log(const OfRobot& robot, const ModuleLog::Line& line) override;
   void close(const bridge::RunResult& result) override;
   void write_goals(const bridge::RobotResult& robot);
@@ -52,6 +55,7 @@ class FoxgloveRecording final : public ViewerRecording {
   std::unique_ptr<TopicSink> sink_;
   Topic frames_, world_, clock_;
   std::vector<Topics> topics_;  // by robot
+  std::map<std::string, Topic> shown_;
   Time now_;
 };
 

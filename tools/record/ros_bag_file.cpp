@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/record/ros_bag_file.hpp"
 
+#include <geometry_msgs/PoseArray.h>
 #include <geometry_msgs/PoseStamped.h>
 #include <geometry_msgs/PoseWithCovarianceStamped.h>
+#include <nav_msgs/OccupancyGrid.h>
 #include <nav_msgs/Odometry.h>
+#include <nav_msgs/Path.h>
 #include <rosbag/bag.h>
 #include <rosgraph_msgs/Clock.h>
 #include <rosgraph_msgs/Log.h>
@@ -179,6 +182,39 @@ void RosBagFile::write_solids(const std::string& topic, const std::vector<Solid>
     all.markers.push_back(marker);
   }
   write(topic, all);
+}
+
+void RosBagFile::write_path(const std::string& topic, std::int64_t time_ns, const std::string& frame,
+                            const std::vector<Place>& places) {
+  nav_msgs::Path path;
+  path.header = header_of({time_ns, frame, 0, 0, 0, 0, 1});
+  for (const Place& place : places) {
+    geometry_msgs::PoseStamped pose;
+    pose.header = header_of(place);
+    pose.pose = pose_of(place);
+    path.poses.push_back(pose);
+  }
+  write(topic, path);
+}
+
+void RosBagFile::write_poses(const std::string& topic, std::int64_t time_ns, const std::string& frame,
+                             const std::vector<Place>& places) {
+  geometry_msgs::PoseArray poses;
+  poses.header = header_of({time_ns, frame, 0, 0, 0, 0, 1});
+  for (const Place& place : places) poses.poses.push_back(pose_of(place));
+  write(topic, poses);
+}
+
+void RosBagFile::write_grid(const std::string& topic, const Grid& grid) {
+  nav_msgs::OccupancyGrid message;
+  message.header = header_of(grid.origin);
+  message.info.map_load_time = message.header.stamp;
+  message.info.width = static_cast<std::uint32_t>(grid.width);
+  message.info.height = static_cast<std::uint32_t>(grid.height);
+  message.info.resolution = static_cast<float>(grid.resolution);
+  message.info.origin = pose_of(grid.origin);
+  message.data.assign(grid.cells.begin(), grid.cells.end());
+  write(topic, message);
 }
 
 void RosBagFile::write_log(const std::string& topic, std::int64_t time_ns, const std::string& who,

@@ -32,6 +32,13 @@ class RosBagFile {
     Place place;
     std::array<double, 3> size;
   };
+  /// Row by row from the origin, the outer corner of the first cell: 0 free, 100 occupied, -1 unknown.
+  struct Grid {
+    Place origin;
+    int width, height;
+    double resolution;
+    std::vector<std::int8_t> cells;
+  };
   /// Of x, y and the angle, row-major.
   using Covariance = std::array<double, 9>;
 
@@ -49,6 +56,11 @@ class RosBagFile {
                       const std::string& child, double v, double w);
   void write_scan(const std::string& topic, const Scan& scan);
   void write_solids(const std::string& topic, const std::vector<Solid>& solids);
+  void write_path(const std::string& topic, std::int64_t time_ns, const std::string& frame,
+                  const std::vector<Place>& places);
+  void write_poses(const std::string& topic, std::int64_t time_ns, const std::string& frame,
+                   const std::vector<Place>& places);
+  void write_grid(const std::string& topic, const Grid& grid);
   void write_log(const std::string& topic, std::int64_t time_ns, const std::string& who, const std::string& text,
                  bool is_warning);
   void close();

@@ -22,6 +22,15 @@ RosBagFile::Solid solid(const world::Shape& shape, const std::string& frame) {
   return {true, middle, {shape.length_m, shape.width_m, height_m}};
 }
 
+RosBagFile::Grid grid(Time time, const std::string& frame, const OccupancyGrid& of) {
+  constexpr std::int8_t free = 0, occupied = 100, unknown = -1;
+  RosBagFile::Grid all{place(time, frame, of.origin()), of.width(), of.height(), of.resolution_m(), {}};
+  all.cells.reserve(of.cells().size());
+  for (const Cell cell : of.cells())
+    all.cells.push_back(cell == Cell::free ? free : cell == Cell::occupied ? occupied : unknown);
+  return all;
+}
+
 }  // namespace
 
 RosBagRecording::RosBagRecording(const std::filesystem::path& path, const scenario::Scenario& scenario)
@@ -67,6 +76,20 @@ void RosBagRecording::write_scan(const OfRobot&, std::size_t, const std::string&
                                  scan.angle_step_rad,
                                  scan.range_max_m,
                                  {scan.range_m.begin(), scan.range_m.end()}});
+}
+
+void RosBagRecording::write_shown(const nodes::ShownMessage& message, const std::string& frame) {
+  if (message.kind == nodes::ShownMessage::Kind::grid) {
+    if (message.grid) bag_->write_grid(message.topic, grid(message.date, frame, *message.grid));
+    return;
+  }
+  std::vector<RosBagFile::Place> places;
+  places.reserve(message.poses.size());
+  for (const Pose& pose : message.poses) places.push_back(place(message.date, frame, pose));
+  if (message.kind == nodes::ShownMessage::Kind::path)
+    bag_->write_path(message.topic, message.date.ns(), frame, places);
+  else
+    bag_->write_poses(message.topic, message.date.ns(), frame, places);
 }
 
 void RosBagRecording::write_log(const OfRobot& robot, const ModuleLog::Line& line) {

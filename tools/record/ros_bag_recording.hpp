@@ -9,6 +9,7 @@
 //   /ROBOT/odometry   nav_msgs/Odometry
 //   /ROBOT/position   geometry_msgs/PoseWithCovarianceStamped, the estimated pose
 //   /ROBOT/truth      geometry_msgs/PoseStamped, ten times a second
+//   topics of nodes   nav_msgs/Path, geometry_msgs/PoseArray, nav_msgs/OccupancyGrid, by their names
 //   /ROBOT/modules    rosgraph_msgs/Log: requests to its modules and their outcomes
 #pragma once
 
@@ -34,6 +35,7 @@ class RosBagRecording final : public ViewerRecording {
   void write_position(const OfRobot& robot, const posters::PositionEstimate& position) override;
   void write_scan(const OfRobot& robot, std::size_t laser, const std::string& frame,
                   const posters::LaserReading& scan) override;
+  void write_shown(const nodes::ShownMessage& message, const std::string& frame) override;
   void write_log(const OfRobot& robot, const ModuleLog::Line& line) override;
   void close(const bridge::RunResult& result) override;
 

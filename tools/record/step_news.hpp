@@ -10,6 +10,7 @@
 #include "core/pose.hpp"
 #include "core/time.hpp"
 #include "modules/bridge/run_result.hpp"
+#include "modules/nodes/shown_topics.hpp"
 #include "modules/posters/laser.hpp"
 #include "modules/posters/position.hpp"
 #include "tools/record/module_log.hpp"
@@ -32,6 +33,7 @@ struct StepNews {
   bool is_sampled = false;                               ///< ten times a second
   std::optional<std::vector<world::Shape>> obstacles{};  ///< if they were looked at and have changed
   std::vector<RobotNews> robots{};
+  std::vector<nodes::ShownMessage> shown{};  ///< of nodes of ROS, since the step before
 };
 
 /// The lines of a robot that no step has taken.

@@ -18,6 +18,8 @@ void ViewerRecording::record(const StepNews& step) {
     if (step.is_sampled) record_truth(robot, news, step.now);
     record_news(robot, news);
   }
+  for (const nodes::ShownMessage& message : step.shown)
+    write_shown(message, message.frame == "map" || message.frame.empty() ? root : message.frame);
 }
 
 void ViewerRecording::record_truth(const OfRobot& robot, const RobotNews& news, Time now) {

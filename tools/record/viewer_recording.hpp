@@ -3,7 +3,8 @@
 //
 //   ten times a second  the virtual time; the obstacles, if changed; each robot's true pose (world -> ROBOT)
 //   at each new value   a robot's odometry, its estimated pose (world -> ROBOT/position), its laser scans
-//                       (in ROBOT/position -> ROBOT/LASER), requests to its modules and their outcomes
+//                       (in ROBOT/position -> ROBOT/LASER), requests to its modules and their outcomes; the topics of
+//                       its nodes of ROS that are shown, by their names, with `map` for the root frame
 #pragma once
 
 #include "tools/record/recording.hpp"
@@ -49,6 +50,7 @@ class ViewerRecording : public Recording {
   /// Of the robot's laser number `laser`, in that frame.
   virtual void write_scan(const OfRobot& robot, std::size_t laser, const std::string& frame,
                           const posters::LaserReading& scan) = 0;
+  virtual void write_shown(const nodes::ShownMessage& message, const std::string& frame) = 0;
   virtual void write_log(const OfRobot& robot, const ModuleLog::Line& line) = 0;
   /// Called last.
   virtual void close(const bridge::RunResult& result) = 0;

@@ -17,8 +17,10 @@ namespace {
 
 Outputs* of_this_run = nullptr;
 
-std::string picture_of(const run::Experiment& experiment, const bridge::RunResult& result) {
-  return picture_svg(view::obstacles_shown(experiment), result);
+std::string picture_of(const run::Experiment& experiment, const bridge::RunResult& result,
+                       const nodes::ShownTopics* shown) {
+  const std::vector<nodes::ShownMessage> none;
+  return picture_svg(view::obstacles_shown(experiment), result, shown != nullptr ? shown->to_draw() : none);
 }
 
 }  // namespace
@@ -74,9 +76,20 @@ void Outputs::watch_steps() {
   experiment_.set_observer([this, other = experiment_.observer()](Time now) {
     if (other) other(now);
     if (getpid() != process_) return;
-    if (recording_) recording_->add(reader_->take(now));
+    if (recording_) record_step(now);
     if (page_) page_->step(now);
   });
+}
+
+void Outputs::show(const std::shared_ptr<nodes::ShownTopics>& topics) {
+  shown_ = topics;
+  if (shown_ && recording_) shown_->begin_recording();
+}
+
+void Outputs::record_step(Time now) {
+  StepNews news = reader_->take(now);
+  if (shown_) news.shown = shown_->take();
+  recording_->add(std::move(news));
 }
 
 void Outputs::watch_ranks() {
@@ -110,7 +123,7 @@ void Outputs::complete(const bridge::RunResult& result, const std::string& cut_o
     file.commit();
   });
   attempt(picture_, [&](OutputFile& file) {
-    file.write(picture_of(experiment_, result));
+    file.write(picture_of(experiment_, result, shown_.get()));
     if (is_cut) file.write("<!-- cut off: " + cut_off + " -->\n");
     file.commit();
   });

@@ -13,6 +13,7 @@
 #include <optional>
 #include <string>
 
+#include "modules/nodes/shown_topics.hpp"
 #include "modules/run/experiment.hpp"
 #include "tools/output/decision_recorder.hpp"
 #include "tools/output/output_file.hpp"
@@ -39,6 +40,8 @@ class Outputs {
 
   /// The requested journal, or null. write() names it.
   JournalFile* journal() { return journal_ ? &*journal_ : nullptr; }
+  /// What nodes of ROS publish is in the picture and the recording; null: there are none. Before the run.
+  void show(const std::shared_ptr<nodes::ShownTopics>& topics);
   /// Call before the run.
   void watch();
   void second(std::int64_t second);
@@ -55,6 +58,7 @@ class Outputs {
   void complete(const bridge::RunResult& result, const std::string& cut_off, Attempt attempt);
   void watch_ranks();
   void watch_steps();
+  void record_step(Time now);
 
   const scenario::Scenario& scenario_;
   run::Experiment& experiment_;
@@ -68,6 +72,7 @@ class Outputs {
   std::optional<DecisionRecorder> decisions_;
   std::unique_ptr<Recording> recording_;
   std::optional<NewsReader> reader_;  // for the recording of one process
+  std::shared_ptr<nodes::ShownTopics> shown_;
   std::optional<RankOutputs> ranks_;  // of several
   view::SceneOptions scene_;          // for the page
   std::uint64_t seed_;

@@ -145,9 +145,14 @@ int run_once(const RunOptions& options, const scenario::Scenario& scenario, run:
       lines += to_text(experiment.intervene(intervention, date), intervention);
   }
   outside::Partners partners = make_partners(options.partners, scenario);
-  if (is_among_nodes() && !journal) partners.add(make_world_partner(scenario, options.is_brief));
+  std::shared_ptr<nodes::ShownTopics> shown_topics;
+  if (is_among_nodes() && !journal) {
+    shown_topics = std::make_shared<nodes::ShownTopics>();
+    partners.add(make_world_partner(scenario, shown_topics, options.is_brief));
+  }
   sync::tell_threads_outside();
   outputs.emplace(options, scenario, experiment);
+  outputs->show(shown_topics);
   if (outputs->journal() != nullptr) outputs->journal()->write(lines);
   std::optional<view::LiveRun> live;
   if (viewer != nullptr) live.emplace(*viewer, scenario, experiment, scene_options(options, scenario), lines);

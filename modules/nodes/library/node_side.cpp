@@ -10,6 +10,7 @@
 #include "modules/nodes/library/messages.hpp"
 #include "modules/nodes/library/own_node.hpp"
 #include "modules/nodes/library/robot_node.hpp"
+#include "modules/nodes/library/shown_subscriptions.hpp"
 #include "modules/nodes/library/sides.hpp"
 #include "modules/nodes/library/topic_watch.hpp"
 
@@ -34,6 +35,7 @@ class WorldAndMaster final : public NodeSide {
   ~WorldAndMaster() override {
     watch_.reset();
     robots_.clear();
+    shown_.clear();
     map_server_ = {};
     node_.reset();
     ros::shutdown();
@@ -77,6 +79,8 @@ class WorldAndMaster final : public NodeSide {
   }
   std::vector<std::string> take_breaches() override { return watch_->take_breaches(); }
 
+  std::vector<ShownReading> take_shown(std::size_t robot) override { return shown_[robot]->take(begin_); }
+
  private:
   void advertise(const NodeSideSetup& setup) {
     if (has_clock_) clock_ = node_->advertise<rosgraph_msgs::Clock>("/clock", queue);
@@ -95,6 +99,7 @@ class WorldAndMaster final : public NodeSide {
     tf2_msgs::TFMessage fixed;
     for (const RobotTopics& topics : setup.robots) {
       robots_.push_back(std::make_unique<RobotNode>(topics));
+      shown_.push_back(std::make_unique<ShownSubscriptions>(topics));
       robots_.back()->add_fixed(begin_, fixed);
       robots_.back()->send_start(begin_);
     }
@@ -109,6 +114,7 @@ class WorldAndMaster final : public NodeSide {
   ros::ServiceServer map_server_;
   std::vector<std::unique_ptr<RobotNode>> robots_;
   std::optional<TopicWatch> watch_;
+  std::vector<std::unique_ptr<ShownSubscriptions>> shown_;  // by robot
 };
 
 }  // namespace

@@ -23,6 +23,7 @@ class FakeMaster final : public NodeSide {
   std::vector<std::optional<Command>> take_commands() override { return {}; }
   std::vector<std::optional<PublishedPose>> take_poses() override { return {}; }
   std::vector<std::string> take_breaches() override { return {}; }
+  std::vector<ShownReading> take_shown(std::size_t) override { return {}; }
 };
 
 NodeCommand node(const std::string& name, const std::string& script) {
