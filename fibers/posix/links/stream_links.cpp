@@ -22,7 +22,7 @@ namespace waitpoint::posix {
 namespace {
 
 /// Bytes that a stream may have under way, and of one message.
-constexpr std::size_t most_under_way = 256 * 1024, most_of_a_piece = 16 * 1024;
+constexpr std::size_t most_under_way = std::size_t{256} * 1024, most_of_a_piece = std::size_t{16} * 1024;
 /// Bytes charged for each piece in addition to its data.
 constexpr std::size_t around_a_piece = 64;
 static_assert(most_of_a_piece + around_a_piece <= most_under_way,
