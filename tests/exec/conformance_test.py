@@ -84,6 +84,7 @@ NOT_MISSED = (
         "clock_settime": "natively it would set the machine's date (command_test.py, Options)",
         "settimeofday": "natively it would set the machine's date",
         "socket": "says whose it is, among several programs (robots_programs_test.py)",
+        "bind": "the same, but on a machine of its own (own_machine_test.py)",
         "getcpu": "any processor is as good",
         "listen": "natively who finds a full queue tries again after a second (command_test.py, Loopback)",
         "sched_getcpu": "any processor is as good",
