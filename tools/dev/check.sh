@@ -42,9 +42,11 @@ analysis() {
   ninja -C "$separate" build.ninja >/dev/null  # after changes of a meson.build
   count=$(python3 tools/dev/check/analysis.py "$separate" ${since:+"$since"})
   ((count)) || { echo "no source changed since $since" && return; }
-  # This generated header is included by the kernel's benchmark.
-  local generated=tests/bench/installed_headers.hpp
-  if grep -qF "build $generated:" "$separate/build.ninja"; then ninja -C "$separate" "$generated" >/dev/null; fi
+  # These generated headers are included by the kernel's benchmark and by examples.
+  local generated
+  for generated in tests/bench/installed_headers.hpp examples/dds/reading.h; do
+    if grep -qE "^build .*$generated( |:)" "$separate/build.ninja"; then ninja -C "$separate" "$generated" >/dev/null; fi
+  done
   [[ -t 1 ]] || quiet=(--quiet)
   ninja -C "$separate" -f analysis/build.ninja -j "$(nproc)" -k 0 "${quiet[@]}"
   echo "$count files conform to .clang-tidy"
