@@ -45,6 +45,12 @@ class OwnMachine(ExecCase):
     def test_has_a_loopback_and_no_shared_memory_of_others(self):
         self.assertEqual(run("--own-machine", "--quiet", "--", "python3", "-c", LIST_DEVICES), (0, "lo\n", ""))
 
+    def test_has_a_network_that_repeats(self):
+        self.assertEqual(run("--strict", "--", "cat", "/proc/net/dev")[0], 125)
+        status, output, errors = run("--strict", "--own-machine", "--", "cat", "/proc/net/dev")
+        self.assertEqual(status, 0, errors)
+        self.assertRegex(output, "(?s)^Inter-.* lo: *0 [^:]*$")
+
     def test_gives_ports_in_the_order_of_asking(self):
         _, output, _ = run("--own-machine", "--", "sh", "-c", self.three_ports)
         self.assertEqual(output.split(), ["32768", "32769", "32770"])

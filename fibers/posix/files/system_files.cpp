@@ -4,6 +4,7 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstring>
 
 #include "core/digest.hpp"
@@ -118,6 +119,14 @@ constexpr const char* unrepeatable_of_process[] = {
     "/net", "/numa_maps", "/oom_score", "/pagemap", "/sched", "/smaps", "/smaps_rollup", "/stack", "/syscall",
 };
 
+// Of these, the ones that tell of nothing but the network of a run's own machine.
+constexpr const char* of_own_network[] = {"/proc/net/dev", "/proc/net/if_inet6", "/proc/net/route",
+                                          "/proc/net/wireless"};
+bool is_of_own_network(const char* path) {
+  const auto is_path = [path](const char* each) { return std::strcmp(each, path) == 0; };
+  return record->settings.own_machine && std::ranges::any_of(of_own_network, is_path);
+}
+
 bool begins_path(const char* beginning, const char* path) {
   const std::size_t length = std::strlen(beginning);
   return std::strncmp(path, beginning, length) == 0 && (path[length] == '\0' || path[length] == '/');
@@ -128,7 +137,7 @@ bool begins_path(const char* beginning, const char* path) {
 void note_use_of(const char* path) {
   if (!is_simulated() || !record->settings.strict || path == nullptr || !can_be_read(path)) return;
   for (const char* const each : unrepeatable)
-    if (begins_path(each, path)) note_unrepeatable(path);
+    if (begins_path(each, path) && !is_of_own_network(path)) note_unrepeatable(path);
   const ProcessPath of_process(path);
   if (of_process.is_by_number && of_process.process == nullptr) note_unrepeatable(path);
   for (const char* const each : unrepeatable_of_process)
