@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Prints readings that come by Cyclone DDS, up to the one before NUMBER, or until none has come for three seconds:
+// Prints readings that come by Cyclone DDS, up to the one before NUMBER, or until none has come for ten seconds:
 // cyclone_listener NUMBER [reliable]. Without `reliable`, those that the network loses are not sent again.
 #include <dds/dds.h>
 #include <stdbool.h>
@@ -43,8 +43,8 @@ int main(int argc, char** argv) {
   const dds_entity_t waits = dds_create_waitset(participant);
   dds_waitset_attach(waits, dds_create_readcondition(reader, DDS_ANY_STATE), 0);
   for (int last = -1; last < count - 1;) {
-    if (dds_waitset_wait(waits, NULL, 0, DDS_SECS(3)) <= 0) {
-      printf("nothing for 3 s\n");
+    if (dds_waitset_wait(waits, NULL, 0, DDS_SECS(10)) <= 0) {
+      printf("nothing for 10 s\n");
       break;
     }
     const int newest = print_all(reader);

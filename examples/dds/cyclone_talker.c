@@ -24,6 +24,7 @@ int main(int argc, char** argv) {
     dds_write(writer, &reading);
     dds_sleepfor(DDS_MSECS(100));
   }
+  dds_wait_for_acks(writer, DDS_SECS(30));
   dds_delete(participant);
   return 0;
 }

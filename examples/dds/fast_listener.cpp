@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Prints readings that come by Fast DDS, up to the one before NUMBER, or until none has come for three seconds:
+// Prints readings that come by Fast DDS, up to the one before NUMBER, or until none has come for ten seconds:
 // fast_listener NUMBER [reliable]. Without `reliable`, those that the network loses are not sent again.
 #include <chrono>
 #include <condition_variable>
@@ -37,8 +37,8 @@ class Printer : public DataReaderListener {
   void wait_for(int last) {
     std::unique_lock lock(mutex_);
     for (int before = last_; last_ < last; before = last_)
-      if (!came_.wait_for(lock, std::chrono::seconds(3), [&] { return last_ != before; })) {
-        std::printf("nothing for 3 s\n");
+      if (!came_.wait_for(lock, std::chrono::seconds(10), [&] { return last_ != before; })) {
+        std::printf("nothing for 10 s\n");
         return;
       }
   }

@@ -34,6 +34,7 @@ int main(int argc, char** argv) {
     writer->write(&reading);
     usleep(100'000);
   }
+  writer->wait_for_acknowledgments({30, 0});
   participant->delete_contained_entities();
   factory.delete_participant(participant);
 }
