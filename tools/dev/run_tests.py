@@ -56,6 +56,7 @@ OWN_CASES = {
     "nodes of robots": [sys.executable, str(ROOT / "tests/programs/nodes_of_robots_test.py"), BUILD],
     "nodes and modules": [sys.executable, str(ROOT / "tests/programs/nodes_and_modules_test.py"), BUILD],
     "nodes of ROS, explored": [sys.executable, str(ROOT / "tests/programs/explored_nodes_test.py"), BUILD],
+    "nodes of ROS, navigation": [sys.executable, str(ROOT / "tests/programs/move_base_test.py"), BUILD],
     "exec, repeatability": [sys.executable, str(ROOT / "tests/exec/repeatability_test.py"), BUILD],
     "explore --exec": [sys.executable, str(ROOT / "tests/exec/exploring_test.py"), BUILD],
     "explore --exec, findings": [sys.executable, str(ROOT / "tests/exec/finding_test.py"), BUILD],
