@@ -28,7 +28,7 @@ struct BagSideSetup {
   BagChoice choice;
   bool has_clock = false;                                          ///< publishes /clock; use_sim_time is set
   bool has_debian_master = false;                                  ///< in place of one inside
-  bool hears = true;                                               ///< subscribes to what nodes publish
+  bool hears = false;                                              ///< subscribes to what nodes publish
   std::vector<std::pair<std::string, nlohmann::json>> parameters;  ///< by global name; no maps
 };
 

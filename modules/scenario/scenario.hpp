@@ -180,7 +180,7 @@ struct PlayScenario {
   Duration idle = std::chrono::seconds(1);       ///< without a message of a node, after the last one: the run's end
   Duration end_most = std::chrono::seconds(10);  ///< after the last message: the run's end in any case
   double clock_hz = 100;                         ///< of /clock, if it is published
-  bool hears = true;                             ///< the run subscribes to what nodes publish
+  bool hears = false;                            ///< the run subscribes to what nodes publish
   std::vector<std::string> outputs;              ///< files of the nodes, relative to the current directory
   Location written, bag_written, topics_written;
 };

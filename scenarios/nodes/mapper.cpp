@@ -21,12 +21,13 @@
 namespace {
 
 constexpr int side = 1000;  // cells
+constexpr std::size_t all_cells = std::size_t{side} * side;
 constexpr double resolution_m = 0.1;
 constexpr std::uint32_t threads = 4;
 
 class Mapper {
  public:
-  Mapper() : cells_(side * side) {
+  Mapper() : cells_(all_cells) {
     ros::NodeHandle("~").param("file", file_, std::string("map.pgm"));
     map_ = node_.advertise<nav_msgs::OccupancyGrid>("map", 1, true);
     scan_ = node_.subscribe("scan", 10, &Mapper::draw, this);
@@ -44,7 +45,9 @@ class Mapper {
   }
 
  private:
-  int& cell(int column, int row) { return cells_[static_cast<std::size_t>(row * side + column)]; }
+  int& cell(int column, int row) {
+    return cells_[static_cast<std::size_t>(row) * side + static_cast<std::size_t>(column)];
+  }
 
   void move(const nav_msgs::Odometry& odometry) {
     const std::lock_guard<std::mutex> lock(mutex_);

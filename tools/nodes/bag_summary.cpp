@@ -86,7 +86,8 @@ std::string bag_summary(const scenario::Scenario& scenario, std::uint64_t seed, 
   };
   text += head_of_topics("played", result.topics, [](const auto& topic) { return topic.messages; });
   for (const auto& topic : result.topics) line(topic.topic, std::to_string(topic.messages));
-  text += head_of_topics("published", result.heard, [](const auto& topic) { return topic.second.messages; });
+  if (scenario.play->hears)
+    text += head_of_topics("published", result.heard, [](const auto& topic) { return topic.second.messages; });
   for (const auto& [name, heard] : result.heard)
     line(name, fmt::format("{}, {}", heard.messages, to_string(heard.digest)));
   if (!files.empty()) text += "  written\n";

@@ -5,10 +5,15 @@
 #include <ros/ros.h>
 #include <rosgraph_msgs/Clock.h>
 
+#include <chrono>
+#include <exception>
 #include <map>
+#include <memory>
 #include <stdexcept>
+#include <thread>
 
 #include "modules/nodes/library/heard_topics.hpp"
+#include "modules/nodes/library/made_master.hpp"
 #include "modules/nodes/library/own_node.hpp"
 #include "modules/nodes/library/played_bag.hpp"
 #include "modules/nodes/library/sides.hpp"
@@ -18,16 +23,35 @@ namespace {
 
 constexpr std::uint32_t any_number = 0;  // of messages in a queue: none is lost on this side
 
+/// Opens the bag so that what follows does not depend on how long that took. The library looks through all packages of
+/// the machine for ways to decrypt, with clocks and locks for each. So it is done by a thread of its own, whose events
+/// are not counted among those of others, and the run begins at a whole second.
+std::unique_ptr<PlayedBag> opened(const BagChoice& choice) {
+  std::unique_ptr<PlayedBag> bag;
+  std::exception_ptr failure;
+  std::thread([&] {
+    try {
+      bag = std::make_unique<PlayedBag>(choice);
+    } catch (...) {
+      failure = std::current_exception();
+    }
+  }).join();
+  if (failure) std::rethrow_exception(failure);
+  using Clock = std::chrono::steady_clock;
+  std::this_thread::sleep_until(std::chrono::ceil<std::chrono::seconds>(Clock::now()));
+  return bag;
+}
+
 class BagAndMaster final : public BagSide {
  public:
   explicit BagAndMaster(const BagSideSetup& setup)
-      : hears_(setup.hears), bag_(setup.choice), master_(make_master(setup.has_debian_master)) {
+      : hears_(setup.hears), bag_(opened(setup.choice)), master_(make_master(setup.has_debian_master)) {
     set_parameters(*master_, setup.has_clock, setup.parameters);
     start_own_node(*master_);
     node_.emplace();
     if (setup.has_clock) clock_ = node_->advertise<rosgraph_msgs::Clock>("/clock", any_number);
     // A bag may have its own clock, which is that of the run.
-    for (const rosbag::ConnectionInfo* connection : bag_.connections())
+    for (const rosbag::ConnectionInfo* connection : bag_->connections())
       if (!setup.has_clock || topic_of(connection->topic) != "/clock") advertise(*connection);
     first_ = begin_of_clock();
   }
@@ -47,17 +71,17 @@ class BagAndMaster final : public BagSide {
   bool is_registered(const std::string& node) const override { return master_->is_node(node); }
 
   std::optional<std::int64_t> next_ns() override {
-    const rosbag::MessageInstance* const message = bag_.next();
-    return message == nullptr ? std::nullopt : std::optional<std::int64_t>(bag_.time_ns(*message));
+    const rosbag::MessageInstance* const message = bag_->next();
+    return message == nullptr ? std::nullopt : std::optional<std::int64_t>(bag_->time_ns(*message));
   }
 
   void play_next() override {
-    publish(*bag_.next());
-    bag_.advance();
+    publish(*bag_->next());
+    bag_->advance();
   }
 
   void play_latched() override {
-    for (const rosbag::MessageInstance& message : bag_.latched_before()) publish(message);
+    for (const rosbag::MessageInstance& message : bag_->latched_before()) publish(message);
   }
 
   void show_clock(std::int64_t time_ns) override {
@@ -88,7 +112,9 @@ class BagAndMaster final : public BagSide {
     return {caller == header.end() ? std::string() : caller->second, topic};
   }
 
-  ros::Time begin_of_clock() { return bag_.next()->getTime() - ros::Duration().fromNSec(bag_.time_ns(*bag_.next())); }
+  ros::Time begin_of_clock() {
+    return bag_->next()->getTime() - ros::Duration().fromNSec(bag_->time_ns(*bag_->next()));
+  }
 
   // One publisher for each of the recording, since each has a last message of its own.
   void advertise(const rosbag::ConnectionInfo& connection) {
@@ -111,7 +137,7 @@ class BagAndMaster final : public BagSide {
   }
 
   bool hears_;
-  PlayedBag bag_;
+  std::unique_ptr<PlayedBag> bag_;
   std::unique_ptr<UsedMaster> master_;
   std::optional<ros::NodeHandle> node_;
   ros::Publisher clock_;

@@ -7,6 +7,7 @@
 #include <rosgraph_msgs/Clock.h>
 #include <tf2_msgs/TFMessage.h>
 
+#include "modules/nodes/library/made_master.hpp"
 #include "modules/nodes/library/messages.hpp"
 #include "modules/nodes/library/own_node.hpp"
 #include "modules/nodes/library/robot_node.hpp"

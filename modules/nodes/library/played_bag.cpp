@@ -116,9 +116,11 @@ std::vector<rosbag::MessageInstance> PlayedBag::latched_before() {
       all.push_back(message);
     }
     std::vector<std::size_t> order;
+    order.reserve(newest.size());
     for (const auto& [publisher, i] : newest) order.push_back(i);
     std::sort(order.begin(), order.end());
     std::vector<rosbag::MessageInstance> last;
+    last.reserve(order.size());
     for (const std::size_t i : order) last.push_back(all[i]);
     return last;
   });

@@ -4,7 +4,6 @@
 
 #include <xmlrpcpp/XmlRpcValue.h>
 
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -23,8 +22,5 @@ class UsedMaster {
   /// By name: topics that another node publishes, too.
   virtual std::vector<std::string> topics_not_only_of(const std::string& node) const = 0;
 };
-
-/// Throws std::runtime_error if there is no port for it, or if Debian's does not start.
-std::unique_ptr<UsedMaster> make_master(bool is_of_debian);
 
 }  // namespace waitpoint::nodes

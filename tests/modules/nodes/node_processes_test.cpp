@@ -9,7 +9,7 @@
 namespace waitpoint::nodes {
 namespace {
 
-class FakeMaster final : public NodeSide {
+class FakeMaster final : public MasterSide {
  public:
   std::set<std::string> topics, nodes;
 
@@ -17,13 +17,6 @@ class FakeMaster final : public NodeSide {
   bool is_published(const std::string& topic) const override { return topics.contains(topic); }
   bool is_served(const std::string&) const override { return false; }
   bool is_registered(const std::string& node) const override { return nodes.contains(node); }
-  void publish(std::int64_t, const std::vector<RobotReadings>&) override {}
-  bool has_driver(std::size_t) const override { return false; }
-  void send_goal(std::size_t, const Place&) override {}
-  std::vector<std::optional<Command>> take_commands() override { return {}; }
-  std::vector<std::optional<PublishedPose>> take_poses() override { return {}; }
-  std::vector<std::string> take_breaches() override { return {}; }
-  std::vector<ShownReading> take_shown(std::size_t) override { return {}; }
 };
 
 NodeCommand node(const std::string& name, const std::string& script) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "modules/nodes/library/used_master.hpp"
+#include "modules/nodes/library/made_master.hpp"
 
 #include "modules/nodes/library/debian_master.hpp"
 #include "modules/nodes/library/master.hpp"
