@@ -26,7 +26,7 @@ def waitpoint(*words, cwd=None):
 class ExploredNodes(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        if not (BUILD / "libwaitpoint-nodes.so").exists() or not (BUILD / "scenarios/nodes/mapper").exists():
+        if not (BUILD / "libwaitpoint-nodes.so").exists() or not (BUILD / "scenarios/nodes/locking_mapper").exists():
             raise unittest.SkipTest("no nodes of ROS were built: ./dev ros does")
 
     def passes_by_default(self, scenario):

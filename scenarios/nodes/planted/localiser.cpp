@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The other half of a planted deadlock: see mapper.cpp.
+// The other half of a planted deadlock: see locking_mapper.cpp.
 #include <ros/ros.h>
 #include <std_msgs/UInt32.h>
 #include <std_srvs/Trigger.h>
