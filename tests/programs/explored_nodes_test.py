@@ -61,10 +61,10 @@ class ExploredNodes(unittest.TestCase):
         scenario = PLANTED / "lock-in-call.yaml"
         self.passes_by_default(scenario)
         report, again = self.find(scenario, "--no-minimize")
-        self.assertRegex(report, r"localiser#\d+: thread \d+ waits for the service /map_at, for 0\.")
-        self.assertRegex(report, r"mapper#\d+: thread \d+ waits for the service /where, for 0\.")
-        self.assertRegex(again, r"mapper#\d+: thread \d+ waits for a mutex that mapper#\d+: thread \d+ holds")
-        self.assertRegex(again, r"localiser#\d+: thread \d+ waits for a mutex that localiser#\d+: thread \d+ holds")
+        self.assertRegex(report, r"/localiser: thread \d+ waits for the service /map_at, for 0\.")
+        self.assertRegex(report, r"/mapper: thread \d+ waits for the service /where, for 0\.")
+        self.assertRegex(again, r"/mapper: thread \d+ waits for a mutex that /mapper: thread \d+ holds")
+        self.assertRegex(again, r"/localiser: thread \d+ waits for a mutex that /localiser: thread \d+ holds")
 
     def test_the_value_of_a_topic_is_a_property(self):
         scenario = PLANTED / "missed-map.yaml"

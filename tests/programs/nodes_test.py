@@ -113,7 +113,7 @@ class Nodes(unittest.TestCase):
         node = self.node("dies", "import sys, time\ntime.sleep(3)\nsys.exit(7)\n")
         done = self.run_hall(f"    nodes: [{{name: frail, command: [{node}], required: true}}]\n")
         self.assertRegex(done.stderr, r" 3\.\d+ s  /frail: ended with status 7\n")
-        self.assertIn("after 3.0 s simulated", done.stdout)
+        self.assertRegex(done.stdout, r"after 3\.[01] s simulated")
 
     def test_a_node_that_hangs_at_its_start(self):
         node = self.node("hangs", "import time\ntime.sleep(1000)\n")
