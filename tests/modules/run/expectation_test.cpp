@@ -20,8 +20,9 @@ bridge::RunResult result_with(std::size_t reached, std::size_t goals, std::uint6
 TEST(Expectation, nothing_expected_is_always_met) { EXPECT_EQ(unmet({}, result_with(0, 3, 9)), Lines{}); }
 
 TEST(Expectation, all_goals_and_no_collisions) {
-  const scenario::Expectation expect{
-      .all_goals_reached = true, .goals_reached = {}, .collisions = 0, .position_error_max_m = {}};
+  scenario::Expectation expect;
+  expect.all_goals_reached = true;
+  expect.collisions = 0;
   EXPECT_EQ(unmet(expect, result_with(3, 3, 0)), Lines{});
   EXPECT_EQ(unmet(expect, result_with(2, 3, 0)), Lines{"2 of 3 goals reached, expected all"});
   EXPECT_EQ(unmet(expect, result_with(3, 3, 1)), Lines{"1 collisions, expected 0"});
@@ -29,15 +30,15 @@ TEST(Expectation, all_goals_and_no_collisions) {
 }
 
 TEST(Expectation, a_number_of_goals_is_exact) {
-  const scenario::Expectation expect{
-      .all_goals_reached = false, .goals_reached = 2, .collisions = {}, .position_error_max_m = {}};
+  scenario::Expectation expect;
+  expect.goals_reached = 2;
   EXPECT_EQ(unmet(expect, result_with(2, 3, 5)), Lines{});
   EXPECT_EQ(unmet(expect, result_with(3, 3, 5)), Lines{"3 of 3 goals reached, expected 2"});
 }
 
 TEST(Expectation, what_is_greater_by_little_is_told_with_the_digits_that_differ) {
-  const scenario::Expectation expect{
-      .all_goals_reached = false, .goals_reached = {}, .collisions = {}, .position_error_max_m = 0.025};
+  scenario::Expectation expect;
+  expect.position_error_max_m = 0.025;
   bridge::RunResult result = result_with(0, 0, 0);
   for (const auto& [error_m, text] : {std::pair{0.0250004, "0.0250004"}, std::pair{0.5, "0.5"}}) {
     result.robots[0].position_error_max_m = error_m;
