@@ -64,7 +64,7 @@ TEST(Intervention, WhatIsNoneIsOneLineAtItsPlace) {
   EXPECT_EQ(complaint("move rackham 1,5 2"), "run.journal:7: expected a place, X Y [HEADING_DEG], found '1,5'");
   EXPECT_EQ(complaint("dance"),
             "run.journal:7: unknown intervention 'dance', expected request, move, obstacle, move-obstacle, "
-            "remove-obstacle, push, seed, tcl, external, report, command or goal");
+            "remove-obstacle, push, seed, tcl, external, report, command, pose or goal");
   EXPECT_EQ(complaint("move rackham 1 2 3 4"), "run.journal:7: expected the end of the line, found '4'");
   EXPECT_EQ(complaint("move \"rackham 1 2"), "run.journal:7: expected a closing quote");
   EXPECT_EQ(complaint("request rackham ndd GoTo 3"), "run.journal:7: expected FIELD=VALUE, found '3'");

@@ -103,7 +103,7 @@ TEST_F(ExploreCommandLine, a_time_limit_alone_is_the_only_limit) {
 TEST_F(ExploreCommandLine, what_cannot_be_meant_is_one_clear_line) {
   EXPECT_EQ(refusal({"a", "--property", "colisions=0"}),
             "--property colisions=0: unknown key 'colisions', did you mean 'collisions'?; there are goals_reached, "
-            "collisions, position_error_max_m, plans");
+            "collisions, position_error_max_m, plans, node_failures, service_call_max_s, topics, tests");
   EXPECT_EQ(refusal({"a", "--property", "collisions"}), "--property collisions: expected key=value");
   EXPECT_EQ(refusal({"a", "--property", "collisions=x"}),
             "--property collisions=x: expected a whole number, found 'x'");
