@@ -94,7 +94,7 @@ class Pages(Installed):
         self.try_page("programs.md")
 
     def test_ros(self):
-        if (BUILD / "libwaitpoint-nodes.so").exists():
+        if (BUILD / "libwaitpoint-nodes.so").exists() and (BUILD / "scenarios/nodes/driver").exists():
             self.try_page("ros.md")
 
     def test_external(self):
