@@ -7,12 +7,10 @@
 #include <cmath>
 
 #include "core/number_text.hpp"
-#include "modules/nodes/node_waits.hpp"
 #include "modules/nodes/shown_readings.hpp"
 #include "modules/nodes/world_topics.hpp"
 #include "modules/outside/sensor_times.hpp"
 #include "modules/outside/words.hpp"
-#include "modules/run/expectation.hpp"
 
 namespace waitpoint::nodes {
 namespace {
@@ -52,8 +50,8 @@ WorldNode::WorldNode(const scenario::Scenario& scenario, const std::vector<std::
       shown_(std::move(options.shown)),
       is_brief_(options.is_brief),
       processes_(std::move(commands), *nodes_, options.is_brief ? NodeEnds::killed : NodeEnds::asked,
-                 std::move(options.environment)) {
-  if (scenario.expect.service_call_max_s) watch_waits();
+                 std::move(options.environment)),
+      expectations_(scenario.expect) {
   robots_.reserve(robots.size());
   for (const std::size_t index : robots) {
     const world::BodyDescription& body = scenario.robots[index].body;
@@ -135,8 +133,7 @@ void WorldNode::take_in(outside::Host& host) {
   if (is_new_second) second_ = host.next_step();
   processes_.go_on(host.next_step());
   tell_news(host);
-  watch_calls(host);
-  for (const std::string& breach : nodes_->take_breaches()) breaches_.push_back(breach);
+  expectations_.watch(host, *nodes_);
   for (std::size_t i = 0; i < robots_.size(); ++i) {
     if (is_new_second) robots_[i].messages = 0;
     if (commands[i]) {
@@ -147,34 +144,7 @@ void WorldNode::take_in(outside::Host& host) {
     show_goal(host, i);
     show_topics(i);
   }
-  if (processes_.is_over() || (is_brief_ && is_lost(host))) host.finish();
-}
-
-// Told with all that waits: a call that does not return may wait for a lock.
-void WorldNode::watch_calls(outside::Host& host) {
-  if (!scenario_.expect.service_call_max_s || !long_calls_.empty()) return;
-  const Duration most = Duration::from_seconds(*scenario_.expect.service_call_max_s);
-  if (calls_longer_than(most).empty()) return;
-  const Duration long_time = Duration::from_ns(most.ns() / 2);
-  long_calls_ = calls_longer_than(long_time);
-  for (const std::string& wait : waits_longer_than(long_time)) host.tell("nodes", wait);
-}
-
-bool WorldNode::is_lost(outside::Host& host) const {
-  const scenario::Expectation& expect = scenario_.expect;
-  return (expect.node_failures && failures_.size() > *expect.node_failures) || !long_calls_.empty() ||
-         !breaches_.empty() || !processes_.unmet_tests(host.next_step()).empty() ||
-         !run::broken(expect, host.experiment().figures()).empty();
-}
-
-std::vector<std::string> WorldNode::unmet() const {
-  std::vector<std::string> lines = long_calls_;
-  lines.insert(lines.end(), breaches_.begin(), breaches_.end());
-  const scenario::Expectation& expect = scenario_.expect;
-  if (expect.node_failures && failures_.size() > *expect.node_failures)
-    lines.insert(lines.end(), failures_.begin(), failures_.end());
-  for (std::string& line : processes_.unmet_tests(std::nullopt)) lines.push_back(std::move(line));
-  return lines;
+  if (processes_.is_over() || (is_brief_ && expectations_.is_lost(host, processes_))) host.finish();
 }
 
 void WorldNode::show_topics(std::size_t robot) {
@@ -188,7 +158,7 @@ void WorldNode::tell_news(outside::Host& host) {
       continue;
     }
     faults_.add("faults of nodes");
-    if (news.is_failure) failures_.push_back("node " + news.node + " " + news.text);
+    if (news.is_failure) expectations_.note_failure("node " + news.node + " " + news.text);
     host.tell_fault(news.node, news.text);
   }
 }
@@ -266,6 +236,8 @@ void WorldNode::send_goal(std::size_t number, const Point& position, const world
   nodes_->send_goal(number, {position.x, position.y, exact::atan2(away.y, away.x), 0});
   robots_[number].told_at = now;
 }
+
+std::vector<std::string> WorldNode::unmet() const { return expectations_.unmet(processes_); }
 
 std::string WorldNode::account() const {
   return "nodes: " + counted(goals_, "goal") + ", " + counted(commands_, "command") +

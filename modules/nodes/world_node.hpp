@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "modules/nodes/node_expectations.hpp"
 #include "modules/nodes/node_processes.hpp"
 #include "modules/nodes/node_side.hpp"
 #include "modules/nodes/poster_topics.hpp"
@@ -62,8 +63,6 @@ class WorldNode final : public outside::Partner {
   void send_goal(std::size_t number, const Point& position, const world::BodyState& body, Time now);
   void drive(outside::Host& host, const Robot& robot, const Speeds& speeds);
   void tell_news(outside::Host& host);
-  void watch_calls(outside::Host& host);
-  bool is_lost(outside::Host& host) const;
   void show_topics(std::size_t robot);
 
   const scenario::Scenario& scenario_;
@@ -72,8 +71,8 @@ class WorldNode final : public outside::Partner {
   RobotsAir air_;
   std::shared_ptr<ShownTopics> shown_;
   bool is_brief_;
-  NodeProcesses processes_;                                    // end before the master
-  std::vector<std::string> failures_, long_calls_, breaches_;  // of expectations
+  NodeProcesses processes_;  // end before the master
+  NodeExpectations expectations_;
   std::uint64_t commands_ = 0, goals_ = 0, poses_ = 0;
   Time second_;                             // the virtual second of which messages are counted
   std::optional<std::uint64_t> published_;  // step
