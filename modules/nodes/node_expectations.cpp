@@ -29,15 +29,19 @@ void NodeExpectations::watch_calls(outside::Host& host) {
 }
 
 bool NodeExpectations::is_lost(outside::Host& host, const NodeProcesses& processes) const {
-  return have_too_many_failed() || !long_calls_.empty() || !breaches_.empty() ||
+  return are_too_many(failures_.size()) || !long_calls_.empty() || !breaches_.empty() ||
          !processes.unmet_tests(host.next_step()).empty() || !run::broken(expect_, host.experiment().figures()).empty();
 }
 
-std::vector<std::string> NodeExpectations::unmet(const NodeProcesses& processes) const {
+std::vector<std::string> NodeExpectations::unmet(const NodeProcesses& processes, const NodeSide& nodes) const {
   std::vector<std::string> lines = long_calls_;
   lines.insert(lines.end(), breaches_.begin(), breaches_.end());
-  if (have_too_many_failed()) lines.insert(lines.end(), failures_.begin(), failures_.end());
+  for (const std::string& topic : nodes.unheard_topics()) lines.push_back("topic " + topic + " had no message");
+  std::vector<std::string> failures = failures_;
+  for (std::string& line : processes.not_started()) failures.push_back(std::move(line));
+  if (are_too_many(failures.size())) lines.insert(lines.end(), failures.begin(), failures.end());
   for (std::string& line : processes.unmet_tests(std::nullopt)) lines.push_back(std::move(line));
+  if (expect_.tests_passed && !processes.have_tests()) lines.emplace_back("there is no test in the launch files");
   return lines;
 }
 

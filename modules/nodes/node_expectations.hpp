@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a scenario expects of its nodes: how many may fail, how long a call of a service may take, what numbers messages
-// have, and that the tests of launch files pass.
+// What a scenario expects of its nodes: how many may fail (none, unless it says so), how long a call of a service may
+// take, what numbers messages have, and that the tests of launch files pass.
 #pragma once
 
 #include <string>
@@ -26,10 +26,10 @@ class NodeExpectations {
   /// True if one cannot be met any more.
   bool is_lost(outside::Host& host, const NodeProcesses& processes) const;
   /// At the end, a line for each that is not met.
-  std::vector<std::string> unmet(const NodeProcesses& processes) const;
+  std::vector<std::string> unmet(const NodeProcesses& processes, const NodeSide& nodes) const;
 
  private:
-  bool have_too_many_failed() const { return expect_.node_failures && failures_.size() > *expect_.node_failures; }
+  bool are_too_many(std::size_t failures) const { return failures > expect_.node_failures.value_or(0); }
   void watch_calls(outside::Host& host);
 
   const scenario::Expectation& expect_;

@@ -42,7 +42,10 @@ std::vector<std::string> environment_with(const std::vector<ros1::EnvironmentVar
     if (std::none_of(more.begin(), more.end(), [&](const auto& variable) { return variable.name == name; }))
       all.emplace_back(text);
   }
-  for (const ros1::EnvironmentVariable& variable : more) all.push_back(variable.name + "=" + variable.value);
+  // Of several with one name the last counts.
+  for (auto variable = more.begin(); variable != more.end(); ++variable)
+    if (std::none_of(variable + 1, more.end(), [&](const auto& later) { return later.name == variable->name; }))
+      all.push_back(variable->name + "=" + variable->value);
   return all;
 }
 
@@ -168,6 +171,19 @@ std::vector<std::string> NodeProcesses::unmet_tests(std::optional<Time> now) con
       lines.push_back(name + " " + ending(process.status));
   }
   return lines;
+}
+
+std::vector<std::string> NodeProcesses::not_started() const {
+  std::vector<std::string> lines;
+  for (const Process& process : processes_)
+    if (process.state == State::waiting)
+      lines.push_back("node " + process.command.node.global_name() +
+                      " was not started: what it is to wait for did not come");
+  return lines;
+}
+
+bool NodeProcesses::have_tests() const {
+  return std::ranges::any_of(processes_, [](const Process& process) { return process.command.time_limit.has_value(); });
 }
 
 bool NodeProcesses::have_ended() const {

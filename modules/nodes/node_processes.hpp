@@ -51,6 +51,9 @@ class NodeProcesses {
   bool have_ended() const;
   /// True when those that could start so far have registered with the master, ended, or been told of.
   bool are_there() const;
+  /// A line for each node whose conditions have not come true.
+  std::vector<std::string> not_started() const;
+  bool have_tests() const;
   /// A line for each test that has failed, or has not ended, within its time if `now` is given.
   std::vector<std::string> unmet_tests(std::optional<Time> now) const;
   /// Asks all nodes to end, unless they are to be killed, and kills those that do not within some seconds.

@@ -189,6 +189,8 @@ class NodeSide : public MasterSide {
   virtual std::vector<std::optional<PublishedPose>> take_poses() = 0;
   /// Since the last call, of each bound the first message that is not as expected, in words.
   virtual std::vector<std::string> take_breaches() = 0;
+  /// The topics with bounds of which no message has come.
+  virtual std::vector<std::string> unheard_topics() const = 0;
   /// Likewise, all messages of a robot's topics that are shown.
   virtual std::vector<ShownReading> take_shown(std::size_t robot) = 0;
 };

@@ -23,17 +23,26 @@ constexpr Duration odometry_period = std::chrono::milliseconds(50), battery_peri
 constexpr std::uint32_t messages_per_s_at_most = 500;  // a controller sends 10 to 100
 constexpr const char* place = "nodes";
 
-bool is_number(const Speeds& speeds) {
-  return std::isfinite(speeds.ahead) && std::isfinite(speeds.left) && std::isfinite(speeds.up) &&
-         std::isfinite(speeds.turn);
+// Of the numbers of an intervention, besides 0 (genom/settings.hpp).
+constexpr double number_least = 1e-12, number_most = 1e4;
+
+bool is_usable(double number) { return std::fabs(number) <= number_most; }
+/// As interventions take it: the errors of rounding in a message are 0.
+double rounded(double number) { return std::fabs(number) < number_least ? 0 : number; }
+
+bool are_usable(const Speeds& speeds) {
+  return is_usable(speeds.ahead) && is_usable(speeds.left) && is_usable(speeds.up) && is_usable(speeds.turn);
 }
 
 bool is_usable(const PoseReading& pose) {
-  constexpr std::size_t diagonal[] = {0, 4, 8};
-  const auto is_finite = [](double number) { return std::isfinite(number); };
-  return is_finite(pose.place.x) && is_finite(pose.place.y) && is_finite(pose.place.heading) &&
-         std::all_of(pose.covariance.begin(), pose.covariance.end(), is_finite) &&
-         std::all_of(std::begin(diagonal), std::end(diagonal), [&](std::size_t i) { return pose.covariance[i] > 0; });
+  const auto& all = pose.covariance;  // of x, y, heading, in row order
+  const auto is_covariance = [&](std::size_t i, std::size_t k) {
+    return all[3 * i + k] * all[3 * i + k] <= all[4 * i] * all[4 * k];
+  };
+  return is_usable(pose.place.x) && is_usable(pose.place.y) && is_usable(pose.place.heading) &&
+         std::all_of(all.begin(), all.end(), [](double number) { return is_usable(number); }) &&
+         std::min({all[0], all[4], all[8]}) >= number_least && is_covariance(0, 1) && is_covariance(0, 2) &&
+         is_covariance(1, 2);
 }
 
 Speeds speeds_of(const world::Velocity& velocity) {
@@ -174,14 +183,15 @@ void WorldNode::count(outside::Host& host, Robot& robot, std::uint32_t messages)
 
 void WorldNode::drive(outside::Host& host, const Robot& robot, const Speeds& speeds) {
   const std::string& name = scenario_.robots[robot.index].name;
-  if (!is_number(speeds)) {
-    if (faults_.add("speeds that are no numbers"))
-      host.tell_fault(name, "cmd_vel: expected finite speeds, found one that is not: such messages are not obeyed");
+  if (!are_usable(speeds)) {
+    if (faults_.add("speeds that are no numbers, or too great"))
+      host.tell_fault(name,
+                      "cmd_vel: expected finite speeds of at most 10000, found others: such messages are not obeyed");
     return;
   }
   ++commands_;
   host.intervene(fmt::format("command {} v_m_s={} w_rad_s={} side_m_s={} climb_m_s={}", outside::quoted_word(name),
-                             speeds.ahead, speeds.turn, speeds.left, speeds.up),
+                             rounded(speeds.ahead), rounded(speeds.turn), rounded(speeds.left), rounded(speeds.up)),
                  {place, 0});
 }
 
@@ -190,16 +200,17 @@ void WorldNode::pass_pose(outside::Host& host, const Robot& robot, const Publish
   if (!is_usable(published.pose)) {
     if (faults_.add("poses that are no numbers"))
       host.tell_fault(name,
-                      "pose: expected finite numbers and positive variances, found others: such messages are not "
-                      "taken");
+                      "pose: expected finite numbers of at most 10000 and a covariance, found others: such messages "
+                      "are not taken");
     return;
   }
   ++poses_;
   const Place& at = published.pose.place;
-  std::string text = fmt::format("pose {} date_s={} pose.x={} pose.y={} pose.heading={}", outside::quoted_word(name),
-                                 Duration::from_ns(published.date_ns).seconds(), at.x, at.y, at.heading);
+  std::string text =
+      fmt::format("pose {} date_s={} pose.x={} pose.y={} pose.heading={}", outside::quoted_word(name),
+                  Duration::from_ns(published.date_ns).seconds(), rounded(at.x), rounded(at.y), rounded(at.heading));
   for (std::size_t i = 0; i < published.pose.covariance.size(); ++i)
-    text += fmt::format(" covariance.{}={}", i, published.pose.covariance[i]);
+    text += fmt::format(" covariance.{}={}", i, rounded(published.pose.covariance[i]));
   host.intervene(text, {place, 0});
 }
 
@@ -237,7 +248,7 @@ void WorldNode::send_goal(std::size_t number, const Point& position, const world
   robots_[number].told_at = now;
 }
 
-std::vector<std::string> WorldNode::unmet() const { return expectations_.unmet(processes_); }
+std::vector<std::string> WorldNode::unmet() const { return expectations_.unmet(processes_, *nodes_); }
 
 std::string WorldNode::account() const {
   return "nodes: " + counted(goals_, "goal") + ", " + counted(commands_, "command") +

@@ -213,6 +213,8 @@ void check_names_of_nodes(const Scenario& scenario) {
   std::map<std::string, Location> names;
   for (const NodesScenario* const nodes : scenario.all_nodes()) {
     for (const ros1::Node& node : nodes->launch->nodes) {
+      if (node.global_name() == "/waitpoint")
+        throw node.written.bad("a node cannot be called '/waitpoint': the world has this name");
       const auto [first, is_first] = names.emplace(node.global_name(), node.written);
       if (!is_first)
         throw node.written.bad("there are two nodes called '" + first->first + "', the first at " +

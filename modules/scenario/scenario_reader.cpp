@@ -46,7 +46,7 @@ Expectation read_expectation(const YamlNode& node) {
     expect.position_error_max_m = map.number("position_error_max_m", number_from_zero);
   if (const YamlNode* failures = map.find("node_failures"))
     expect.node_failures = read_count(*failures, "node_failures", 0, count_max);
-  if (map.has("service_call_max_s")) expect.service_call_max_s = map.number("service_call_max_s", number_from_zero);
+  if (map.has("service_call_max_s")) expect.service_call_max_s = map.number("service_call_max_s", positive_number);
   if (const YamlNode* topics = map.find("topics"))
     for (const YamlNode& item : read_list(*topics, "topics")) {
       const std::string text = read_lines(item, "the value of a topic");

@@ -4,6 +4,7 @@
 Skipped where ROS is missing: `./dev ros` installs it and builds the nodes of scenarios/office-ros.yaml.
 """
 
+import os
 import pathlib
 import re
 import stat
@@ -11,6 +12,7 @@ import subprocess
 import sys
 import tempfile
 import unittest
+import unittest.mock
 
 LONG = "--long" in sys.argv and not sys.argv.remove("--long")
 BUILD = pathlib.Path(sys.argv.pop(1)).resolve()
@@ -125,8 +127,37 @@ class Nodes(unittest.TestCase):
                          "out = rospy.Publisher('cmd_vel', Twist, queue_size=1)\nspeed = Twist()\nspeed.linear.x = float('nan')\n"
                          "while not rospy.is_shutdown():\n    out.publish(speed)\n    rospy.sleep(0.1)\n")
         done = self.run_hall(f"    nodes: [{{name: nan, command: [{node}]}}]\n", "--until", "5")
-        self.assertEqual(done.stderr.count("cmd_vel: expected finite speeds, found one that is not"), 1, done.stderr)
-        self.assertRegex(done.stdout, r"nodes: 0 goals, 0 commands, \d+ speeds that are no numbers")
+        self.assertEqual(done.stderr.count("cmd_vel: expected finite speeds of at most 10000, found others"), 1, done.stderr)
+        self.assertRegex(done.stdout, r"nodes: 0 goals, 0 commands, \d+ speeds that are no numbers, or too great")
+
+    def test_speeds_with_errors_of_rounding(self):
+        node = self.node("noisy", "import rospy\nfrom geometry_msgs.msg import Twist\nrospy.init_node('noisy')\n"
+                         "out = rospy.Publisher('/cmd_vel', Twist, queue_size=1)\nspeed = Twist()\nspeed.linear.x = 0.3\n"
+                         "speed.angular.z = 1e-17\nrate = rospy.Rate(10)\n"
+                         "while not rospy.is_shutdown(): out.publish(speed); rate.sleep()\n")
+        scenario = f"    nodes: [{{name: noisy, command: [{node}]}}]\n"
+        done = self.run_hall(scenario, "--until", "5")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertRegex(done.stdout, r"distance driven +[1-9]")
+        with unittest.mock.patch.dict(os.environ, ROS_NAMESPACE="elsewhere", ROS_HOSTNAME="nowhere"):
+            again = self.run_hall(scenario, "--until", "5")
+        self.assertEqual(self.digests(again)[0], self.digests(done)[0])
+
+    def test_what_never_comes(self):
+        node = self.node("late", "")
+        done = self.run_hall(f"    nodes: [{{name: late, command: [{node}], after: ['topic:/never']}}]\n", "--until", "2",
+                             "--set", "expect={topics: ['/nix>=0']}")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("not as expected: node /late was not started", done.stderr)
+        self.assertIn("not as expected: topic /nix had no message", done.stderr)
+
+    def test_names_and_ranks_that_cannot_be(self):
+        done = self.run_hall(f"    nodes: [{{name: waitpoint, command: ['true']}}]\n")
+        self.assertEqual((done.returncode, done.stderr.count("\n")), (2, 1), done.stderr)
+        self.assertIn("hall.yaml:16: a node cannot be called '/waitpoint'", done.stderr)
+        done = self.run_hall(f"    nodes: [{{name: some, command: ['true']}}]\n", "--ranks", "2")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("--ranks: cannot be used for a scenario with nodes", done.stderr)
 
     def test_a_flood_of_speeds(self):
         node = self.node("flood", "import rospy\nfrom geometry_msgs.msg import Twist\nrospy.init_node('flood')\n"

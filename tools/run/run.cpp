@@ -177,6 +177,7 @@ int run_once(const RunOptions& options, const scenario::Scenario& scenario, run:
 // May begin this process anew, with a library for the scenario's programs.
 scenario::Scenario scenario_of(const RunOptions& options) {
   scenario::Scenario scenario = scenario::read_scenario(options.scenario, options.assignments);
+  if (is_rank() && scenario.has_nodes()) throw BadInput("--ranks", "cannot be used for a scenario with nodes");
   if (is_rank()) run::check_dividable(scenario);
   begin_with_program_layer(scenario);
   return scenario;
@@ -186,7 +187,6 @@ scenario::Scenario scenario_of(const RunOptions& options) {
 void check_for_nodes(const RunOptions& options) {
   const std::pair<const char*, bool> others[] = {{"--speed", options.speed != 0},
                                                  {"--serve", options.serve.has_value()},
-                                                 {"--ranks", options.ranks > 1},
                                                  {"--interactive", options.interactive},
                                                  {"--tcl", options.tcl},
                                                  {"--check", options.check},

@@ -79,6 +79,7 @@ class WorldAndMaster final : public NodeSide {
     return poses;
   }
   std::vector<std::string> take_breaches() override { return watch_->take_breaches(); }
+  std::vector<std::string> unheard_topics() const override { return watch_->unheard(); }
 
   std::vector<ShownReading> take_shown(std::size_t robot) override { return shown_[robot]->take(begin_); }
 

@@ -45,6 +45,8 @@ void set_parameters(UsedMaster& master, bool has_clock,
 }
 
 void start_own_node(const UsedMaster& master) {
+  // The names and addresses are the run's, whatever the shell's are; the nodes get this environment.
+  for (const char* const variable : {"ROS_NAMESPACE", "ROS_HOSTNAME", "ROS_IPV6"}) unsetenv(variable);
   setenv("ROS_IP", "127.0.0.1", 1);
   ros::M_string remappings{{"__master", master.address()}};
   ros::init(remappings, own_name + 1, ros::init_options::NoSigintHandler | ros::init_options::NoRosout);

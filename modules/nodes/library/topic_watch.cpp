@@ -59,6 +59,13 @@ void TopicWatch::note(Watched& watched, const std::string& found) {
   breaches_.push_back("topic " + watched.bound.topic + " " + found + ", expected " + watched.bound.text);
 }
 
+std::vector<std::string> TopicWatch::unheard() const {
+  std::vector<std::string> topics;
+  for (const std::unique_ptr<Watched>& watched : all_)
+    if (!watched->layout) topics.push_back(watched->bound.topic);
+  return topics;
+}
+
 std::vector<std::string> TopicWatch::take_breaches() { return std::exchange(breaches_, {}); }
 
 }  // namespace waitpoint::nodes

@@ -22,6 +22,8 @@ class TopicWatch {
 
   /// Since the last call, the first message of each bound that is not as expected, in words.
   std::vector<std::string> take_breaches();
+  /// The topics of which no message has come.
+  std::vector<std::string> unheard() const;
 
  private:
   struct Watched {
