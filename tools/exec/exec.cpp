@@ -25,6 +25,7 @@ namespace waitpoint::tools {
 namespace {
 
 std::string replay_line(const ExecOptions& options, std::uint64_t seed) {
+  if (!options.replay.empty()) return options.replay;
   std::string line = "waitpoint exec --seed " + std::to_string(seed);
   if (options.order == kernel::Order::fifo) line += " --strategy fifo";
   return line + options.conditions.words() + " --" + quoted(options.words);

@@ -9,6 +9,7 @@
 
 #include "core/error.hpp"
 #include "tools/command/installed_part.hpp"
+#include "tools/command/shell_words.hpp"
 #include "tools/exec/exec.hpp"
 #include "tools/nodes/log_folder.hpp"
 #include "tools/output/progress.hpp"
@@ -43,6 +44,7 @@ int run_among_nodes(std::span<const std::string> arguments, std::uint64_t seed, 
   options.quiet = report == Report::none;
   options.words = {std::filesystem::read_symlink("/proc/self/exe").string()};
   options.words.insert(options.words.end(), arguments.begin(), arguments.end());
+  options.replay = "waitpoint" + quoted(std::vector<std::string>(arguments.begin(), arguments.end()));
   const LogFolder logs;
   logs.use();
   const double begin_s = wall_clock_s();
