@@ -22,7 +22,7 @@ struct ExecOptions {
   ProgramConditions conditions;
   std::optional<std::filesystem::path> trace;  ///< output file
   bool quiet = false;
-  std::string replay;  ///< the command that repeats the run, if it is not this one
+  std::string replay;              ///< the command that repeats the run, if it is not this one
   std::vector<std::string> words;  ///< the program and its arguments; not empty
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "modules/nodes/library/played_bag.hpp"
 
+#include <console_bridge/console.h>
 #include <rosbag/query.h>
 
 #include <algorithm>
@@ -14,6 +15,8 @@ namespace {
 /// The library's exceptions of many kinds become one of ours.
 template <class Read>
 auto readable(Read read) {
+  // What is wrong is in the exceptions.
+  console_bridge::setLogLevel(console_bridge::CONSOLE_BRIDGE_LOG_NONE);
   try {
     return read();
   } catch (const rosbag::BagUnindexedException&) {
