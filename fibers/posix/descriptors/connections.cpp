@@ -100,10 +100,9 @@ family::Changes changes_at(int descriptor, short events) {
   if (is_inside(descriptor)) return family::of_descriptors;
   const Connection* const connection = connection_of(descriptor);
   if (connection == nullptr) return family::of_descriptors;
-  // Without a direction an end of the stream is awaited, which changes all.
-  return ((events & (POLLIN | POLLPRI | POLLRDHUP)) != 0 ? connection->incoming : 0) |
-         ((events & POLLOUT) != 0 ? connection->outgoing : 0) |
-         ((events & (POLLIN | POLLOUT)) == 0 ? connection->incoming : 0);
+  // Without a direction the end of the stream is awaited, which changes all.
+  const bool writes = (events & POLLOUT) != 0, reads = !writes || (events & (POLLIN | POLLPRI | POLLRDHUP)) != 0;
+  return (reads ? connection->incoming : 0) | (writes ? connection->outgoing : 0);
 }
 
 bool is_within_family(int descriptor) {

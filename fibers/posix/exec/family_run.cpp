@@ -41,12 +41,13 @@ void note_actions(const kernel::Scheduler& scheduler) {
   if (!family::has_others()) family::own->is_to_look = true;
 }
 
-// True if the process is to look outside at the end of this instant: after an action of its own, or a wait's begin;
-// with a partner or a native process in real time, at each instant once, and again after each action of the family;
-// with a possible partner from time to time. What others of the family do rings it.
+// True if the process is to look outside at the end of this instant: after an action of its own, a wait's begin, or the
+// wait for what may be under way at sockets of the family; with a partner or a native process in real time, at each
+// instant once, and again after each action of the family; with a possible partner from time to time. What others of
+// the family do rings it.
 bool is_to_look(const Process& process, Time now) {
   if (!waits_outside(process)) return false;
-  if (process.is_to_look) return true;
+  if (process.is_to_look || process.looked_after < family::family->settled_after) return true;
   if (process.looked_at == now) return is_in_real_time() && process.looked_after != family::family->actions;
   constexpr Duration from_time_to_time = Duration(std::chrono::milliseconds(1));
   return is_in_real_time() || (process.awaits_outsiders && later(process.looked_at, from_time_to_time) <= now);
