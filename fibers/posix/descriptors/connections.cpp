@@ -25,6 +25,11 @@ struct Connection {
 };
 Connection connections[known_descriptors_max];
 
+/// The sockets that listen, as far as they were asked for.
+constexpr std::size_t listening_max = 64;
+int listening[listening_max];
+std::size_t listening_count = 0;
+
 /// An epoll descriptor and one that it watches. The system keeps a watch when the descriptor is closed that has a
 /// duplicate: so does the list.
 struct Watch {
@@ -66,6 +71,7 @@ const Connection* connection_of(int descriptor) {
   if (!is_stream_socket(descriptor)) return nullptr;
   if (listens(descriptor)) {
     known = {true, false, family::of_connecting, family::of_descriptors};
+    if (listening_count < listening_max) listening[listening_count++] = descriptor;
     return &known;
   }
   InternetAddress own{}, peer{};
@@ -103,6 +109,10 @@ family::Changes changes_at(int descriptor, short events) {
   // Without a direction the end of the stream is awaited, which changes all.
   const bool writes = (events & POLLOUT) != 0, reads = !writes || (events & (POLLIN | POLLPRI | POLLRDHUP)) != 0;
   return (reads ? connection->incoming : 0) | (writes ? connection->outgoing : 0);
+}
+
+void await_connections() {
+  for (std::size_t i = 0; i < listening_count; ++i) await_connection(listening[i]);
 }
 
 bool is_within_family(int descriptor) {
@@ -144,6 +154,8 @@ void note_shared_epolls() {
 void forget_connection(int descriptor) {
   if (!is_in_range(descriptor)) return;
   connections[descriptor] = {};
+  for (std::size_t i = 0; i < listening_count; ++i)
+    if (listening[i] == descriptor) listening[i] = listening[--listening_count];
   if (watching[descriptor] == Watching::nothing) return;
   watching[descriptor] = Watching::nothing;
   std::size_t kept = 0;

@@ -17,6 +17,9 @@ family::Changes changes_at(int descriptor, short events);
 /// True for a stream over the loopback whose two ends are the family's.
 bool is_within_family(int descriptor);
 
+/// Waits in real time for connections to the sockets that listen, as far as the family has made them.
+void await_connections();
+
 /// The epoll descriptor watches another for these events, or no longer.
 void note_watch(int epoll, int descriptor, std::uint32_t events);
 void end_watch(int epoll, int descriptor);

@@ -244,6 +244,7 @@ bool look_or_wait(bool may_wait, family::Changes changes) {
 }  // namespace
 
 bool look_outside(bool may_wait, family::Changes changes) {
+  if ((changes & family::of_connecting) != 0) await_connections();
   const bool came = look_or_wait(may_wait, changes);
   if (came && note_what_came != nullptr) note_what_came();
   return came;

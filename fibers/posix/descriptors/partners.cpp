@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fibers/posix/descriptors/partners.hpp"
 
+#include <poll.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -12,6 +13,7 @@
 #include "core/error.hpp"
 #include "fibers/posix/base/error_number.hpp"
 #include "fibers/posix/base/interposed.hpp"
+#include "fibers/posix/base/real_waits.hpp"
 #include "fibers/posix/descriptors/inside_files.hpp"
 #include "fibers/posix/descriptors/internet_address.hpp"
 #include "fibers/posix/family/processes.hpp"
@@ -33,6 +35,7 @@ int certain_count = 0;
 struct Ports {
   std::uint64_t words[65536 / 64];
   std::uint32_t connections[65536];
+  std::int32_t not_accepted[65536];  ///< connections, by the port that listens
   std::uint32_t last_connection;
 };
 
@@ -120,7 +123,8 @@ void note_bound(int descriptor) {
 void note_listening(int descriptor) {
   Ports* const all = ports();
   if (all == nullptr) return;
-  if (const in_port_t port = note_own_port(descriptor, *all); port != 0) all->connections[port] = 0;
+  if (const in_port_t port = note_own_port(descriptor, *all); port != 0)
+    all->connections[port] = 0, all->not_accepted[port] = 0;
 }
 
 void note_connecting(int descriptor) {
@@ -128,6 +132,41 @@ void note_connecting(int descriptor) {
   if (all == nullptr) return;
   if (const in_port_t port = note_own_port(descriptor, *all); port != 0)
     all->connections[port] = ++all->last_connection;
+}
+
+void note_connected(int descriptor) {
+  const ErrorNumberKept kept;
+  InternetAddress peer{};
+  Ports* const all = ports();
+  if (all == nullptr || !read_peer_address(descriptor, peer)) return;
+  const in_port_t port = port_of(peer);
+  const bool is_of_family = (all->words[port / 64] >> (port % 64) & 1) != 0;
+  if (port != 0 && is_of_family && is_of_this_machine(descriptor, peer)) ++all->not_accepted[port];
+}
+
+namespace {
+
+std::int32_t* not_accepted_at(int listening) {
+  InternetAddress own{};
+  Ports* const all = ports();
+  return all != nullptr && read_own_address(listening, own) ? &all->not_accepted[port_of(own)] : nullptr;
+}
+
+}  // namespace
+
+void note_accepted(int listening) {
+  const ErrorNumberKept kept;
+  if (std::int32_t* const count = not_accepted_at(listening); count != nullptr && *count > 0) --*count;
+}
+
+void await_connection(int listening) {
+  constexpr int patience_ms = 200;
+  const ErrorNumberKept kept;
+  std::int32_t* const count = not_accepted_at(listening);
+  if (count == nullptr || *count <= 0) return;
+  const RealWait real;
+  pollfd one{listening, POLLIN, 0};
+  if (WAITPOINT_NEXT(poll)(&one, 1, patience_ms) == 0) *count = 0;
 }
 
 std::uint32_t connection_from(in_port_t port) {

@@ -27,6 +27,12 @@ void note_bound(int descriptor);
 /// An internet socket of the family listens, or is about to be connected. Both before the other end can wait for it.
 void note_listening(int descriptor);
 void note_connecting(int descriptor);
+/// The connection was made: it waits to be accepted, if the other end is the family's. Or one was accepted.
+void note_connected(int descriptor);
+void note_accepted(int listening);
+/// Waits in real time until the system shows a connection that waits to be accepted there, if one does: on a loaded
+/// machine the last step of a connection can be late.
+void await_connection(int listening);
 /// The number of the connection between two ports, in the order in which the family made them, by the one that it was
 /// made from; 0 if it did not make it from there.
 std::uint32_t connection_from(in_port_t port);

@@ -3,6 +3,7 @@
 
 #include <fcntl.h>
 #include <netinet/in.h>
+#include <poll.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
@@ -16,6 +17,7 @@
 #include "fibers/posix/base/argument_memory.hpp"
 #include "fibers/posix/base/error_number.hpp"
 #include "fibers/posix/base/interposed.hpp"
+#include "fibers/posix/base/real_waits.hpp"
 #include "fibers/posix/descriptors/connections.hpp"
 #include "fibers/posix/descriptors/owners.hpp"
 #include "fibers/posix/descriptors/partners.hpp"
@@ -221,6 +223,20 @@ bool has_bytes(const msghdr& message) {
   return false;
 }
 
+// Over the loopback a connection is made, or refused, at once, but on a loaded machine the system's part of it can be
+// late: it is waited for in real time.
+int made_over_loopback(int descriptor, int result) {
+  if (result == 0) return note_connected(descriptor), 0;
+  if (errno != EINPROGRESS || !sends_at_once(descriptor)) return result;
+  const ErrorNumberKept kept;
+  const RealWait real;
+  constexpr int patience_ms = 200;
+  pollfd one{descriptor, POLLOUT, 0};
+  WAITPOINT_NEXT(poll)(&one, 1, patience_ms);
+  note_connected(descriptor);
+  return result;
+}
+
 // The system's call without waiting, even on a blocking socket.
 int connect_at_once(int descriptor, const sockaddr* address, socklen_t length) {
   const int flags = WAITPOINT_NEXT(fcntl)(descriptor, F_GETFL);
@@ -237,7 +253,7 @@ int connect_and_wait(int descriptor, const sockaddr* address, socklen_t length) 
     const int result = done([&] {
       const int made = connect_at_once(descriptor, address, length);
       note_connecting(descriptor);
-      return made;
+      return made_over_loopback(descriptor, made);
     });
     if (result == 0 || (errno != EINPROGRESS && errno != EAGAIN)) return result;
     if (errno == EINPROGRESS) break;
@@ -340,7 +356,7 @@ WAITPOINT_INTERPOSED int accept4(int descriptor, sockaddr* __restrict address, s
   const bool is_valid = (flags & ~(SOCK_NONBLOCK | SOCK_CLOEXEC)) == 0 && option_of(descriptor, SO_ACCEPTCONN) == 1;
   const int made =
       receive(descriptor, is_valid, [&] { return WAITPOINT_NEXT(accept4)(descriptor, address, length, flags); });
-  if (made >= 0) note_inside(made, is_inside(descriptor)), copy_asked(descriptor, made);
+  if (made >= 0) note_inside(made, is_inside(descriptor)), copy_asked(descriptor, made), note_accepted(descriptor);
   note_owner(made);
   return made;
 }
@@ -371,6 +387,6 @@ WAITPOINT_INTERPOSED int connect(int descriptor, const sockaddr* address, sockle
   return done([&] {
     const int result = WAITPOINT_NEXT(connect)(descriptor, address, length);
     note_connecting(descriptor);
-    return result;
+    return made_over_loopback(descriptor, result);
   });
 }
