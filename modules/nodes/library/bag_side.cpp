@@ -13,8 +13,7 @@
 #include <thread>
 
 #include "modules/nodes/library/heard_topics.hpp"
-#include "modules/nodes/library/made_master.hpp"
-#include "modules/nodes/library/own_node.hpp"
+#include "modules/nodes/library/node_with_master.hpp"
 #include "modules/nodes/library/played_bag.hpp"
 #include "modules/nodes/library/sides.hpp"
 
@@ -42,13 +41,10 @@ std::unique_ptr<PlayedBag> opened(const BagChoice& choice) {
   return bag;
 }
 
-class BagAndMaster final : public BagSide {
+class BagAndMaster final : public NodeWithMaster<BagSide> {
  public:
-  explicit BagAndMaster(const BagSideSetup& setup)
-      : hears_(setup.hears), bag_(opened(setup.choice)), master_(make_master(setup.has_debian_master)) {
-    set_parameters(*master_, setup.has_clock, setup.parameters);
-    start_own_node(*master_);
-    node_.emplace();
+  explicit BagAndMaster(const BagSideSetup& setup) : hears_(setup.hears), bag_(opened(setup.choice)) {
+    open_node(setup.has_debian_master, setup.has_clock, setup.parameters);
     if (setup.has_clock) clock_ = node_->advertise<rosgraph_msgs::Clock>("/clock", any_number);
     // A bag may have its own clock, which is that of the run.
     for (const rosbag::ConnectionInfo* connection : bag_->connections())
@@ -59,16 +55,10 @@ class BagAndMaster final : public BagSide {
     heard_.reset();
     publishers_.clear();
     clock_ = {};
-    node_.reset();
-    ros::shutdown();
+    close_node();
   }
   BagAndMaster(const BagAndMaster&) = delete;
   BagAndMaster& operator=(const BagAndMaster&) = delete;
-
-  std::string master_address() const override { return master_->address(); }
-  bool is_published(const std::string& topic) const override { return master_->is_published(topic); }
-  bool is_served(const std::string& service) const override { return master_->is_served(service); }
-  bool is_registered(const std::string& node) const override { return master_->is_node(node); }
 
   std::optional<std::int64_t> next_ns() override {
     const rosbag::MessageInstance* const message = bag_->next();
@@ -138,8 +128,6 @@ class BagAndMaster final : public BagSide {
 
   bool hears_;
   std::unique_ptr<PlayedBag> bag_;
-  std::unique_ptr<UsedMaster> master_;
-  std::optional<ros::NodeHandle> node_;
   ros::Publisher clock_;
   ros::Time first_;  // the time of the bag where what is played begins
   std::map<Key, ros::Publisher> publishers_;

@@ -7,9 +7,8 @@
 #include <rosgraph_msgs/Clock.h>
 #include <tf2_msgs/TFMessage.h>
 
-#include "modules/nodes/library/made_master.hpp"
 #include "modules/nodes/library/messages.hpp"
-#include "modules/nodes/library/own_node.hpp"
+#include "modules/nodes/library/node_with_master.hpp"
 #include "modules/nodes/library/robot_node.hpp"
 #include "modules/nodes/library/shown_subscriptions.hpp"
 #include "modules/nodes/library/sides.hpp"
@@ -21,13 +20,10 @@ namespace {
 constexpr std::uint32_t queue = 100;
 constexpr bool latched = true;
 
-class WorldAndMaster final : public NodeSide {
+class WorldAndMaster final : public NodeWithMaster<NodeSide> {
  public:
-  explicit WorldAndMaster(const NodeSideSetup& setup)
-      : has_clock_(setup.has_clock), master_(make_master(setup.has_debian_master)) {
-    set_parameters(*master_, setup.has_clock, setup.parameters);
-    start_own_node(*master_);
-    node_.emplace();
+  explicit WorldAndMaster(const NodeSideSetup& setup) : has_clock_(setup.has_clock) {
+    open_node(setup.has_debian_master, setup.has_clock, setup.parameters);
     const ros::WallTime now = ros::WallTime::now();
     begin_ = has_clock_ ? ros::Time(1, 0) : ros::Time(now.sec, now.nsec);
     advertise(setup);
@@ -38,16 +34,10 @@ class WorldAndMaster final : public NodeSide {
     robots_.clear();
     shown_.clear();
     map_server_ = {};
-    node_.reset();
-    ros::shutdown();
+    close_node();
   }
   WorldAndMaster(const WorldAndMaster&) = delete;
   WorldAndMaster& operator=(const WorldAndMaster&) = delete;
-
-  std::string master_address() const override { return master_->address(); }
-  bool is_published(const std::string& topic) const override { return master_->is_published(topic); }
-  bool is_served(const std::string& service) const override { return master_->is_served(service); }
-  bool is_registered(const std::string& node) const override { return master_->is_node(node); }
 
   void publish(std::int64_t now_ns, const std::vector<RobotReadings>& robots) override {
     stamp_ = begin_ + ros::Duration().fromNSec(now_ns);
@@ -109,8 +99,6 @@ class WorldAndMaster final : public NodeSide {
   }
 
   bool has_clock_;
-  std::unique_ptr<UsedMaster> master_;
-  std::optional<ros::NodeHandle> node_;
   ros::Time begin_, stamp_;  // of the run's beginning; of the last step
   ros::Publisher clock_, tf_, fixed_, map_;
   ros::ServiceServer map_server_;
