@@ -17,9 +17,8 @@ import tempfile
 import unittest
 import unittest.mock
 
-BUILD = pathlib.Path(sys.argv.pop(1)).resolve()
-ROOT = pathlib.Path(__file__).resolve().parents[2]
-WAITPOINT = BUILD / "tools/waitpoint"
+from nodes_case import BUILD, NodesCase, ROOT, WAITPOINT
+
 MAPPER = BUILD / "scenarios/nodes/mapper"
 OFFICE_MAP = ROOT / "scenarios/office-map.yaml"
 
@@ -81,11 +80,12 @@ def hash_of(file):
     return hashlib.sha256(file.read_bytes()).hexdigest()
 
 
-class Bags(unittest.TestCase):
+class Bags(NodesCase):
+    needed = (MAPPER,)
+
     @classmethod
     def setUpClass(cls):
-        if not (BUILD / "libwaitpoint-nodes.so").exists() or not MAPPER.exists():
-            raise unittest.SkipTest("no nodes of ROS were built: ./dev ros does")
+        super().setUpClass()
         cls.common = tempfile.TemporaryDirectory()
         cls.addClassCleanup(cls.common.cleanup)
         cls.office = pathlib.Path(cls.common.name) / "office.bag"
@@ -93,11 +93,6 @@ class Bags(unittest.TestCase):
         cls.ticks = pathlib.Path(cls.common.name) / "ticks.bag"
         made = output_of("/usr/bin/python3", "-c", MAKE_BAG, cls.ticks, "bz2")
         assert made.returncode == 0, made.stderr
-
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
 
     def run_text(self, text, *options):
         file = self.folder / "scenario.yaml"

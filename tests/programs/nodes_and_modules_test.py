@@ -4,30 +4,16 @@
 Skipped where ROS is missing: `./dev ros` installs it.
 """
 
-import pathlib
 import re
 import subprocess
-import sys
-import tempfile
 import unittest
 
-BUILD = pathlib.Path(sys.argv.pop(1)).resolve()
-ROOT = pathlib.Path(__file__).resolve().parents[2]
-WAITPOINT = BUILD / "tools/waitpoint"
+from nodes_case import BUILD, NodesCase, ROOT, WAITPOINT
+
 SCENARIO = ROOT / "scenarios/office-ros-modules.yaml"
 
 
-class NodesAndModules(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        if not (BUILD / "libwaitpoint-nodes.so").exists():
-            raise unittest.SkipTest("no nodes of ROS were built: ./dev ros does")
-
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
-
+class NodesAndModules(NodesCase):
     def run_it(self, *options):
         return subprocess.run([WAITPOINT, "run", SCENARIO, *options], stdin=subprocess.DEVNULL, capture_output=True, text=True,
                               timeout=120)

@@ -4,18 +4,12 @@
 Skipped where ROS is missing: `./dev ros` installs it.
 """
 
-import pathlib
 import re
 import socket
-import stat
 import subprocess
-import sys
-import tempfile
 import unittest
 
-BUILD = pathlib.Path(sys.argv.pop(1)).resolve()
-ROOT = pathlib.Path(__file__).resolve().parents[2]
-WAITPOINT = BUILD / "tools/waitpoint"
+from nodes_case import BUILD, NodesCase, ROOT, WAITPOINT
 
 TWO = """
 format: 1
@@ -71,21 +65,12 @@ def free_port():
         return one.getsockname()[1]
 
 
-class NodesOfRobots(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        if not (BUILD / "libwaitpoint-nodes.so").exists():
-            raise unittest.SkipTest("no nodes of ROS were built: ./dev ros does")
-
+class NodesOfRobots(NodesCase):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
+        super().setUp()
         port = free_port()
         for name, text in NODES.items():
-            file = self.folder / name
-            file.write_text("#!/usr/bin/python3\n" + text.replace("{port}", str(port)))
-            file.chmod(file.stat().st_mode | stat.S_IXUSR)
+            self.node(name, text.replace("{port}", str(port)))
 
     def run_two(self, medium, ada, bea, *options):
         """The run; and what was heard: (who, number, delay in ms)."""

@@ -5,19 +5,15 @@ Skipped where ROS is missing: `./dev ros` installs it and builds the nodes of sc
 """
 
 import os
-import pathlib
 import re
-import stat
 import subprocess
 import sys
-import tempfile
 import unittest
 import unittest.mock
 
+from nodes_case import BUILD, NodesCase, ROOT, WAITPOINT
+
 LONG = "--long" in sys.argv and not sys.argv.remove("--long")
-BUILD = pathlib.Path(sys.argv.pop(1)).resolve()
-ROOT = pathlib.Path(__file__).resolve().parents[2]
-WAITPOINT = BUILD / "tools/waitpoint"
 DRIVER = BUILD / "scenarios/nodes/driver"
 
 HALL = f"""
@@ -38,16 +34,8 @@ robots:
 """
 
 
-class Nodes(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        if not (BUILD / "libwaitpoint-nodes.so").exists() or not DRIVER.exists():
-            raise unittest.SkipTest("no nodes of ROS were built: ./dev ros does")
-
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
+class Nodes(NodesCase):
+    needed = (DRIVER,)
 
     def run_scenario(self, scenario, *options):
         return subprocess.run([WAITPOINT, "run", scenario, *options], stdin=subprocess.DEVNULL, capture_output=True, text=True,
@@ -57,13 +45,6 @@ class Nodes(unittest.TestCase):
         file = self.folder / "hall.yaml"
         file.write_text(HALL + robot)
         return self.run_scenario(file, *options)
-
-    def node(self, name, text):
-        """A node in Python, which need not be one of ROS."""
-        file = self.folder / name
-        file.write_text("#!/usr/bin/python3\n" + text)
-        file.chmod(file.stat().st_mode | stat.S_IXUSR)
-        return file
 
     def digests(self, done):
         return re.findall("wp1:[0-9a-f]{16}", done.stdout + done.stderr)
