@@ -29,6 +29,15 @@ with tempfile.TemporaryDirectory() as folder:
     print(name, os.stat(name).st_ino, os.fstat(descriptor).st_mtime_ns, os.stat(folder).st_ctime_ns)
 """
 
+READY_IN_REVERSE = """
+import os, select
+waiting = select.epoll()
+pipes = [os.pipe() for _ in range(4)]
+for reading, _ in pipes: waiting.register(reading, select.EPOLLIN)
+for _, writing in reversed(pipes): os.write(writing, b"x")
+print([[reading for reading, _ in pipes].index(ready) for ready, _ in waiting.poll()])
+"""
+
 
 def run(*words, options=(), seed=1, **more):
     command = [str(word) for word in (WAITPOINT, "exec", "--quiet", "--seed", seed, *options, "--", *words)]
@@ -85,6 +94,9 @@ class Sources(ExecCase):
             self.assertEqual(found.stdout.split(), sorted(names), found.stderr)
             self.assertEqual(run("ls", "-U", cwd=folder).stdout.split(), sorted(names))
             self.assertEqual(run("find", ".", "-type", "f", cwd=folder).stdout.split(), [f"./{name}" for name in sorted(names)])
+
+    def test_the_order_in_which_epoll_finds_descriptors_ready(self):
+        self.assertEqual(self.repeats(PYTHON, "-c", READY_IN_REVERSE), "[0, 1, 2, 3]\n")
 
     def test_dates_of_files_that_it_does_not_change_are_the_files(self):
         with tempfile.TemporaryDirectory() as folder:

@@ -5,6 +5,7 @@
 #include <sys/epoll.h>
 #include <sys/socket.h>
 
+#include <algorithm>
 #include <cstdlib>
 
 #include "core/digest.hpp"
@@ -35,7 +36,7 @@ std::size_t listening_count = 0;
 struct Watch {
   int epoll;
   int descriptor;
-  std::uint32_t events;
+  epoll_event what;
 };
 Watch* watches = nullptr;
 std::size_t watch_count = 0, watch_room = 0;
@@ -90,8 +91,8 @@ family::Changes awaited_by_epoll(int epoll) {
   for (std::size_t i = 0; i < watch_count; ++i) {
     const Watch& watch = watches[i];
     if (watch.epoll != epoll) continue;
-    const short events = static_cast<short>(((watch.events & EPOLLIN) != 0 ? POLLIN : 0) |
-                                            ((watch.events & EPOLLOUT) != 0 ? POLLOUT : 0));
+    const short events = static_cast<short>(((watch.what.events & EPOLLIN) != 0 ? POLLIN : 0) |
+                                            ((watch.what.events & EPOLLOUT) != 0 ? POLLOUT : 0));
     all |= changes_at(watch.descriptor, events);
   }
   return all;
@@ -121,11 +122,11 @@ bool is_within_family(int descriptor) {
   return connection != nullptr && connection->is_within_family;
 }
 
-void note_watch(int epoll, int descriptor, std::uint32_t events) {
+void note_watch(int epoll, int descriptor, const epoll_event& what) {
   if (!is_in_range(epoll)) return;
   if (watching[epoll] == Watching::nothing) watching[epoll] = Watching::listed;
   for (std::size_t i = 0; i < watch_count; ++i)
-    if (watches[i].epoll == epoll && watches[i].descriptor == descriptor) return void(watches[i].events = events);
+    if (watches[i].epoll == epoll && watches[i].descriptor == descriptor) return void(watches[i].what = what);
   if (watch_count == watch_room) {
     const std::size_t room = 2 * watch_room + 32;
     auto* const more = static_cast<Watch*>(std::realloc(watches, room * sizeof(Watch)));
@@ -133,13 +134,27 @@ void note_watch(int epoll, int descriptor, std::uint32_t events) {
     watches = more;
     watch_room = room;
   }
-  watches[watch_count++] = {epoll, descriptor, events};
+  watches[watch_count++] = {epoll, descriptor, what};
 }
 
 void end_watch(int epoll, int descriptor) {
   for (std::size_t i = 0; i < watch_count; ++i)
     if (watches[i].epoll == epoll && watches[i].descriptor == descriptor)
       return void(watches[i] = watches[--watch_count]);
+}
+
+void put_in_order(int epoll, epoll_event* events, int count) {
+  if (count < 2 || !is_in_range(epoll) || watching[epoll] != Watching::listed) return;
+  int in_order = 0;
+  for (std::size_t i = 0; i < watch_count && in_order < count; ++i) {
+    if (watches[i].epoll != epoll) continue;
+    for (int k = in_order; k < count; ++k) {
+      if (events[k].data.u64 != watches[i].what.data.u64) continue;
+      std::rotate(events + in_order, events + k, events + k + 1);
+      ++in_order;
+      break;
+    }
+  }
 }
 
 void note_shared_epoll(int from, int made) {

@@ -7,6 +7,8 @@
 // bit only cost checks in vain. What is not known awaits, and changes, all.
 #pragma once
 
+#include <sys/epoll.h>
+
 #include "fibers/posix/family/family.hpp"
 
 namespace waitpoint::posix {
@@ -21,8 +23,11 @@ bool is_within_family(int descriptor);
 void await_connections();
 
 /// The epoll descriptor watches another for these events, or no longer.
-void note_watch(int epoll, int descriptor, std::uint32_t events);
+void note_watch(int epoll, int descriptor, const epoll_event& what);
 void end_watch(int epoll, int descriptor);
+/// Puts events that the epoll descriptor returned in the order of the watches. The system returns them in the order in
+/// which it noted them, which on a loaded machine depends on real time.
+void put_in_order(int epoll, epoll_event* events, int count);
 /// Others may change by another descriptor what it watches: a duplicate of it, or a process after a fork.
 void note_shared_epoll(int from, int made);
 void note_shared_epolls();

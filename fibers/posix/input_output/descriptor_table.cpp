@@ -138,7 +138,7 @@ WAITPOINT_INTERPOSED int epoll_ctl(int descriptor, int operation, int watched, e
   if (operation == EPOLL_CTL_DEL) {
     end_watch(descriptor, watched);
   } else {
-    note_watch(descriptor, watched, event->events);
+    note_watch(descriptor, watched, *event);
     if (!is_inside(watched)) {
       note_inside(descriptor, false);
       note_watched(descriptor, watched);

@@ -14,6 +14,7 @@
 #include "fibers/posix/base/argument_memory.hpp"
 #include "fibers/posix/base/error_number.hpp"
 #include "fibers/posix/base/interposed.hpp"
+#include "fibers/posix/descriptors/connections.hpp"
 #include "fibers/posix/descriptors/descriptors.hpp"
 #include "fibers/posix/program/waiting.hpp"
 #include "fibers/posix/signals/cancellation.hpp"
@@ -117,6 +118,7 @@ int epoll_before(int descriptor, epoll_event* events, int most, Time deadline, c
     if (is_first) pass(kernel::Operation::poll, nullptr);
     // Another thread may have taken the events. A descriptor that is no epoll's fails at once.
     const int ready = WAITPOINT_NEXT(epoll_pwait)(descriptor, events, most, 0, nullptr);
+    put_in_order(descriptor, events, ready);
     if (ready != 0 || (!is_first && deadline <= kernel::running->local_time)) return ready;
   }
 }
