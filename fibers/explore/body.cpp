@@ -76,7 +76,9 @@ Outcome Body::run(Strategy& strategy, const Played& played) {
   simulation_.unwind();
   outcome.abandoned = simulation_.abandoned();
   if (checks_ != nullptr)
-    if (const std::string failures = checks_->end(); outcome.failure.empty()) outcome.failure = failures;
+    // An assertion that throws leaves its text here, and an exception that only its framework knows.
+    if (std::string failures = checks_->end(); !failures.empty())
+      outcome.failure = outcome.failure.empty() ? failures : failures + "\n" + outcome.failure;
   outcome.only_raced = fails_on_races_ && outcome.failure.empty() && races::any_found();
   if (outcome.only_raced) outcome.failure = describe_races(places_);
   return outcome;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Runs a test body under many schedules in one process, until one fails.
 //
-//   #include <gtest/gtest.h>            // before this one: its expectations are caught, and reported once
+//   #include <gtest/gtest.h>            // or Catch2 2.x, or doctest; before this one: then its expectations are caught
 //   #include <waitpoint/fibers/explore/explore.hpp>
 //
 //   TEST(Mailbox, NeverLosesALetter) {
@@ -11,8 +11,8 @@
 //
 // The body is run repeatedly from its beginning within the same process: captured and static variables must have the
 // same values at each start. A schedule fails by a deadlock, by a lack of progress, by check(), by an exception that
-// escapes from a task, or by a GoogleTest expectation. A crash, an abort, a real blocking call or an endless loop ends
-// the process, after printing the replay line.
+// escapes from a task, or by an expectation of the test framework. A crash, an abort, a real blocking call or an
+// endless loop ends the process, after printing the replay line.
 //
 // By default computing takes no virtual time: then all schedules that the order of primitives allows are possible. With
 // compute(least, greatest) between primitives, only those within the declared times.
@@ -24,8 +24,12 @@
 #include "fibers/explore/check.hpp"
 #include "fibers/explore/explore_options.hpp"
 #include "fibers/explore/explore_report.hpp"
-#ifdef GTEST_TEST
+#if defined(GTEST_TEST)
 #include "fibers/explore/googletest.hpp"
+#elif defined(CATCH_VERSION_MAJOR) && CATCH_VERSION_MAJOR == 2
+#include "fibers/explore/catch2.hpp"
+#elif defined(DOCTEST_LIBRARY_INCLUDED)
+#include "fibers/explore/doctest.hpp"
 #endif
 
 namespace waitpoint {
@@ -37,10 +41,16 @@ namespace waitpoint {
 ExploreReport explore_with(exploration::ExternalChecks* checks, std::function<void()> body,
                            const ExploreOptions& options);
 
-/// As above, with GoogleTest's expectations if its header was included before.
+/// As above, with the expectations of the test framework whose header was included before.
 static inline ExploreReport explore(std::function<void()> body, const ExploreOptions& options = {}) {
-#ifdef GTEST_TEST
+#if defined(GTEST_TEST)
   exploration::GoogleTestChecks checks;
+  return explore_with(&checks, std::move(body), options);
+#elif defined(CATCH_VERSION_MAJOR) && CATCH_VERSION_MAJOR == 2
+  exploration::CatchChecks checks;
+  return explore_with(&checks, std::move(body), options);
+#elif defined(DOCTEST_LIBRARY_INCLUDED)
+  exploration::DoctestChecks checks;
   return explore_with(&checks, std::move(body), options);
 #else
   return explore_with(nullptr, std::move(body), options);

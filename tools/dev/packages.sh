@@ -8,7 +8,7 @@ declare -A debian=(
          nlohmann-json3-dev libpng-dev libtinyxml2-dev zlib1g-dev libbz2-dev liblz4-dev libzstd-dev libassimp-dev libbullet-dev libzydis-dev librosbag-storage-dev
          libsensor-msgs-dev libnav-msgs-dev libtf2-msgs-dev libros-rosgraph-msgs-dev libvisualization-msgs-dev'
   [test]='libgtest-dev liboctomap-dev clang gdb libz3-dev python3-rosbag zstd xz-utils pigz pbzip2 perl libtbb-dev
-         libuv1-dev cmake libopenmpi-dev openmpi-bin tcl8.6-dev'
+         libuv1-dev cmake catch2 doctest-dev libopenmpi-dev openmpi-bin tcl8.6-dev'
   [ros]='python3-rosmaster libroscpp-dev libstd-msgs-dev libnav-msgs-dev libsensor-msgs-dev libtf2-ros-dev
         libnodeletlib-dev libnodeletlib-tools ros-robot-state-publisher python3-rospy python3-nav-msgs python3-sensor-msgs python3-tf2-ros librosbag-dev python3-rosbag'
   [ros2]='cyclonedds-dev cyclonedds-tools libfastrtps-dev libfastcdr-dev'

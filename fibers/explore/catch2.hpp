@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Catches failing assertions of Catch2 (2.x) within an explored body: they make its schedule fail, and are shown once,
+// with the report. Included by explore.hpp if Catch2 was included before.
+#pragma once
+
+#include <sstream>
+#include <string>
+#include <utility>
+
+#include "fibers/explore/body.hpp"
+
+// Nothing without the framework's header, which this one cannot include: how is the user's choice.
+#if defined(CATCH_VERSION_MAJOR) && CATCH_VERSION_MAJOR == 2
+
+namespace waitpoint::exploration {
+
+/// Stands in for the framework's own capture of results; passes on all that is no assertion.
+class CatchCapture final : public Catch::IResultCapture {
+ public:
+  explicit CatchCapture(Catch::IResultCapture& test) : test_(test) {}
+
+  /// The failures since the last call.
+  std::string take_failures() { return std::exchange(failures_, {}); }
+
+  void handleExpr(const Catch::AssertionInfo& info, const Catch::ITransientExpression& expression,
+                  Catch::AssertionReaction& reaction) override {
+    const bool is_false_test = Catch::isFalseTest(info.resultDisposition);
+    if (expression.getResult() != is_false_test) return assertionPassed();
+    std::ostringstream text;
+    if (is_false_test) text << "!(";
+    expression.streamReconstructedExpression(text);
+    if (is_false_test) text << ")";
+    fail(info, text.str(), reaction);
+  }
+  void handleMessage(const Catch::AssertionInfo& info, Catch::ResultWas::OfType type, const Catch::StringRef& message,
+                     Catch::AssertionReaction& reaction) override {
+    if (Catch::isOk(type) || type == Catch::ResultWas::Info || type == Catch::ResultWas::Warning)
+      return assertionPassed();
+    fail(info, std::string(message), reaction);
+  }
+  void handleUnexpectedExceptionNotThrown(const Catch::AssertionInfo& info,
+                                          Catch::AssertionReaction& reaction) override {
+    fail(info, "no exception was thrown", reaction);
+  }
+  void handleUnexpectedInflightException(const Catch::AssertionInfo& info, const std::string& message,
+                                         Catch::AssertionReaction& reaction) override {
+    fail(info, "exception: " + message, reaction);
+  }
+  void handleNonExpr(const Catch::AssertionInfo& info, Catch::ResultWas::OfType type,
+                     Catch::AssertionReaction& reaction) override {
+    if (Catch::isOk(type)) return assertionPassed();
+    fail(info, std::string(info.capturedExpression), reaction);
+  }
+  void handleIncomplete(const Catch::AssertionInfo&) override {}
+  bool lastAssertionPassed() override { return last_passed_; }
+  void assertionPassed() override { last_passed_ = true; }
+
+  bool sectionStarted(const Catch::SectionInfo& info, Catch::Counts& counts) override {
+    return test_.sectionStarted(info, counts);
+  }
+  void sectionEnded(const Catch::SectionEndInfo& info) override { test_.sectionEnded(info); }
+  void sectionEndedEarly(const Catch::SectionEndInfo& info) override { test_.sectionEndedEarly(info); }
+  Catch::IGeneratorTracker& acquireGeneratorTracker(Catch::StringRef name, const Catch::SourceLineInfo& line) override {
+    return test_.acquireGeneratorTracker(name, line);
+  }
+#ifdef CATCH_CONFIG_ENABLE_BENCHMARKING
+  void benchmarkPreparing(const std::string& name) override { test_.benchmarkPreparing(name); }
+  void benchmarkStarting(const Catch::BenchmarkInfo& info) override { test_.benchmarkStarting(info); }
+  void benchmarkEnded(const Catch::BenchmarkStats<>& stats) override { test_.benchmarkEnded(stats); }
+  void benchmarkFailed(const std::string& error) override { test_.benchmarkFailed(error); }
+#endif
+  void pushScopedMessage(const Catch::MessageInfo& message) override { test_.pushScopedMessage(message); }
+  void popScopedMessage(const Catch::MessageInfo& message) override { test_.popScopedMessage(message); }
+  void emplaceUnscopedMessage(const Catch::MessageBuilder& builder) override { test_.emplaceUnscopedMessage(builder); }
+  void handleFatalErrorCondition(Catch::StringRef message) override { test_.handleFatalErrorCondition(message); }
+  std::string getCurrentTestName() const override { return test_.getCurrentTestName(); }
+  const Catch::AssertionResult* getLastResult() const override { return test_.getLastResult(); }
+  void exceptionEarlyReported() override { test_.exceptionEarlyReported(); }
+
+ private:
+  void fail(const Catch::AssertionInfo& info, const std::string& found, Catch::AssertionReaction& reaction) {
+    last_passed_ = Catch::shouldSuppressFailure(info.resultDisposition);
+    if (last_passed_) return;
+    std::ostringstream text;
+    text << (failures_.empty() ? "" : "\n") << "expectation at " << info.lineInfo.file << ":" << info.lineInfo.line
+         << ": " << info.macroName << "( " << info.capturedExpression << " ): " << found;
+    failures_ += text.str();
+    reaction.shouldThrow = !Catch::shouldContinueOnFailure(info.resultDisposition);
+  }
+
+  Catch::IResultCapture& test_;
+  std::string failures_;
+  bool last_passed_ = true;
+};
+
+class CatchChecks final : public ExternalChecks {
+ public:
+  void begin() override { Catch::getCurrentMutableContext().setResultCapture(&capture_); }
+  std::string end() override {
+    Catch::getCurrentMutableContext().setResultCapture(&test_);
+    return capture_.take_failures();
+  }
+  std::string name() const override { return test_.getCurrentTestName(); }
+  // Catch2 takes tests by name, and some characters for wildcards.
+  std::string option_for(const std::string& name) const override {
+    std::string pattern;
+    for (const char letter : name)
+      pattern += letter == ',' || letter == '[' || letter == '\\' ? std::string("\\") + letter : std::string(1, letter);
+    return pattern;
+  }
+
+ private:
+  Catch::IResultCapture& test_ = Catch::getResultCapture();
+  CatchCapture capture_{test_};
+};
+
+}  // namespace waitpoint::exploration
+
+#endif
