@@ -1,105 +1,130 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The commands in the documents give the outputs in the documents: pages_test.py BUILD.
+"""The documents say what happens: pages_test.py BUILD [--long] [--table] [TEST...].
 
-A block ```console is a session: a line `$ COMMAND` (continued after a backslash) is executed by bash, and the lines below it
-are the expected output, both streams together. In them `...` matches any text, and a line `...` any lines. `$ cat FILE` of a
-missing file creates it with the lines below. Progress lines of a run are ignored. The blocks of a page share a folder with the
-`scenarios` of the tree and the sources of tests/programs; `waitpoint` is the built program, and pkg-config finds its
-installation.
+Each block of a command in README.md, CONTRIBUTING.md and docs/ is run, or a comment before it says why not: blocks.py. The
+blocks of a page share a folder with `scenarios`, the sources of tests/programs and nothing else; $ROOT is the tree,
+`waitpoint` the built program, and pkg-config finds its installation. Pictures that commands of a page write must be those in
+docs/, byte for byte. --long runs the blocks that take long, too; --table lists all blocks.
 """
 
 import os
 import pathlib
 import re
 import shutil
-import subprocess
 import sys
-import unittest
 
 sys.dont_write_bytecode = True
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "tests/programs"))
+sys.path[:0] = [str(ROOT / "tests/programs"), str(ROOT / "tests/docs")]
+import blocks  # noqa: E402
+import sessions  # noqa: E402
 from installed import BUILD, Installed, main  # noqa: E402
 
-PROGRESS = re.compile(r"^ *\d+ s of \d+ s .*\n", re.MULTILINE)
-BLOCK = re.compile(r"^```console\n(.*?)^```$", re.MULTILINE | re.DOTALL)
+LONG = "--long" in sys.argv
+# Pages that need what not every build has: files of the build folder, programs of the system.
+NEEDS = {
+    "docs/laas.md": ["libwaitpoint-tcl.so"],
+    "docs/laas-tcl.md": ["libwaitpoint-tcl.so"],
+    "docs/ros.md": ["libwaitpoint-nodes.so", "scenarios/nodes/driver"],
+    "docs/ros-bags.md": ["libwaitpoint-nodes.so", "scenarios/nodes/driver"],
+    "docs/ros-robots.md": ["libwaitpoint-nodes.so", "scenarios/nodes/driver"],
+    "docs/ros2.md": ["examples/dds/cyclone_talker"],
+}
+PICTURES = (".svg", ".html", ".png")
 
 
-def commands(block):
-    """The session's (command, expected lines)."""
-    found, continued = [], False
-    for line in block.splitlines():
-        if continued:
-            found[-1][0] += "\n" + line
-        elif line.startswith("$ "):
-            found.append([line[2:], []])
-        else:
-            found[-1][1].append(line)
-        continued = (continued or line.startswith("$ ")) and line.endswith("\\")
-    return found
+def pictures():
+    return sorted(path for path in (ROOT / "docs").rglob("*") if path.suffix in PICTURES)
 
 
-def pattern(lines):
-    """The expected lines as a regular expression of the whole output."""
-    text = ""
-    for line in lines:
-        text += r"(?:.*\n)*?" if line == "..." else ".*".join(map(re.escape, line.split("..."))) + r" *\n"
-    return re.compile(text)
+def named(picture, step):
+    """True if the step's commands name the picture's file."""
+    return step.verdict() in ("run", "long") and re.search(rf"(?<![\w.-]){re.escape(picture.name)}(?![\w.-])", step.words())
 
 
 class Pages(Installed):
     def environment(self, page):
         """A folder and the environment for the page's commands."""
-        folder = self.folder / page
+        folder = self.folder / page.replace("/", "-")
         tools = folder / ".bin"
         tools.mkdir(parents=True)
         (folder / "scenarios").symlink_to(ROOT / "scenarios")
         for source in (ROOT / "tests/programs").glob("*/*"):
-            if source.suffix in (".cpp", ".yaml"):
+            if source.suffix in (".c", ".cpp", ".hpp", ".yaml"):
                 shutil.copy(source, folder)
         (tools / "waitpoint").symlink_to(BUILD / "tools/waitpoint")
         configure = tools / "pkg-config"
         configure.write_text(f'#!/bin/sh\nexec {shutil.which("pkg-config")} --define-variable=prefix={self.prefix} "$@"\n')
         configure.chmod(0o755)
         packages = os.pathsep.join({str(path.parent) for path in self.prefix.rglob("*.pc")})
-        return folder, {**os.environ, "PATH": f"{tools}:{os.environ['PATH']}", "PKG_CONFIG_PATH": packages}
+        return folder, {**os.environ, "PATH": f"{tools}:{os.environ['PATH']}", "PKG_CONFIG_PATH": packages,
+                        "ROOT": str(ROOT), "BUILD": str(BUILD)}
 
-    def try_page(self, page):
-        folder, environment = self.environment(page)
-        sessions = [command for block in BLOCK.findall((ROOT / "docs" / page).read_text()) for command in commands(block)]
-        self.assertGreater(len(sessions), 1, "the page has no session")
-        for command, lines in sessions:
+    def try_session(self, step, folder, environment):
+        for command, lines in sessions.commands(step.text):
             name = command.removeprefix("cat ")
             if command.startswith("cat ") and not (folder / name).exists():
                 (folder / name).write_text("".join(f"{line}\n" for line in lines))
                 continue
-            done = subprocess.run(["bash", "-c", command], cwd=folder, env=environment, stdin=subprocess.DEVNULL,
-                                  stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=300)
-            with self.subTest(page=page, command=command):
-                output = PROGRESS.sub("", done.stdout)
-                output += "" if output.endswith("\n") or not output else "\n"
-                self.assertTrue(pattern(lines).fullmatch(output), f"docs/{page}: $ {command}\nsays:\n{output}")
+            self.try_command(step, command, lines, folder, environment)
 
-    def test_threads(self):
-        self.try_page("threads.md")
+    def try_command(self, step, command, lines, folder, environment):
+        """Compares a command's output with the expected lines."""
+        lines = sessions.from_the_prompt(lines)
+        output, _ = sessions.output_of(command, folder, environment, sessions.typed(lines))
+        with self.subTest(step=str(step), command=command):
+            self.assertTrue(sessions.pattern(lines).fullmatch(output), f"{step}: $ {command}\nsays:\n{output}")
 
-    def test_robots(self):
-        self.try_page("robots.md")
+    def try_script(self, step, folder, environment):
+        """Runs a script whose output the page does not show."""
+        output, status = sessions.output_of("set -e\n" + step.text, folder, environment)
+        with self.subTest(step=str(step)):
+            self.assertEqual(status, int(step.marks.get("status", 0)), f"{step}:\n{step.text}says:\n{output}")
 
-    def test_laas(self):
-        if (BUILD / "libwaitpoint-tcl.so").exists():
-            self.try_page("laas.md")
+    def try_page(self, page):
+        missing = [name for name in NEEDS.get(page, ()) if not (BUILD / name).exists()]
+        if missing:
+            self.skipTest(f"not in this build: {', '.join(missing)}")
+        steps = blocks.chosen(page, LONG)
+        folder, environment = self.environment(page)
+        for step in steps:
+            if step.language == "console":
+                self.try_session(step, folder, environment)
+            elif step.language == "text":
+                self.try_command(step, step.marks["output of"], step.text.splitlines(), folder, environment)
+            else:
+                self.try_script(step, folder, environment)
+        for picture in pictures():
+            if any(named(picture, step) for step in steps):
+                with self.subTest(picture=str(picture)):
+                    drawn = folder / picture.name
+                    self.assertTrue(drawn.exists() and drawn.read_bytes() == picture.read_bytes(),
+                                    f"{page}: {picture.name} is not what its command draws")
 
-    def test_programs(self):
-        self.try_page("programs.md")
+    def test_each_block_is_run_or_says_why_not(self):
+        missing = [str(step) for page in blocks.pages() for step in blocks.steps(page)[0] if step.verdict() == "missing"]
+        self.assertEqual(missing, [], "blocks without a language, a mark or a command: see tests/docs/blocks.py")
 
-    def test_ros(self):
-        if (BUILD / "libwaitpoint-nodes.so").exists() and (BUILD / "scenarios/nodes/driver").exists():
-            self.try_page("ros.md")
+    def test_each_picture_is_drawn_or_says_why_not(self):
+        found = [blocks.steps(page) for page in blocks.pages()]
+        reasons = {name for _, not_rendered in found for name in not_rendered}
+        missing = [picture.name for picture in pictures() if picture.name not in reasons
+                   and not any(named(picture, step) for steps, _ in found for step in steps)]
+        self.assertEqual(missing, [])
 
-    def test_external(self):
-        self.try_page("external.md")
+
+def add_tests():
+    """A test for each page that has something to run."""
+    for page in blocks.pages():
+        if any(step.verdict() in ("run", "long") for step in blocks.steps(page)[0]):
+            name = "test_" + re.sub(r"\W", "_", page.removeprefix("docs/").removesuffix(".md"))
+            setattr(Pages, name, lambda self, page=page: self.try_page(page))
 
 
 if __name__ == "__main__":
+    if "--table" in sys.argv:
+        print(blocks.table(), end="")
+        sys.exit(0)
+    sys.argv = [word for word in sys.argv if word != "--long"]
+    add_tests()
     main()
