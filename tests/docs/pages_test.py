@@ -50,8 +50,8 @@ class Pages(Installed):
         tools.mkdir(parents=True)
         (folder / "scenarios").symlink_to(ROOT / "scenarios")
         for source in (ROOT / "tests/programs").glob("*/*"):
-            if source.suffix in (".c", ".cpp", ".hpp", ".yaml"):
-                shutil.copy(source, folder)
+            if source.suffix in (".c", ".cpp", ".ctl", ".hpp", ".yaml"):
+                (folder / source.name).write_text(source.read_text().replace("../../../scenarios/", "scenarios/"))
         (tools / "waitpoint").symlink_to(BUILD / "tools/waitpoint")
         configure = tools / "pkg-config"
         configure.write_text(f'#!/bin/sh\nexec {shutil.which("pkg-config")} --define-variable=prefix={self.prefix} "$@"\n')

@@ -19,6 +19,7 @@ declare -A debian=(
   [bench]='libbenchmark-dev'
   [peers]='libsystemc-dev libsimgrid-dev libboost-fiber-dev libembree-dev libbox2d-dev
            libode-dev libcgal-dev'
+  [docs]='python3-sphinx python3-myst-parser furo doxygen'
   [check]='clang-format clang-tidy'
   [format]='clang-format'
 )
@@ -39,13 +40,14 @@ declare -A upstream=(
   [bench]='Google Benchmark'
   [peers]='SystemC 2.3.4, SimGrid 3.32, Boost.Fiber 1.74, Embree 3.13, Box2D 2.4,
            ODE 0.16, CGAL 5.5 (each is left out where it is missing)'
+  [docs]='Sphinx 5.3 with MyST and furo, Doxygen 1.9'
   [check]='clang-format and clang-tidy 14'
   [format]='clang-format 14'
 )
 # Required for every build; all libraries except Google Benchmark and its peers come from subprojects/ if missing.
 declare -A tools=(
   [run]='meson ninja c++ pkg-config python3' [test]='' [ros]='rosmaster' [ros2]='idlc' [view]='chromium node npm' [builds]='clang++ apt-get' [wraps]='apt-get' [valgrind]='valgrind'
-  [bench]='' [peers]='' [check]='' [format]='clang-format'
+  [bench]='' [peers]='' [docs]='sphinx-build doxygen' [check]='' [format]='clang-format'
 )
 
 say() { echo "dev: $*" >&2; }

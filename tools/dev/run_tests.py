@@ -79,6 +79,7 @@ OWN_CASES = {
     "ranks": [sys.executable, str(ROOT / "tests/programs/ranks_test.py"), BUILD],
     "pocolibs in C": [sys.executable, str(ROOT / "tests/programs/laas_test.py"), BUILD],
     "links of documents": [sys.executable, str(ROOT / "tests/docs/links_test.py")],
+    "site of documents": [sys.executable, str(ROOT / "tests/docs/site_test.py")],
 }
 
 
