@@ -105,6 +105,12 @@ class Pages(Installed):
         missing = [str(step) for page in blocks.pages() for step in blocks.steps(page)[0] if step.verdict() == "missing"]
         self.assertEqual(missing, [], "blocks without a language, a mark or a command: see tests/docs/blocks.py")
 
+    def test_what_a_reason_names_is_there(self):
+        reasons = [(step, reason) for page in blocks.pages() for step in blocks.steps(page)[0] for reason in step.marks.values()]
+        missing = [f"{step}: {name}" for step, reason in reasons for name in re.findall(r"(?<!/)\btests/[\w./]*\w", reason)
+                   if not (ROOT / name).exists()]
+        self.assertEqual(missing, [])
+
     def test_each_picture_is_drawn_or_says_why_not(self):
         found = [blocks.steps(page) for page in blocks.pages()]
         reasons = {name for _, not_rendered in found for name in not_rendered}

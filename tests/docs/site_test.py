@@ -39,8 +39,8 @@ class Site(unittest.TestCase):
         self.assertIn("waitpoint::", (self.folder / "source/tests/programs/shared_queue/shared_queue.cpp.md").read_text())
 
     def test_a_page_has_one_title(self):
-        text = pages.Pages(self.folder).rewritten(ROOT / "docs/x.md", "# A `b`\n\n## C\n\n# D\n\n```sh\n# no title\n```\n")
-        self.assertEqual(text, "# A `b`\n\n### C\n\n## D\n\n```sh\n# no title\n```\n")
+        text = pages.Pages(self.folder).rewritten(ROOT / "docs/x.md", "# A `b`\n\n## C\n\n# D\n\n## E\n\n```sh\n# no title\n```\n")
+        self.assertEqual(text, "# A `b`\n\n## C\n\n## D\n\n### E\n\n```sh\n# no title\n```\n")
 
     def test_broken_links_are_found(self):
         self.assertEqual(self.mistakes(a_html='<p id="x"><a href="b.html#y">b</a><a href="#x">x</a><a href="c.html">c</a>', b_html="<p>"),

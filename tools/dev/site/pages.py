@@ -11,7 +11,6 @@ import shutil
 
 ROOT = pathlib.Path(__file__).resolve().parents[3]
 LITERAL = re.compile(r"^ *```.*?^ *```$|`[^`\n]*`|<!--.*?-->", re.MULTILINE | re.DOTALL)
-TITLE = re.compile(r"^# ", re.MULTILINE)
 HEADING = re.compile(r"^(#+ )", re.MULTILINE)
 TARGET = re.compile(r"\]\(([^()\s]+)\)")
 TO_HTML = re.compile(r"\[((?:[^\[\]]|\[[^\[\]]*\]\([^()]*\))*)\]\(([^()\s]+\.html)\)")
@@ -53,11 +52,7 @@ class Pages:
     def rewritten(self, document, text):
         """The text with one title, and its links as the site has them; blocks, code and comments stay."""
         prose, literals = LITERAL.split(text), LITERAL.findall(text)
-        if sum(len(TITLE.findall(part)) for part in prose) > 1:  # the table of contents would list each of them as a page
-            prose = [HEADING.sub(r"#\1", part) for part in prose]
-            first = next(index for index, part in enumerate(prose) if HEADING.search(part))
-            prose[first] = prose[first].replace("## ", "# ", 1)
-        linked = [self.links(document, part) for part in prose]
+        linked = [self.links(document, part) for part in with_one_title(prose)]
         return "".join(part + literal for part, literal in zip(linked, [*literals, ""]))
 
     def links(self, document, text):
@@ -91,6 +86,18 @@ class Pages:
         else:
             fence = "`````"
             self.page(place, f"{title}{fence}{LANGUAGES.get(file.suffix, 'text')}\n{file.read_text()}{fence}\n")
+
+
+def with_one_title(prose):
+    """The parts of a page with the headings from the second title on one level lower: the contents would list it as a page."""
+    titles = 0
+
+    def lowered(heading):
+        nonlocal titles
+        titles += heading[1] == "# "
+        return heading[0] if titles < 2 else "#" + heading[0]
+
+    return [HEADING.sub(lowered, part) for part in prose]
 
 
 def source_place(file):
