@@ -8,11 +8,18 @@
 
 #include "core/error.hpp"
 #include "tools/command/command_line.hpp"
+#include "tools/command/completion.hpp"
 #include "tools/command/installed_part.hpp"
+#include "tools/command/manual_page.hpp"
 #include "tools/command/shell_words.hpp"
+#include "tools/command/version.hpp"
 
 namespace waitpoint::tools {
 namespace {
+
+constexpr const char* statuses =
+    "See waitpoint COMMAND --help. Exit status: 0 success, 1 a failed expectation of the scenario or a deadlock,\n"
+    "2 bad input, 130 stopped by a signal.";
 
 /// Only the first word after "--" is interpreted; all others belong to gdb or to the program.
 DebugOptions debug_options(const std::vector<std::string>& words, const std::vector<std::string>& commands) {
@@ -44,6 +51,34 @@ void add_genom(CommandLine& line, GenomOptions& options, std::optional<Command>&
                 "write its page of requests and posters to standard output");
 }
 
+/// The commands that describe the others, to man and to shells.
+class TextArguments {
+ public:
+  explicit TextArguments(CommandLine& line)
+      : manual_(line.add_command("manual", "Prints the man page of a command, or of the program, in roff.")),
+        completion_(line.add_command("completion", "Prints the script with which a shell completes command lines.")) {
+    manual_.argument("COMMAND", page_, "the command (default: the program)", Command::Presence::optional);
+    completion_.argument("bash|zsh|fish", shell_, "the shell", Command::Presence::required);
+  }
+
+  std::optional<ShownText> text(const CommandLine& line) const {
+    if (manual_.parsed()) return ShownText{manual_page(line.described(), page_)};
+    if (completion_.parsed()) return ShownText{completion(line.described(), shell_)};
+    return std::nullopt;
+  }
+
+ private:
+  Command manual_, completion_;
+  std::string page_, shell_;
+};
+
+BadInput missing_command(const std::vector<std::string>& commands) {
+  std::string names;
+  for (const std::string& command : commands)
+    names += (&command == &commands.front() ? " " : &command == &commands.back() ? " or " : ", ") + command;
+  return BadInput("command line", "expected a command:" + names + "; see waitpoint --help");
+}
+
 /// A program with modules of its own is named as it was called.
 std::string name_in_replay_lines(const std::string& program) {
   const std::string name = std::filesystem::path(program).filename().string();
@@ -55,7 +90,7 @@ std::string name_in_replay_lines(const std::string& program) {
 Options read_options(int argc, const char* const* argv, const std::string& version) {
   CommandLine line("waitpoint",
                    "Simulates robots whose software runs as simulated threads: one seed, one run, bit for bit.");
-  line.version(version, "print version, compiler, flags and the fingerprint of the exact math");
+  line.version(version, "print version, compiler, flags and the fingerprint of the exact math", version_json);
   RunArguments run(line);
   Command check = line.add_command("check", "Validates a scenario without running it.");
   ScenarioArguments checked;
@@ -78,9 +113,8 @@ Options read_options(int argc, const char* const* argv, const std::string& versi
   FitArguments fit(line);
   CompareArguments compare(line);
   ViewArguments view(line);
-  line.footer(
-      "See waitpoint COMMAND --help. Exit status: 0 success, 1 a failed expectation of the scenario or a deadlock,\n"
-      "2 bad input, 130 stopped by a signal.");
+  TextArguments texts(line);
+  line.footer(statuses);
   const std::vector<std::string> words(argv + std::min(argc, 2), argv + argc);
   if (argc > 1 && std::string_view(argv[1]) == "gdb") {
     if (words.empty() || (words[0] != "--help" && words[0] != "-h")) return debug_options(words, line.commands());
@@ -114,13 +148,12 @@ Options read_options(int argc, const char* const* argv, const std::string& versi
   if (fit.parsed()) return fit.options();
   if (compare.parsed()) return compare.options();
   if (view.parsed()) return view.options();
+  if (const std::optional<ShownText> text = texts.text(line)) return *text;
   if (check.parsed()) {
     const std::filesystem::path scenario = find_scenario(checked.file);
     return CheckOptions{scenario, checked.confinement.folders(scenario), checked.assignments};
   }
-  throw BadInput(
-      "command line",
-      "expected a command, run, check, plan, explore, exec, genom, replay, fit, compare or view; see waitpoint --help");
+  throw missing_command(line.commands());
 }
 
 }  // namespace waitpoint::tools

@@ -126,8 +126,9 @@ TEST_F(CommandLine, help_and_version_are_texts) {
 TEST_F(CommandLine, what_is_not_understood_is_one_clear_line) {
   EXPECT_EQ(
       message({}),
-      "command line: expected a command, run, check, plan, explore, exec, genom, replay, fit, compare or view; see "
-      "waitpoint --help");
+      "command line: expected a command: run, check, plan, gdb, explore, exec, genom, replay, fit, compare, view, "
+      "manual or completion; see waitpoint --help");
+  EXPECT_EQ(message({"--json"}), "--json: expected --version, or a command before it: waitpoint COMMAND --json ...");
   EXPECT_EQ(message({"rnu", "a"}), "command line: unknown command 'rnu', did you mean 'run'?");
   EXPECT_EQ(message({"run"}), "command line: SCENARIO is required");
   EXPECT_EQ(message({"run", "a", "--sede", "4"}), "command line: unknown option '--sede', did you mean '--seed'?");

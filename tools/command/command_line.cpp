@@ -2,6 +2,7 @@
 #include "tools/command/command_line.hpp"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <string_view>
 
 #include "core/error.hpp"
@@ -50,6 +51,33 @@ void refuse_empty_words(const CLI::App& command) {
       if (word.empty()) throw BadInput(option->get_name(), "expected a value, found ''");
 }
 
+DescribedOption described_option(const CLI::Option& option) {
+  DescribedOption described;
+  if (option.get_positional()) described.names.push_back(option.get_name(true));
+  for (const std::string& name : option.get_snames()) described.names.push_back("-" + name);
+  for (const std::string& name : option.get_lnames()) described.names.push_back("--" + name);
+  const bool has_value = option.get_items_expected_max() > 0;
+  if (has_value && !option.get_positional()) described.type = option.get_type_name();
+  described.description = option.get_description();
+  described.required = option.get_required();
+  described.repeated = option.get_expected_max() > 1;
+  described.may_lack_value = has_value && option.get_items_expected_min() == 0;
+  return described;
+}
+
+DescribedCommand described_command(const CLI::App& app) {
+  DescribedCommand described;
+  described.name = app.get_parent() == nullptr ? "" : app.get_name();
+  described.description = app.get_description();
+  described.footer = app.get_footer();
+  described.takes_program = app.get_prefix_command();
+  for (const CLI::Option* option : app.get_options())
+    (option->get_positional() ? described.arguments : described.options).push_back(described_option(*option));
+  return described;
+}
+
+constexpr const char* json_flag = "--json";
+
 }  // namespace
 
 void Command::argument(const char* name, std::string& value, const char* description, Presence presence) {
@@ -94,8 +122,18 @@ Command CommandLine::add_command(const char* name, const char* description) {
 
 std::vector<std::string> CommandLine::commands() const { return commands_of(*app_); }
 
-void CommandLine::version(const std::string& text, const char* description) {
+DescribedProgram CommandLine::described() const {
+  DescribedProgram program{app_->get_name(), app_->version(), described_command(*app_), {}};
+  program.version.resize(std::min(program.version.size(), program.version.find('\n')));
+  for (const CLI::App* command : app_->get_subcommands([](const CLI::App*) { return true; }))
+    program.commands.push_back(described_command(*command));
+  return program;
+}
+
+void CommandLine::version(const std::string& text, const char* description, std::string (*json)()) {
   app_->set_version_flag("--version", text, description);
+  app_->add_flag(json_flag)->description("with --version: as JSON");
+  version_as_json_ = json;
 }
 
 void CommandLine::footer(const std::string& text) { app_->footer(text); }
@@ -106,11 +144,13 @@ std::optional<std::string> CommandLine::parse(int argc, const char* const* argv)
   } catch (const CLI::CallForHelp&) {
     return app_->help();
   } catch (const CLI::CallForVersion&) {
-    return app_->version() + "\n";
+    return (app_->count(json_flag) > 0 ? version_as_json_() : app_->version()) + "\n";
   } catch (const CLI::ParseError& error) {
     const std::vector<std::string> extra = app_->remaining(true);
     throw extra.empty() ? BadInput(where, error.what()) : unknown_word(*app_, extra);
   }
+  if (version_as_json_ != nullptr && app_->count(json_flag) > 0)
+    throw BadInput(json_flag, "expected --version, or a command before it: waitpoint COMMAND --json ...");
   for (const CLI::App* command : app_->get_subcommands()) {
     refuse_empty_words(*command);
     const std::vector<std::string> extra = command->remaining();

@@ -10,6 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "tools/command/described_command.hpp"
+
 namespace CLI {
 class App;
 }
@@ -25,7 +27,8 @@ class Command {
   enum class Presence { required, optional };
   /// The positional argument.
   void argument(const char* name, std::string& value, const char* description, Presence presence);
-  /// "NAME VALUE"; --help shows `type` for the value.
+  /// "NAME VALUE"; --help shows `type` for the value. Alternatives are joined by '|': shells offer them
+  /// (described_command.hpp).
   void option(const char* name, std::string& value, const char* type, const std::string& description);
   /// An option whose value may be left out: it is `usual` then.
   void option_or_flag(const char* name, std::string& value, const char* type, const std::string& usual,
@@ -54,8 +57,10 @@ class CommandLine {
   Command add_command(const char* name, const char* description);
   /// Names of all commands, in the order of addition.
   std::vector<std::string> commands() const;
-  /// Adds --version with this text.
-  void version(const std::string& text, const char* description);
+  /// Names, options and descriptions, for man pages and shells.
+  DescribedProgram described() const;
+  /// Adds --version with this text, and --json, with which it is what `json` returns.
+  void version(const std::string& text, const char* description, std::string (*json)());
   /// The last lines of the program's own --help. Call it after adding the commands, which would inherit it.
   void footer(const std::string& text);
 
@@ -65,6 +70,7 @@ class CommandLine {
 
  private:
   std::unique_ptr<CLI::App> app_;
+  std::string (*version_as_json_)() = nullptr;
 };
 
 }  // namespace waitpoint::tools

@@ -3,6 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <nlohmann/json.hpp>
+
+#include "core/digest.hpp"
 #include "core/exact_math.hpp"
 
 #ifndef WAITPOINT_VERSION
@@ -13,13 +16,17 @@
 #endif
 
 namespace waitpoint::tools {
+namespace {
+
+#ifdef __clang__
+constexpr const char* compiler = __VERSION__;
+#else
+constexpr const char* compiler = "g++ " __VERSION__;
+#endif
+
+}  // namespace
 
 std::string version_text() {
-#ifdef __clang__
-  constexpr const char* compiler = __VERSION__;
-#else
-  constexpr const char* compiler = "g++ " __VERSION__;
-#endif
   return fmt::format("waitpoint {}\ncompiler  {}\nflags     {}\nmath      {:016x}", WAITPOINT_VERSION, compiler,
                      WAITPOINT_FLAGS, exact::fingerprint());
 }
@@ -27,6 +34,16 @@ std::string version_text() {
 std::string version_line() {
   const std::string version = version_text();
   return version.substr(0, version.find('\n'));
+}
+
+std::string version_json() {
+  const std::string digest = to_string(Digest());
+  const nlohmann::ordered_json json = {{"version", WAITPOINT_VERSION},
+                                       {"digests", digest.substr(0, digest.find(':'))},
+                                       {"compiler", compiler},
+                                       {"flags", WAITPOINT_FLAGS},
+                                       {"math", fmt::format("{:016x}", exact::fingerprint())}};
+  return json.dump(2);
 }
 
 }  // namespace waitpoint::tools

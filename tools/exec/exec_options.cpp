@@ -15,7 +15,7 @@ ExecArguments::ExecArguments(CommandLine& line)
   command_.option("--seeds", seeds_, "A..B",
                   "run each seed from A to B until one has a nonzero exit status, and show only its\n"
                   "output");
-  command_.option("--strategy", strategy_, "S",
+  command_.option("--strategy", strategy_, "random|fifo",
                   "order of threads that are ready at the same instant: random, by the seed, or\n"
                   "fifo: a thread runs until it blocks (default: random)");
   command_.option("--trace", trace_, "FILE.json",

@@ -140,7 +140,7 @@ void ConditionArguments::add_to(Command& command) {
   command.option("--call-cost", call_cost_, "NS",
                  "virtual time of a use of a primitive and of reading a clock, in nanoseconds (default: 50); more\n"
                  "lets loops that poll end after fewer rounds");
-  command.option("--children", children_, "KIND",
+  command.option("--children", children_, "simulated|native",
                  "mode of programs that it starts (exec, posix_spawn, system, popen): simulated, in one\n"
                  "schedule with it as its forked children are, or native (default: simulated)");
   command.option("--speed", speed_, "X",

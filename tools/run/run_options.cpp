@@ -123,7 +123,7 @@ RunArguments::RunArguments(CommandLine& line)
   command_.option("--play", play_, "BAG",
                   "publish the topics of this bag to the scenario's nodes of ROS at their times, with\n"
                   "no world: play.bag of the scenario (docs/ros-bags.md)");
-  command_.option("--order", order_, "ORDER",
+  command_.option("--order", order_, "fifo|seeded",
                   "order of events of one instant: fifo, or seeded: by hashes of the seed\n(default: fifo)");
   command_.option("--until", until_, "S", "end at virtual time S, in seconds (default: the scenario's until_s)");
   command_.option("--speed", speed_, "X", "throttle to X simulated seconds per second; 0: unthrottled (default: 0)");

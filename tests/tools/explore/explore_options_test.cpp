@@ -142,7 +142,7 @@ TEST_F(ExploreCommandLine, help_names_options_strategies_and_exit_statuses) {
   const std::string help = std::get<ShownText>(read(words({"--help"}))).text;
   for (const char* word : {"--strategy", "--iterations", "--time-limit", "--schedule-limit", "--jobs", "--seed",
                            "--property", "--until", "--from", "--set", "--shard", "--results", "--replay", "--schedule",
-                           "--trace", "--no-minimize", "portfolio, fifo, random, pct:D", "Exit status: 0"})
+                           "--trace", "--no-minimize", "portfolio|fifo|random|pct:D", "Exit status: 0"})
     EXPECT_NE(help.find(word), std::string::npos) << word;
 }
 

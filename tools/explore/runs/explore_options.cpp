@@ -22,6 +22,14 @@ namespace {
 constexpr std::uint32_t jobs_max = 1024, snapshots_max = 1000;
 constexpr const char* free_port = "a free port";
 
+/// As alternatives of a type: "portfolio|fifo|...".
+std::string all_strategies() {
+  std::string names;
+  for (const char c : exploration::strategy_names())
+    if (c != ' ') names += c == ',' ? '|' : c;
+  return names;
+}
+
 /// The option's text, else the environment variable's; `where` becomes the name of the source used.
 std::string text_of(const std::string& option, const char* variable, std::string& where) {
   if (!option.empty()) return option;
@@ -130,10 +138,9 @@ ExploreArguments::ExploreArguments(CommandLine& line)
                 "explore a program, run as by `waitpoint exec`, instead of a scenario (docs/exec.md):\n"
                 "  waitpoint explore --exec [OPTIONS] -- PROGRAM [ARGUMENTS...]\n"
                 "failures: a nonzero exit status, a signal, a deadlock or a lack of progress");
-  command_.option("--strategy", strategy_, "S",
-                  "strategy that draws the schedules (default: $WAITPOINT_STRATEGY, or portfolio):\n" +
-                      exploration::strategy_names(exploration::Kinds::drawing) +
-                      "\n(for programs also dfs and bounded:K)");
+  command_.option("--strategy", strategy_, all_strategies().c_str(),
+                  "strategy that draws the schedules (default: $WAITPOINT_STRATEGY, or portfolio); those\n"
+                  "that enumerate them, for programs alone: bounded:K, dfs and dpor");
   command_.option(
       "--iterations", iterations_, "N",
       "maximum number of schedules (default: $WAITPOINT_ITERATIONS, or 1000, or\nunlimited with a time limit)");

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Man pages of a program with commands, from the descriptions that --help shows.
+#pragma once
+
+#include <string>
+
+#include "tools/command/described_command.hpp"
+
+namespace waitpoint::tools {
+
+/// The page PROGRAM(1), or PROGRAM-COMMAND(1), in roff with the macros of man(7). Throws BadInput, one line, for an
+/// unknown command. `command` is empty for the program's own page.
+std::string manual_page(const DescribedProgram& program, const std::string& command);
+
+}  // namespace waitpoint::tools

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <string_view>
+
+#include "tools/command/completion.hpp"
+#include "tools/command/shell_words.hpp"
+
+namespace waitpoint::tools {
+namespace {
+
+/// Text inside of a specification of _arguments or _describe.
+std::string zsh_text(std::string_view text) {
+  std::string result;
+  for (const char c : text.substr(0, text.find('\n'))) {
+    if (c == '[' || c == ']' || c == ':' || c == '\\') result += '\\';
+    result += c;
+  }
+  return result;
+}
+
+std::string zsh_action(const DescribedOption& option) {
+  const OfferedValues offered = offered_values(option);
+  if (offered.commands) return "_waitpoint_commands";
+  switch (offered.files) {
+    case OfferedValues::Files::all: return "_files";
+    case OfferedValues::Files::folders: return "_files -/";
+    case OfferedValues::Files::scenarios: return "_waitpoint_scenarios";
+    case OfferedValues::Files::none: break;
+  }
+  std::string words;
+  for (const std::string& word : offered.words) words += (words.empty() ? "" : " ") + zsh_text(word);
+  return words.empty() ? " " : "(" + words + ")";
+}
+
+/// The arguments of _arguments for one command, each on a line of its own.
+std::string specifications(const DescribedCommand& command) {
+  std::string text;
+  for (const DescribedOption& option : command.options)
+    for (const std::string& name : option.names) {
+      std::string word = (option.repeated ? "*" : "") + name;
+      if (!option.type.empty()) word += "=";
+      word += "[" + zsh_text(option.description) + "]";
+      if (!option.type.empty())
+        word += (option.may_lack_value ? "::" : ":") + zsh_text(option.type) + ":" + zsh_action(option);
+      text += " \\\n        " + in_quotation_marks(word);
+    }
+  for (const DescribedOption& argument : command.arguments)
+    text += " \\\n        " + in_quotation_marks(std::string(argument.required ? ":" : "::") +
+                                                 zsh_text(argument.names.front()) + ":" + zsh_action(argument));
+  return text + "\n";
+}
+
+}  // namespace
+
+std::string zsh_completion(const DescribedProgram& program) {
+  std::string text = "#compdef " + program.name + "\n# Written by `" + program.name +
+                     " completion zsh`.\n\n_waitpoint_commands() {\n  local -a commands=(\n";
+  for (const DescribedCommand& command : program.commands)
+    text += "    " + in_quotation_marks(command.name + ":" + zsh_text(command.description)) + "\n";
+  text += R"(  )
+  _describe command commands
+}
+
+_waitpoint_scenarios() {
+  local -a shipped=(${commands[waitpoint]:h}/../share/waitpoint/scenarios/*.yaml(N:t))
+  _files -g '*.yaml'
+  compadd -a shipped
+}
+
+_waitpoint() {
+  local state
+  _arguments -C ':command:->command' '*::argument:->argument')";
+  text += specifications(program.own);
+  text += R"(  case $state in
+  command) _waitpoint_commands ;;
+  argument)
+    # Behind "--" is a program with its arguments.
+    local -i dashes=${words[(i)--]}
+    if ((dashes < CURRENT)); then
+      shift $dashes words
+      ((CURRENT -= dashes))
+      _normal
+      return
+    fi
+    case $words[1] in
+)";
+  for (const DescribedCommand& command : program.commands)
+    text += "    " + command.name + ")\n      _arguments" + specifications(command) + "      ;;\n";
+  return text + "    esac\n    ;;\n  esac\n}\n\n_waitpoint \"$@\"\n";
+}
+
+}  // namespace waitpoint::tools
