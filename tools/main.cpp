@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/main.hpp"
 
-#include <fmt/format.h>
-
 #include <cstdio>
 #include <optional>
 #include <string>
@@ -12,12 +10,9 @@
 #include "core/printable_line.hpp"
 #include "fibers/kernel/fault_reports.hpp"
 #include "fibers/sync/post_mortem.hpp"
-#include "modules/playback/playback.hpp"
-#include "modules/run/experiment.hpp"
-#include "modules/scenario/scenario_reader.hpp"
 #include "tools/check/self_check.hpp"
+#include "tools/check_command.hpp"
 #include "tools/command/interruption.hpp"
-#include "tools/command/program_layer.hpp"
 #include "tools/command/version.hpp"
 #include "tools/exec/exec.hpp"
 #include "tools/exec/program_process.hpp"
@@ -30,7 +25,6 @@
 #include "tools/output/output_file.hpp"
 #include "tools/papers_modules.hpp"
 #include "tools/ranks/launcher.hpp"
-#include "tools/replay/log_source.hpp"
 #include "tools/replay/replay.hpp"
 #include "tools/run/run.hpp"
 #include "tools/run/run_watchdog.hpp"
@@ -38,36 +32,6 @@
 
 namespace waitpoint {
 namespace {
-
-int check_log(const scenario::Scenario& scenario, std::span<const genom::ModuleType> types) {
-  const tools::LogSource source = tools::log_source(scenario);
-  const logs::SensorLog log = source.read();
-  const playback::Playback playback(log, source.robot, types, {});
-  tools::write_standard_output(fmt::format("{}: good: {} modules, {} scans of {}\n", printable_line(scenario.file),
-                                           playback.modules(), log.scans.size(), printable_line(log.file)));
-  return 0;
-}
-
-int check(const tools::CheckOptions& options, std::span<const genom::ModuleType> types) {
-  const scenario::Scenario scenario = scenario::read_scenario(options.scenario, options.assignments);
-  tools::begin_with_program_layer(scenario);
-  const tools::RunWatchdog watchdog(tools::RunWatchdog::usual_limit_s);
-  if (scenario.log) return check_log(scenario, types);
-  const run::Experiment experiment(scenario, types, {});
-  std::size_t modules = 0, goals = 0;
-  for (const scenario::RobotScenario& robot : scenario.robots) {
-    goals += robot.goals.size();
-    for (const scenario::ModuleScenario& module : robot.modules) modules += module.enabled ? 1 : 0;
-  }
-  std::string text = fmt::format("{}: good: {} robots, {} modules, {} goals, {} obstacles\n",
-                                 printable_line(options.scenario.string()), scenario.robots.size(), modules, goals,
-                                 experiment.world().description().obstacles.size());
-  for (const auto& robot : experiment.robots())
-    if (const std::string plan = robot->plan_text(); !plan.empty()) text += plan + "\n";
-  for (const std::string& warning : experiment.result().warnings) text += "warning: " + warning + "\n";
-  tools::write_standard_output(text);
-  return 0;
-}
 
 int carry_out(int argc, const char* const* argv, std::vector<genom::ModuleType> own) {
   // Of two types of one name the first counts.
@@ -87,7 +51,7 @@ int carry_out(int argc, const char* const* argv, std::vector<genom::ModuleType> 
     std::visit(confine, options);
     if (const auto* run = std::get_if<tools::RunOptions>(&options))
       return run->check ? tools::self_check(*run, types) : tools::run(*run, types);
-    if (const auto* checked = std::get_if<tools::CheckOptions>(&options)) return check(*checked, types);
+    if (const auto* checked = std::get_if<tools::CheckOptions>(&options)) return tools::check(*checked, types);
     if (const auto* replay = std::get_if<tools::ReplayOptions>(&options)) {
       if (replay->check) return tools::self_check(*replay, types);
       const tools::RunWatchdog watchdog(tools::RunWatchdog::usual_limit_s);

@@ -49,6 +49,7 @@ void add_genom(CommandLine& line, GenomOptions& options, std::optional<Command>&
   command->flag("--check", options.check_only, "validate the description, and write nothing");
   command->flag("--documentation", options.documentation_only,
                 "write its page of requests and posters to standard output");
+  command->json(options.json);
 }
 
 /// The commands that describe the others, to man and to shells.
@@ -96,10 +97,13 @@ Options read_options(int argc, const char* const* argv, const std::string& versi
   ScenarioArguments checked;
   checked.add_file(check);
   checked.add_set(check);
+  bool is_check_json = false, is_plan_json = false;
+  check.json(is_check_json);
   Command plan = line.add_command("plan", "Checks a temporal plan, and prints the windows of its actions.");
   std::string plan_file, plan_picture;
   plan.argument("PLAN", plan_file, "YAML file (docs/laas-plans.md)", Command::Presence::required);
   plan.option("--svg", plan_picture, "FILE", "writes a picture of the plan");
+  plan.json(is_plan_json);
   line.add_command("gdb",
                    "Starts gdb with commands for simulated threads (docs/gdb.md):\n"
                    "  waitpoint gdb [OPTIONS OF GDB] -- run SCENARIO ...\n"
@@ -138,7 +142,7 @@ Options read_options(int argc, const char* const* argv, const std::string& versi
   }
   if (explore.parsed()) return explore.options(program);
   if (exec.parsed()) return exec.options(program);
-  if (plan.parsed()) return PlanOptions{plan_file, plan_picture};
+  if (plan.parsed()) return PlanOptions{plan_file, plan_picture, is_plan_json};
   if (genom->parsed()) return generated;
   if (replay.parsed()) {
     ReplayOptions options = replay.options();
@@ -151,7 +155,7 @@ Options read_options(int argc, const char* const* argv, const std::string& versi
   if (const std::optional<ShownText> text = texts.text(line)) return *text;
   if (check.parsed()) {
     const std::filesystem::path scenario = find_scenario(checked.file);
-    return CheckOptions{scenario, checked.confinement.folders(scenario), checked.assignments};
+    return CheckOptions{scenario, checked.confinement.folders(scenario), checked.assignments, is_check_json};
   }
   throw missing_command(line.commands());
 }

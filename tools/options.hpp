@@ -25,6 +25,7 @@ struct CheckOptions {
   std::filesystem::path scenario;
   std::vector<std::filesystem::path> confined_to;  ///< the only folders to read from; empty: all
   std::vector<std::string> assignments;
+  bool json = false;  ///< the result as JSON to standard output
 };
 
 /// `--help`, `--version`: text to print before exiting.

@@ -159,8 +159,8 @@ class Completion(unittest.TestCase):
 
 
 class Version(unittest.TestCase):
-    def test_is_an_object_of_json(self):
-        version = json.loads(waitpoint("--version", "--json"))
+    def test_is_a_document_of_json(self):
+        version = json.loads(waitpoint("--version", "--json"))["result"]
         self.assertEqual(list(version), ["version", "digests", "compiler", "flags", "math"])
         self.assertEqual(version["digests"], "wp1")
         lines = dict(line.split(None, 1) for line in waitpoint("--version").splitlines())

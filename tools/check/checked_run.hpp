@@ -31,6 +31,8 @@ struct CheckSubject {
   std::uint64_t seed = 1;
   Time until;
   std::string command;             ///< the check again, for a shell
+  const char* of = "run";          ///< the command of waitpoint
+  bool json = false;               ///< the verdict as JSON
   bool replays_durations = false;  ///< its runs replay a given record of durations
   std::function<std::unique_ptr<CheckedRun>()> make;
 };

@@ -3,8 +3,12 @@
 
 #include <fmt/format.h>
 
+#include <nlohmann/json.hpp>
+
 namespace waitpoint::tools {
 namespace {
+
+using Json = nlohmann::ordered_json;
 
 std::string what_differs(const LoggedEvent& expected, const LoggedEvent& found) {
   std::string fields;
@@ -22,6 +26,22 @@ std::string what_differs(const LoggedEvent& expected, const LoggedEvent& found) 
 
 std::string shown(const std::optional<LoggedEvent>& event, const std::string& end) {
   return event ? fmt::format("{}, digest {:016x}", to_string(*event), event->digest) : "no event: " + end;
+}
+
+std::string where_it_differs(const Difference& difference) {
+  const auto& [number, expected, found, expected_end, found_end, before] = difference;
+  if (expected && found) return what_differs(*expected, *found);
+  if (expected || found) return "the presence of the event";
+  return expected_end == found_end ? "values recorded after the last event" : "the end of the run";
+}
+
+Json json_of(const LoggedEvent& event) {
+  Json json{{"time_s", event.time.since_start().seconds()},
+            {"robot", event.robot},
+            {"task", event.task},
+            {"operation", event.operation}};
+  if (!event.object.empty()) json["object"] = event.object;
+  return json;
 }
 
 }  // namespace
@@ -42,12 +62,18 @@ std::string to_text(const Difference& difference) {
   line("event", std::to_string(number));
   line("was", shown(expected, expected_end));
   line("is", shown(found, found_end));
-  line("differs in", expected && found           ? what_differs(*expected, *found)
-                     : expected || found         ? "the presence of the event"
-                     : expected_end == found_end ? "values recorded after the last event"
-                                                 : "the end of the run");
+  line("differs in", where_it_differs(difference));
   line("previous event", before ? to_string(*before) : "none");
   return text;
+}
+
+std::string to_json(const Difference& difference) {
+  const auto& [number, expected, found, expected_end, found_end, before] = difference;
+  Json json{{"event", number}, {"differs_in", where_it_differs(difference)}};
+  json[expected ? "was" : "was_end"] = expected ? json_of(*expected) : Json(expected_end);
+  json[found ? "is" : "is_end"] = found ? json_of(*found) : Json(found_end);
+  if (before) json["previous"] = json_of(*before);
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 }  // namespace waitpoint::tools

@@ -32,4 +32,7 @@ struct Difference {
 /// previous event.
 std::string to_text(const Difference& difference);
 
+/// The same as an object of JSON.
+std::string to_json(const Difference& difference);
+
 }  // namespace waitpoint::tools

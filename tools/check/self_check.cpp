@@ -8,7 +8,9 @@
 #include <algorithm>
 #include <cstdlib>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <optional>
+#include <utility>
 
 #include "core/number_text.hpp"
 #include "fibers/sync/duration_record.hpp"
@@ -22,7 +24,7 @@
 #include "tools/check/system_threads.hpp"
 #include "tools/command/interruption.hpp"
 #include "tools/command/program_layer.hpp"
-#include "tools/output/output_file.hpp"
+#include "tools/output/json_document.hpp"
 #include "tools/output/progress.hpp"
 
 namespace waitpoint::tools {
@@ -50,7 +52,9 @@ std::string text_of(RunEnd end) {
   return "";
 }
 
-void line(const char* name, const std::string& text) { write_standard_output(fmt::format("  {:<18}{}\n", name, text)); }
+using Json = nlohmann::ordered_json;
+
+std::string line(const char* name, const std::string& text) { return fmt::format("  {:<18}{}\n", name, text); }
 
 /// Wall clock limit of the perturbed process; generous, as its shuffled heap is slower and the machine may be loaded.
 double limit_s(double run_s) {
@@ -91,7 +95,8 @@ class SelfCheck {
   Carried compared(EventComparison& comparison);
   Carried carry_out(CheckedRun& checked, const EventComparison* comparison);
   int tell(const std::optional<Difference>& difference, const std::string& run) const;
-  void tell_same(const Carried& run, const SharedPage& seen) const;
+  int tell_same(const Carried& run, const SharedPage& seen) const;
+  int tell_verdict(int status, const std::string& text, Json json) const;
 
   const CheckSubject& subject_;
   bool (*interrupted_)();
@@ -141,28 +146,52 @@ Carried SelfCheck::compared(EventComparison& comparison) {
   return carry_out(*checked, &comparison);
 }
 
-int SelfCheck::tell(const std::optional<Difference>& difference, const std::string& run) const {
-  if (!difference) return 0;
-  write_standard_output(fmt::format("{}, seed {}: not the same run: {} differs from the first\n{}", subject_.name,
-                                    subject_.seed, run, to_text(*difference)));
-  for (const std::string& thread : threads_.found())
-    line("OS thread", thread + " was started during the run and is not repeatable");
-  line("replay", subject_.command);
-  return 1;
+/// The text's last lines and the document's last keys are those of both verdicts.
+int SelfCheck::tell_verdict(int status, const std::string& text, Json json) const {
+  write_text(text, subject_.json);
+  if (!subject_.json) return status;
+  json["os_threads"] = threads_.found();
+  json["replay"] = subject_.command;
+  return end_with_json(subject_.of, status, json.dump(-1, ' ', false, Json::error_handler_t::replace));
 }
 
-void SelfCheck::tell_same(const Carried& run, const SharedPage& seen) const {
-  write_standard_output(fmt::format("{}, seed {}: the same run, twice in this process and once in a perturbed one\n",
-                                    subject_.name, subject_.seed));
-  line("events", fmt::format("{}, each compared with its robot's digest", run.events));
-  line("digest", to_string(run.digest));
-  if (run.end.starts_with("it failed")) line("ended", run.end);
-  if (!durations_.entries.empty())
-    line("durations", fmt::format("{} of the first run replayed in the others", durations_.entries.size()));
+int SelfCheck::tell(const std::optional<Difference>& difference, const std::string& run) const {
+  if (!difference) return 0;
+  std::string text = fmt::format("{}, seed {}: not the same run: {} differs from the first\n{}", subject_.name,
+                                 subject_.seed, run, to_text(*difference));
   for (const std::string& thread : threads_.found())
-    line("OS thread", thread + " was started during the run and is not repeatable");
-  if (!seen.moved) line("not perturbed", "addresses: the kernel's layout equals this process's");
-  if (!seen.surrounded) line("not perturbed", "clocks, directories, heap: LD_PRELOAD has no effect on this program");
+    text += line("OS thread", thread + " was started during the run and is not repeatable");
+  text += line("replay", subject_.command);
+  Json json{{"checked", subject_.name}, {"seed", subject_.seed}, {"same", false}, {"differing_run", run}};
+  json["difference"] = Json::parse(to_json(*difference));
+  return tell_verdict(1, text, std::move(json));
+}
+
+int SelfCheck::tell_same(const Carried& run, const SharedPage& seen) const {
+  std::string text = fmt::format("{}, seed {}: the same run, twice in this process and once in a perturbed one\n",
+                                 subject_.name, subject_.seed);
+  Json json{{"checked", subject_.name},
+            {"seed", subject_.seed},
+            {"same", true},
+            {"events", run.events},
+            {"digest", to_string(run.digest)},
+            {"end", run.end},
+            {"durations_replayed", durations_.entries.size()},
+            {"not_perturbed", Json::array()}};
+  text += line("events", fmt::format("{}, each compared with its robot's digest", run.events));
+  text += line("digest", to_string(run.digest));
+  if (run.end.starts_with("it failed")) text += line("ended", run.end);
+  if (!durations_.entries.empty())
+    text += line("durations", fmt::format("{} of the first run replayed in the others", durations_.entries.size()));
+  for (const std::string& thread : threads_.found())
+    text += line("OS thread", thread + " was started during the run and is not repeatable");
+  const auto not_perturbed = [&](const char* what) {
+    text += line("not perturbed", what);
+    json["not_perturbed"].push_back(what);
+  };
+  if (!seen.moved) not_perturbed("addresses: the kernel's layout equals this process's");
+  if (!seen.surrounded) not_perturbed("clocks, directories, heap: LD_PRELOAD has no effect on this program");
+  return tell_verdict(0, text, std::move(json));
 }
 
 int SelfCheck::perturbed(const PerturbedFiles& files) {
@@ -198,10 +227,7 @@ int SelfCheck::all() {
   if (interrupted_()) return status_interrupted;
   const int status = end.status.value_or(-1);
   if (status == 1 || status == status_interrupted) return status;  // already reported
-  if (status == 0) {
-    tell_same(one, *shared.operator->());
-    return 0;
-  }
+  if (status == 0) return tell_same(one, *shared.operator->());
   const std::string how = end.status ? fmt::format("ended with status {}", *end.status) : end.cut_off;
   return tell(cut_off(log.file(), shared->equal, "the process " + how), "the run in a perturbed process");
 }
@@ -233,12 +259,17 @@ int self_check(const RunOptions& options, std::span<const genom::ModuleType> typ
   if (scenario.has_nodes()) throw BadInput("--check", "cannot be used for a scenario with nodes");
   begin_with_program_layer(scenario);
   heed_signals();
-  return checked(subject_of(options, scenario, types));
+  CheckSubject subject = subject_of(options, scenario, types);
+  subject.json = options.json;
+  return checked(subject);
 }
 
 int self_check(const ReplayOptions& options, std::span<const genom::ModuleType> types) {
   heed_signals();
-  return checked(subject_of(log_source(options.source), options.play, options.command, types));
+  CheckSubject subject = subject_of(log_source(options.source), options.play, options.command, types);
+  subject.of = "replay";
+  subject.json = options.play.json;
+  return checked(subject);
 }
 
 }  // namespace waitpoint::tools

@@ -102,6 +102,10 @@ void Command::flag(const char* name, bool& value, const std::string& description
   app_->add_flag(name, value, description)->disable_flag_override();
 }
 
+void Command::json(bool& value) {
+  flag(json_flag, value, "print the result as JSON to standard output, and the text to standard error (docs/json.md)");
+}
+
 void Command::takes_program() { app_->prefix_command(); }
 
 void Command::footer(const std::string& text) { app_->footer(text); }

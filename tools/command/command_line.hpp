@@ -37,6 +37,8 @@ class Command {
   void repeated(const char* name, std::vector<std::string>& values, const char* type, const std::string& description);
   /// An option without a value.
   void flag(const char* name, bool& value, const std::string& description);
+  /// --json, the flag of all commands whose result a machine may read.
+  void json(bool& value);
   /// The command runs a program: what follows its options is for the program, and stands behind "--".
   void takes_program();
   /// The last lines of the command's --help.

@@ -38,12 +38,13 @@ std::string version_line() {
 
 std::string version_json() {
   const std::string digest = to_string(Digest());
-  const nlohmann::ordered_json json = {{"version", WAITPOINT_VERSION},
-                                       {"digests", digest.substr(0, digest.find(':'))},
-                                       {"compiler", compiler},
-                                       {"flags", WAITPOINT_FLAGS},
-                                       {"math", fmt::format("{:016x}", exact::fingerprint())}};
-  return json.dump(2);
+  const nlohmann::ordered_json result = {{"version", WAITPOINT_VERSION},
+                                         {"digests", digest.substr(0, digest.find(':'))},
+                                         {"compiler", compiler},
+                                         {"flags", WAITPOINT_FLAGS},
+                                         {"math", fmt::format("{:016x}", exact::fingerprint())}};
+  const nlohmann::ordered_json document = {{"format", 1}, {"command", "--version"}, {"status", 0}, {"result", result}};
+  return document.dump(2);
 }
 
 }  // namespace waitpoint::tools

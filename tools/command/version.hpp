@@ -13,7 +13,7 @@ std::string version_text();
 /// Its first line, the version.
 std::string version_line();
 
-/// What version_text() has, and the format of digests, as one object of JSON. No trailing newline.
+/// What version_text() has, and the format of digests, as a document of JSON (docs/json.md). No trailing newline.
 std::string version_json();
 
 }  // namespace waitpoint::tools

@@ -9,6 +9,7 @@ declare -A debian=(
          libsensor-msgs-dev libnav-msgs-dev libtf2-msgs-dev libros-rosgraph-msgs-dev libvisualization-msgs-dev'
   [test]='libgtest-dev liboctomap-dev clang gdb libz3-dev python3-rosbag zstd xz-utils pigz pbzip2 perl libtbb-dev
          libuv1-dev cmake catch2 doctest-dev libopenmpi-dev openmpi-bin tcl8.6-dev'
+         libuv1-dev cmake libopenmpi-dev openmpi-bin tcl8.6-dev python3-jsonschema'
   [ros]='python3-rosmaster libroscpp-dev libstd-msgs-dev libnav-msgs-dev libsensor-msgs-dev libtf2-ros-dev
         libnodeletlib-dev libnodeletlib-tools ros-robot-state-publisher python3-rospy python3-nav-msgs python3-sensor-msgs python3-tf2-ros librosbag-dev python3-rosbag'
   [ros2]='cyclonedds-dev cyclonedds-tools libfastrtps-dev libfastcdr-dev'
@@ -30,7 +31,7 @@ declare -A upstream=(
          wanted, Assimp 5.2; for the dynamic world, if wanted, Bullet 3.24 in double precision; for
          accesses as switch points of explored programs, if wanted, Zydis 4; for ROS bags, if wanted,
          rosbag_storage and its messages'
-  [test]='GoogleTest, OctoMap, g++ and clang++, gdb, Z3; if available: zstd, xz, pigz, pbzip2, Perl, TBB, libuv, CMake, Open MPI 4, Tcl 8.6'
+  [test]='GoogleTest, OctoMap, g++ and clang++, gdb, Z3; if available: zstd, xz, pigz, pbzip2, Perl, TBB, libuv, CMake, Open MPI 4, Tcl 8.6, jsonschema for Python'
   [ros]='of ROS 1: roscpp, rospy, tf2_ros, nodelet, rosbag, robot_state_publisher, rosmaster'
   [ros2]='Cyclone DDS 0.10 with idlc, Fast DDS 2.9'
   [view]='Chromium, Node.js 18, npm'

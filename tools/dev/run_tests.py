@@ -81,6 +81,7 @@ OWN_CASES = {
     "pocolibs in C": [sys.executable, str(ROOT / "tests/programs/laas_test.py"), BUILD],
     "links of documents": [sys.executable, str(ROOT / "tests/docs/links_test.py")],
     "site of documents": [sys.executable, str(ROOT / "tests/docs/site_test.py")],
+    "documents of JSON": [sys.executable, str(ROOT / "tests/programs/json_test.py"), BUILD],
 }
 
 

@@ -14,11 +14,13 @@
 #include "fibers/sync/simulation.hpp"
 #include "tools/command/shell_words.hpp"
 #include "tools/command/signal_words.hpp"
+#include "tools/exec/exec_json.hpp"
 #include "tools/exec/family_report.hpp"
 #include "tools/exec/last_calls_report.hpp"
 #include "tools/exec/misuse_report.hpp"
 #include "tools/exec/program_run.hpp"
 #include "tools/exec/race_report.hpp"
+#include "tools/output/json_document.hpp"
 #include "tools/output/output_file.hpp"
 
 namespace waitpoint::tools {
@@ -83,17 +85,20 @@ int run_seeds(const ExecOptions& options, const ProgramFiles& files) {
       if (terminal) std::fprintf(stderr, "\r%40s\r", "");
       output.show();
       std::fprintf(stderr, "waitpoint: seed %llu failed, after %llu that passed: exit status %d\n",
-                   static_cast<unsigned long long>(seed), static_cast<unsigned long long>(runs - 1),
-                   run.signal() != 0 ? 128 + run.signal() : run.exit_status());
+                   static_cast<unsigned long long>(seed), static_cast<unsigned long long>(runs - 1), status_of(run));
       print_failure(options, run.signal(), seed);
-      return 1;
+      if (!options.json) return 1;
+      const std::string failed =
+          exec_json({files.programs.title(), seed, replay_line(options, seed)}, run, memory.record());
+      return end_with_json("exec", 1, seeds_json(files.programs.title(), runs, digests.size(), failed));
     }
     if (seed == options.seeds->last) break;
   }
   if (terminal) std::fprintf(stderr, "\r%40s\r", "");
   std::fprintf(stderr, "waitpoint: %s: %llu seeds, %zu schedules, none failed\n", files.programs.title().c_str(),
                static_cast<unsigned long long>(runs), digests.size());
-  return 0;
+  if (!options.json) return 0;
+  return end_with_json("exec", 0, seeds_json(files.programs.title(), runs, digests.size(), ""));
 }
 
 void write_trace_of(const posix::Record& record, OutputFile& file) {
@@ -124,7 +129,7 @@ int exec(const ExecOptions& options) {
   std::optional<OutputFile> trace;
   if (options.trace) trace.emplace(*options.trace);
   const RunMemory memory(settings_of(options, options.seed));
-  const ProgramRun run(files, memory);
+  const ProgramRun run(files, memory, options.json ? STDERR_FILENO : -1);
   const bool failed = run.signal() != 0 || memory.record().ending != posix::Ending::own;
   if (memory.record().began) {
     std::fputs(races_of(memory.record()).c_str(), stderr);
@@ -138,6 +143,10 @@ int exec(const ExecOptions& options) {
   if (!memory.record().began && run.signal() != 0)
     std::fprintf(stderr, "waitpoint: terminated by %s before main()\n", signal_in_words(run.signal()).c_str());
   if (trace) write_trace_of(memory.record(), *trace);
+  if (options.json)
+    end_with_json(
+        "exec", status_of(run),
+        exec_json({files.programs.title(), options.seed, replay_line(options, options.seed)}, run, memory.record()));
   if (run.signal() != 0) end_by(run.signal());
   return run.exit_status();
 }

@@ -24,9 +24,11 @@ ExecArguments::ExecArguments(CommandLine& line)
   conditions_.add_to(command_);
   command_.takes_program();
   command_.flag("--quiet", quiet_, "print no summary line, unless the run failed");
+  command_.json(json_);
   command_.footer(
       "Several programs in one simulation: exec -- NAME=a ARGUMENTS :: after:NAME b ARGUMENTS\n"
       "(after:NAME its end, after:NAME.started, after:tcp:PORT, after:PATH: what its start waits for)\n"
+      "With --json the program's output goes to standard error.\n"
       "Exit status: the program's own; 124: deadlock; 125: the program cannot be run; with --seeds 1: a seed failed.\n"
       "Data races (of programs compiled with -fsanitize=thread) are reported and do not affect the status; waitpoint\n"
       "explore --exec counts them as failures.");
@@ -37,6 +39,7 @@ ExecOptions ExecArguments::options(const std::vector<std::string>& words) const 
   ExecOptions options;
   options.words = words;
   options.quiet = quiet_;
+  options.json = json_;
   options.conditions = conditions_.conditions(false);
   std::string where = "--seed", seed = seed_;
   if (const char* const given = std::getenv("WAITPOINT_SEED"); seed.empty() && given != nullptr) {

@@ -22,6 +22,7 @@ struct ExecOptions {
   ProgramConditions conditions;
   std::optional<std::filesystem::path> trace;  ///< output file
   bool quiet = false;
+  bool json = false;               ///< the result as JSON to standard output, where the program has no output then
   std::string replay;              ///< the command that repeats the run, if it is not this one
   std::vector<std::string> words;  ///< the program and its arguments; not empty
 };
@@ -40,7 +41,7 @@ class ExecArguments {
  private:
   Command command_;
   std::string seed_, seeds_, trace_, strategy_ = "random";
-  bool quiet_ = false;
+  bool quiet_ = false, json_ = false;
   ConditionArguments conditions_;
 };
 

@@ -79,13 +79,21 @@ bool is_caught(const posix::Record& record, int signal) {
   return (family_of(record).processes[0].caught >> (signal - 1) & 1) != 0;
 }
 
-std::string counts_of(const posix::Record& record) {
+RunCounts counts_in(const posix::Record& record) {
   const Family& family = family_of(record);
-  std::string all;
-  if (family.made > 1) all = fmt::format("{} processes, ", family.made);
-  return all + fmt::format("{} threads, {} at once, {} events, {} switches, {} s of virtual time",
-                           record.threads_made + family.threads_made, record.threads_most, events_of(record),
-                           record.scheduler.switches() + family.hand_overs, to_string(time_of(record)));
+  return {.processes = std::max<std::uint64_t>(1, family.made),
+          .threads = record.threads_made + family.threads_made,
+          .threads_at_once = record.threads_most,
+          .events = events_of(record),
+          .switches = record.scheduler.switches() + family.hand_overs,
+          .time = time_of(record)};
+}
+
+std::string counts_of(const posix::Record& record) {
+  const RunCounts counts = counts_in(record);
+  const std::string all = counts.processes > 1 ? fmt::format("{} processes, ", counts.processes) : "";
+  return all + fmt::format("{} threads, {} at once, {} events, {} switches, {} s of virtual time", counts.threads,
+                           counts.threads_at_once, counts.events, counts.switches, to_string(counts.time));
 }
 
 void kill_all(const posix::Record& record) {

@@ -23,6 +23,12 @@ const posix::History* history_of(const posix::Record& record);
 bool is_single(const posix::Record& record);
 /// The digest of all processes.
 Digest digest_of(const posix::Record& record);
+/// Counts of all processes.
+struct RunCounts {
+  std::uint64_t processes = 1, threads = 0, threads_at_once = 0, events = 0, switches = 0;
+  Time time;
+};
+RunCounts counts_in(const posix::Record& record);
 /// "2 processes, 3 threads, 2 at once, 40 events, 12 switches, 0.5 s of virtual time".
 std::string counts_of(const posix::Record& record);
 /// After the end of the first process: waits for the others, and kills those that are left when the run is over.

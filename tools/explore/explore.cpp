@@ -23,8 +23,10 @@
 #include "tools/explore/runs/scene.hpp"
 #include "tools/explore/search/discoveries.hpp"
 #include "tools/explore/search/search.hpp"
+#include "tools/explore/search_json.hpp"
 #include "tools/explore/shown_search.hpp"
 #include "tools/finding/finding_page.hpp"
+#include "tools/output/json_document.hpp"
 #include "tools/output/output_file.hpp"
 
 namespace waitpoint::tools {
@@ -86,9 +88,24 @@ class Files {
   std::optional<SearchViewers> viewers_;
 };
 
-void tell(const FailureReport& report, Files& files) {
-  write_standard_output(report.text);  // even if the files cannot be written
+void tell(const FailureReport& report, Files& files, bool is_json) {
+  write_text(report.text, is_json);  // even if the files cannot be written
   files.write(report);
+}
+
+/// Ends a search with its status, and its document if that is wanted.
+int end_search(const Target& target, int status, const std::optional<SearchCounts>& counts,
+               const ReportedFailure* failure) {
+  if (!target.options().json) return status;
+  return end_with_json("explore", status, search_json(target.name(), counts, failure));
+}
+
+/// The default order has failed, and nothing else is run.
+int end_at_once(Target& target, SearchProgress& progress, const Finding& usual, Files& files) {
+  const FailureReport report = report_default(target, progress, usual);
+  tell(report, files, target.options().json);
+  const ReportedFailure failure{usual, report};
+  return end_search(target, 1, std::nullopt, &failure);
 }
 
 std::string sum(const Target& target, const Search& search, double seconds, bool is_interrupted) {
@@ -151,8 +168,7 @@ int search(Target& target, Files& files) {
   if (usual && goes_on_after(usual->kind, target.options())) {
     discoveries.take({std::nullopt, *usual});
   } else if (usual && !usual->passed() && files.results() == nullptr) {
-    tell(report_default(target, progress, *usual), files);
-    return 1;
+    return end_at_once(target, progress, *usual, files);
   }
   if (usual) target.set_profile(std::move(usual->profile));
   Search search(target, progress, discoveries, files.results());
@@ -162,14 +178,19 @@ int search(Target& target, Files& files) {
   if (usual && files.results() != nullptr) files.results()->commit();
   const bool is_interrupted = search.interrupted() || !usual;
   const std::string words = sum(target, search, seconds, is_interrupted);
-  write_standard_output(words);
+  write_text(words, target.options().json);
   if (files.viewers() != nullptr) files.viewers()->end(words);
   const FailedRun* const gravest = discoveries.gravest();
-  if (gravest != nullptr)
-    tell(report_of(target, progress, discoveries), files);
-  else
+  const SearchCounts counts{search.schedules(), search.distinct(), search.failures(),          search.raced(), seconds,
+                            is_interrupted,     search.scope(),    words_of(search.obstacle())};
+  if (gravest == nullptr) {
     files.leave(target.options());
-  return is_interrupted ? 130 : gravest != nullptr ? 1 : 0;
+    return end_search(target, is_interrupted ? 130 : 0, counts, nullptr);
+  }
+  const FailureReport report = report_of(target, progress, discoveries);
+  tell(report, files, target.options().json);
+  const ReportedFailure failure{gravest->finding, report};
+  return end_search(target, is_interrupted ? 130 : 1, counts, &failure);
 }
 
 }  // namespace

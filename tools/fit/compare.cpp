@@ -7,9 +7,11 @@
 
 #include "tools/command/distinct_files.hpp"
 #include "tools/command/interruption.hpp"
+#include "tools/command/option_values.hpp"
 #include "tools/fit/comparison.hpp"
 #include "tools/fit/comparison_picture.hpp"
 #include "tools/fit/log_scan.hpp"
+#include "tools/output/json_document.hpp"
 #include "tools/output/output_file.hpp"
 #include "tools/replay/playback_run.hpp"
 #include "tools/run/run_watchdog.hpp"
@@ -37,10 +39,13 @@ CompareArguments::CompareArguments(CommandLine& line)
   command_.option("--other-robot", other_robot_, "NAME", "as --robot, for the other log");
   command_.option("--picture", picture_, "FILE.svg", "draw the distribution functions of both");
   command_.option("--summary", summary_, "FILE.json", "write the comparison as JSON");
+  command_.json(json_);
 }
 
 CompareOptions CompareArguments::options() const {
-  CompareOptions options{source_.options(), source_.options(), {}, {}};
+  CompareOptions options{source_.options(), source_.options(), {}, {}, json_};
+  if (json_ && (is_standard_output(picture_) || is_standard_output(summary_)))
+    refuse("--json", "no other file on standard output", "-");
   options.second.log = other_;
   options.second.choice = {other_scan_, other_odometry_, other_robot_};
   if (!picture_.empty()) options.picture = picture_;
@@ -73,9 +78,11 @@ int compare(const CompareOptions& options, std::span<const genom::ModuleType> ty
     summary->write(comparison_json(first->log.file, second->log.file, rows));
     summary->commit();
   }
-  write_standard_output(fmt::format("{} and {}\n{}{}\n{}", first->log.file, second->log.file, thinned_text(first->log),
-                                    thinned_text(second->log), comparison_text(rows)));
-  return 0;
+  write_text(fmt::format("{} and {}\n{}{}\n{}", first->log.file, second->log.file, thinned_text(first->log),
+                         thinned_text(second->log), comparison_text(rows)),
+             options.json);
+  if (!options.json) return 0;
+  return end_with_json("compare", 0, comparison_json(first->log.file, second->log.file, rows));
 }
 
 }  // namespace waitpoint::tools

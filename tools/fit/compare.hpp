@@ -17,6 +17,7 @@ namespace waitpoint::tools {
 struct CompareOptions {
   LogOptions first, second;
   std::optional<std::filesystem::path> picture, summary;
+  bool json = false;  ///< the comparison as JSON to standard output
 };
 
 class CompareArguments {
@@ -30,6 +31,7 @@ class CompareArguments {
   Command command_;
   LogArguments source_;
   std::string other_, other_scan_, other_odometry_, other_robot_, picture_, summary_;
+  bool json_ = false;
 };
 
 /// Prints the table, and writes the files; returns the exit status. BadInput as of a replay.

@@ -12,8 +12,10 @@
 #include "tools/command/distinct_files.hpp"
 #include "tools/command/interruption.hpp"
 #include "tools/command/option_values.hpp"
+#include "tools/fit/fit_json.hpp"
 #include "tools/fit/replayed_log.hpp"
 #include "tools/fit/robot_type.hpp"
+#include "tools/output/json_document.hpp"
 #include "tools/output/output_file.hpp"
 #include "tools/replay/playback_run.hpp"
 #include "tools/run/run_watchdog.hpp"
@@ -81,6 +83,7 @@ FitArguments::FitArguments(CommandLine& line)
   source_.add(command_);
   command_.option("--name", name_, "NAME", "of the robot type (default: fitted)");
   command_.option("--out", out_, "FILE.yaml", "write it to this file (default: to standard output)");
+  command_.json(json_);
 }
 
 FitOptions FitArguments::options() const {
@@ -92,6 +95,8 @@ FitOptions FitArguments::options() const {
   if (options.name == "include" || options.name.front() == '-')
     refuse("--name", "a name that begins with no '-', and is not the key 'include' of robot_types", options.name);
   if (!out_.empty()) options.out = out_;
+  options.json = json_;
+  if (json_ && is_standard_output(out_)) refuse("--json", "no other file on standard output", "-");
   check_distinct({{"--out", out_},
                   {"--scenario", source_.scenario(), NamedFile::Use::read},
                   {"LOG", source_.log(), NamedFile::Use::read}});
@@ -101,7 +106,8 @@ FitOptions FitArguments::options() const {
 int fit(const FitOptions& options, std::span<const genom::ModuleType> types) {
   heed_signals();
   const RunWatchdog watchdog(RunWatchdog::usual_limit_s);
-  OutputFile file(options.out.value_or("-"));
+  std::optional<OutputFile> file;
+  if (options.out || !options.json) file.emplace(options.out.value_or("-"));
   const std::optional<ReplayedLog> replayed = replayed_log(options.source, types);
   if (!replayed) return interrupted_status;
   RobotFit fitted;
@@ -112,9 +118,11 @@ int fit(const FitOptions& options, std::span<const genom::ModuleType> types) {
   check_plausible(fitted.odometry, replayed->log.file);
   fitted.laser = fit_laser(replayed->log);
   find_speeds(replayed->order, fitted);
-  file.write(robot_type_text(fitted));
-  file.commit();
-  return 0;
+  if (file) {
+    file->write(robot_type_text(fitted));
+    file->commit();
+  }
+  return options.json ? end_with_json("fit", 0, fit_json(fitted)) : 0;
 }
 
 }  // namespace waitpoint::tools

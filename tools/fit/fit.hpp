@@ -16,6 +16,7 @@ struct FitOptions {
   LogOptions source;
   std::string name = "fitted";               ///< of the robot type
   std::optional<std::filesystem::path> out;  ///< none: standard output
+  bool json = false;                         ///< what was fitted as JSON to standard output
 };
 
 class FitArguments {
@@ -29,6 +30,7 @@ class FitArguments {
   Command command_;
   LogArguments source_;
   std::string name_, out_;
+  bool json_ = false;
 };
 
 /// Replays the log, fits the errors of its odometry to the corrected trajectory and those of its laser to its scans,

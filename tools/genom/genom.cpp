@@ -4,12 +4,14 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "core/error.hpp"
 #include "modules/description/parser.hpp"
 #include "tools/genom/c_text.hpp"
 #include "tools/genom/generators.hpp"
+#include "tools/output/json_document.hpp"
 #include "tools/output/output_file.hpp"
 
 namespace waitpoint::tools {
@@ -17,6 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using description::Description;
+using Json = nlohmann::ordered_json;
 
 struct Generated {
   std::string name;
@@ -54,17 +57,32 @@ void write(const fs::path& path, const std::string& text) {
   file.commit();
 }
 
+Json json_of(const GenomOptions& options, const Description& module) {
+  return {{"description", options.file},
+          {"module", module.name.text},
+          {"requests", module.requests.size()},
+          {"posters", module.posters.size()},
+          {"tasks", module.tasks.size()}};
+}
+
+int tell(const GenomOptions& options, const std::string& text, const Json& json) {
+  write_text(text, options.json);
+  return options.json ? end_with_json("genom", 0, json.dump(-1, ' ', false, Json::error_handler_t::replace)) : 0;
+}
+
 }  // namespace
 
 int genom(const GenomOptions& options) {
   const Description module = description::read_description(options.file, options.folders);
+  if (options.documentation_only && options.json)
+    throw BadInput("--json", "cannot be used together with --documentation");
   if (options.documentation_only) return write_standard_output(documentation(module)), 0;
-  if (options.check_only) {
-    write_standard_output(fmt::format("{}: good: module {}, {} requests, {} posters, {} tasks\n", options.file,
-                                      module.name.text, module.requests.size(), module.posters.size(),
-                                      module.tasks.size()));
-    return 0;
-  }
+  Json json = json_of(options, module);
+  if (options.check_only)
+    return tell(options,
+                fmt::format("{}: good: module {}, {} requests, {} posters, {} tasks\n", options.file, module.name.text,
+                            module.requests.size(), module.posters.size(), module.tasks.size()),
+                json);
   const fs::path beside = fs::path(options.file).parent_path();
   const fs::path out = options.out.empty() ? (beside.empty() ? fs::path(".") : beside) : fs::path(options.out);
   // As the compiler finds them from the folder of the Makefile.
@@ -76,19 +94,24 @@ int genom(const GenomOptions& options) {
     include_folders.push_back(
         fs::absolute(folder).lexically_normal().lexically_relative(fs::absolute(out).lexically_normal()).string());
   std::string told;
+  json["folder"] = out.string();
+  json["written"] = json["kept"] = Json::array();
   for (const Generated& file : server_files(module)) {
     write(out / file.name, file.text);
     told += fmt::format("  {}\n", file.name);
+    json["written"].push_back(file.name);
   }
   for (const Generated& file : users_files(module, include_folders)) {
     const bool exists = fs::exists(out / file.name);
     if (!exists) write(out / file.name, file.text);
     told += fmt::format("  {}{}\n", file.name, exists ? " (kept)" : "");
+    json[exists ? "kept" : "written"].push_back(file.name);
   }
-  write_standard_output(fmt::format("module {} in {}:\n{}build: make -C {}\nrun:   {} run {}\n", module.name.text,
-                                    out.string(), told, out.string(), (out / module.name.text).string(),
-                                    (out / (module.name.text + ".yaml")).string()));
-  return 0;
+  return tell(
+      options,
+      fmt::format("module {} in {}:\n{}build: make -C {}\nrun:   {} run {}\n", module.name.text, out.string(), told,
+                  out.string(), (out / module.name.text).string(), (out / (module.name.text + ".yaml")).string()),
+      json);
 }
 
 }  // namespace waitpoint::tools

@@ -13,6 +13,7 @@ struct GenomOptions {
   std::vector<std::string> folders;  ///< of included files, beside that of `file`
   bool documentation_only = false;   ///< to standard output
   bool check_only = false;
+  bool json = false;  ///< what was written as JSON to standard output
 };
 
 /// Writes the files: server/ anew, and of codels/, MODULE.yaml, Makefile those that do not exist. BadInput for a wrong

@@ -4,9 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
 #include "modules/plan/plan_network.hpp"
 #include "modules/plan/plan_reader.hpp"
+#include "tools/output/json_document.hpp"
 #include "tools/output/output_file.hpp"
 #include "tools/output/svg.hpp"
 
@@ -38,6 +40,21 @@ bool is_bounded(Duration duration) { return duration <= plan::bound_max; }
 std::string window(Duration earliest, Duration latest) {
   return is_bounded(latest) ? fmt::format("{:.3f} to {:.3f}", earliest.seconds(), latest.seconds())
                             : fmt::format("from {:.3f}", earliest.seconds());
+}
+
+std::string plan_json(const plan::Plan& plan, const std::string& verdict) {
+  using Json = nlohmann::ordered_json;
+  Json json{{"plan", plan.name}, {"verdict", verdict}, {"actions", Json::array()}};
+  for (const Row& row : rows(plan)) {
+    Json action{{"name", row.action->name},
+                {"contingent", row.action->contingent},
+                {"earliest_start_s", row.earliest_start.seconds()}};
+    if (is_bounded(row.latest_start)) action["latest_start_s"] = row.latest_start.seconds();
+    action["earliest_end_s"] = row.earliest_end.seconds();
+    if (is_bounded(row.latest_end)) action["latest_end_s"] = row.latest_end.seconds();
+    json["actions"].push_back(std::move(action));
+  }
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 }  // namespace
@@ -76,8 +93,9 @@ std::string plan_picture(const plan::Plan& plan) {
 
 int show_plan(const PlanOptions& options) {
   const plan::Plan plan = plan::read_plan(scenario::load_yaml(options.file));
-  std::string text = fmt::format("plan '{}': {}\n\n  {:<40} {:>22} {:>22}\n", plan.name, to_string(check(plan)),
-                                 "action", "start in s", "end in s");
+  const std::string verdict = to_string(check(plan));
+  std::string text =
+      fmt::format("plan '{}': {}\n\n  {:<40} {:>22} {:>22}\n", plan.name, verdict, "action", "start in s", "end in s");
   for (const Row& row : rows(plan))
     text += fmt::format("  {:<40} {:>22} {:>22}\n", row.action->name + (row.action->contingent ? " (contingent)" : ""),
                         window(row.earliest_start, row.latest_start), window(row.earliest_end, row.latest_end));
@@ -86,8 +104,8 @@ int show_plan(const PlanOptions& options) {
     picture.write(plan_picture(plan));
     picture.commit();
   }
-  write_standard_output(text);
-  return 0;
+  write_text(text, options.json);
+  return options.json ? end_with_json("plan", 0, plan_json(plan, verdict)) : 0;
 }
 
 }  // namespace waitpoint::tools

@@ -12,6 +12,7 @@ namespace waitpoint::tools {
 struct PlanOptions {
   std::filesystem::path file;
   std::filesystem::path picture;  ///< empty: none
+  bool json = false;              ///< the result as JSON to standard output
 };
 
 /// Prints the verdict and the windows of the actions of the first branches; returns the exit status. Throws BadInput

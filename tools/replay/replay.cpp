@@ -13,6 +13,7 @@
 #include "core/printable_line.hpp"
 #include "modules/playback/playback.hpp"
 #include "tools/command/interruption.hpp"
+#include "tools/output/json_document.hpp"
 #include "tools/output/output_file.hpp"
 #include "tools/output/progress.hpp"
 #include "tools/output/recorders.hpp"
@@ -143,15 +144,13 @@ int play_log(const LogSource& source, const PlayOptions& options, std::span<cons
 
   const std::vector<Content> made = contents(options, log, playback, result, files);  // before anything is written
   const std::string text = replay_text(log, playback, result);
-  if (options.summary && is_standard_output(*options.summary))
-    std::fputs(text.c_str(), stderr);
-  else
-    write_standard_output(text);
+  write_text(text, options.json || (options.summary && is_standard_output(*options.summary)));
   write_files(made, files);
   if (const std::string& trouble = playback.simulation().trouble(); !trouble.empty())
     std::fprintf(stderr, "waitpoint: %s\n", trouble.c_str());
-  if (run.interrupted) return interrupted_status;
-  return run.end == RunEnd::deadlock || run.end == RunEnd::no_progress ? 1 : 0;
+  const bool is_stuck = run.end == RunEnd::deadlock || run.end == RunEnd::no_progress;
+  const int status = run.interrupted ? interrupted_status : is_stuck ? 1 : 0;
+  return options.json ? end_with_json(options.command, status, replay_json(log, playback, result)) : status;
 }
 
 int replay_log(const ReplayOptions& options, std::span<const genom::ModuleType> types) {

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/replay/replay_options.hpp"
 
+#include <algorithm>
+
 #include "core/error.hpp"
 #include "tools/command/distinct_files.hpp"
 #include "tools/command/option_values.hpp"
+#include "tools/output/output_file.hpp"
 #include "tools/replay/log_map.hpp"
 
 namespace waitpoint::tools {
@@ -22,6 +25,7 @@ ReplayArguments::ReplayArguments(CommandLine& line)
                   "  stamp1 stamp2 x y z roll pitch yaw");
   command_.option("--summary", summary_, "FILE.json",
                   "write the summary as JSON; -: to standard output, in place of the text");
+  command_.json(json_);
   command_.option("--picture", picture_, "FILE.svg", "draw the path and the map");
   command_.option("--map", map_, "FILE.yaml",
                   "write a map for ROS's map_server and scenarios, and its image as FILE.pgm");
@@ -84,6 +88,10 @@ ReplayOptions ReplayArguments::options() const {
   if (play.map && play.map->extension() == ".pgm") refuse("--map", "the name of a YAML file", map_);
   play.digests = file(digests_);
   play.events = file(events_);
+  play.json = json_;
+  const std::string* const files[] = {&trajectory_, &summary_, &picture_, &map_, &digests_, &events_};
+  if (json_ && std::ranges::any_of(files, [](const std::string* name) { return is_standard_output(*name); }))
+    refuse("--json", "no other file on standard output", "-");
   return options;
 }
 

@@ -22,6 +22,8 @@ struct PlayOptions {
   std::uint64_t seed = 1;
   kernel::Order order = kernel::Order::fifo;
   std::optional<Duration> until;             ///< none: as of the log's source
+  bool json = false;                         ///< the result as JSON to standard output
+  const char* command = "replay";            ///< of waitpoint, for it
   std::optional<playback::PoseSource> pose;  ///< of the trajectory; none: the first that there is
   std::optional<std::filesystem::path> trajectory, relations, summary, picture, map, digests, events;
 
@@ -47,7 +49,7 @@ class ReplayArguments {
   LogArguments source_;
   std::string until_, pose_;
   std::string trajectory_, relations_, summary_, picture_, map_, digests_, events_;
-  bool check_ = false;
+  bool check_ = false, json_ = false;
 };
 
 }  // namespace waitpoint::tools

@@ -44,6 +44,8 @@ PlayOptions play_options(const RunOptions& options, const scenario::LogFile& log
   play.trajectory = options.trajectory;
   play.summary = options.summary;
   play.picture = options.picture;
+  play.json = options.json;
+  play.command = "run";
   play.digests = options.digests;
   play.events = options.events;
   const auto name = [](const std::optional<std::filesystem::path>& file) { return file ? file->string() : ""; };

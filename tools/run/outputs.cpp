@@ -7,9 +7,11 @@
 #include <utility>
 
 #include "fibers/kernel/fault_reports.hpp"
+#include "tools/output/json_document.hpp"
 #include "tools/output/picture.hpp"
 #include "tools/output/summary.hpp"
 #include "tools/record/formats.hpp"
+#include "tools/run/run_json.hpp"
 #include "tools/run/viewed_run.hpp"
 
 namespace waitpoint::tools {
@@ -26,7 +28,12 @@ std::string picture_of(const run::Experiment& experiment, const bridge::RunResul
 }  // namespace
 
 Outputs::Outputs(const RunOptions& options, const scenario::Scenario& scenario, run::Experiment& experiment)
-    : scenario_(scenario), experiment_(experiment), seed_(options.seed), process_(getpid()) {
+    : scenario_(scenario),
+      experiment_(experiment),
+      seed_(options.seed),
+      replay_(replay_line(options, options.seed)),
+      json_(options.json),
+      process_(getpid()) {
   std::vector<std::string> names;
   for (const scenario::RobotScenario& robot : scenario.robots) names.push_back(robot.name);
   check_files(options, names);
@@ -145,11 +152,22 @@ void Outputs::write(const bridge::RunResult& result) {
   });
 }
 
-void Outputs::complete_after_death(const char* reason) { of_this_run->cut_off(reason); }
+void Outputs::complete_after_death(const char* reason) { of_this_run->cut_off(reason, std::nullopt); }
+
+void Outputs::end_json(const bridge::RunResult& result, std::optional<int> status) const {
+  if (!json_) return;
+  try {
+    OutputFile output("-");
+    output.write(json_document("run", status, run_json(result, {}, replay_)));
+    output.commit();
+  } catch (const std::exception& failure) {
+    dprintf(STDERR_FILENO, "waitpoint: %s\n", failure.what());
+  }
+}
 
 // In the forked copy of a process that dies, or after an exception. A file that cannot be completed must not cost the
 // others theirs; its destructor removes what there is of it.
-void Outputs::cut_off(const std::string& reason) {
+void Outputs::cut_off(const std::string& reason, std::optional<int> status) {
   is_running_ = false;
   if (getpid() != process_ && getppid() != process_) return;  // a task's child is dying, not the run
   OutputFile::take_over();
@@ -158,6 +176,7 @@ void Outputs::cut_off(const std::string& reason) {
   result.trouble = reason;
   result.seed = seed_;
   result.simulated = experiment_.simulation().global_time().since_start();
+  end_json(result, status);
   int kept = 0, lost = 0;
   complete(result, reason, [&](auto& file, auto finish) {
     if (!file) return;

@@ -49,8 +49,9 @@ class Outputs {
   void check(const bridge::RunResult& result) const { durations_->check(result.outcome == bridge::Outcome::finished); }
   /// Writes and names all files. Throws BadInput if one cannot be written; those not yet named are as before.
   void write(const bridge::RunResult& result);
-  /// Completes all files with what is known, marked as cut off: the run failed. Nothing is thrown.
-  void cut_off(const std::string& reason);
+  /// Completes all files with what is known, marked as cut off: the run failed. Nothing is thrown. Without a status a
+  /// signal ends the process.
+  void cut_off(const std::string& reason, std::optional<int> status);
 
  private:
   static void complete_after_death(const char* reason);
@@ -59,6 +60,7 @@ class Outputs {
   void watch_ranks();
   void watch_steps();
   void record_step(Time now);
+  void end_json(const bridge::RunResult& result, std::optional<int> status) const;
 
   const scenario::Scenario& scenario_;
   run::Experiment& experiment_;
@@ -76,7 +78,9 @@ class Outputs {
   std::optional<RankOutputs> ranks_;  // of several
   view::SceneOptions scene_;          // for the page
   std::uint64_t seed_;
-  pid_t process_;  // of the run
+  std::string replay_;  // the command
+  bool json_;           // wanted
+  pid_t process_;       // of the run
   bool is_running_ = false;
 };
 

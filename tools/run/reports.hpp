@@ -6,6 +6,7 @@
 #include <exception>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/error.hpp"
 #include "modules/bridge/run_result.hpp"
@@ -43,8 +44,13 @@ class Printed {
   std::optional<BadInput> failure_;
 };
 
-/// The exit status; unmet expectations are told on standard error.
-int status(const scenario::Scenario& scenario, const bridge::RunResult& result);
+/// The exit status, and the expectations that are not met, a sentence each.
+struct Verdict {
+  int status = 0;
+  std::vector<std::string> unmet;
+};
+/// What is not as expected is told on standard error, too.
+Verdict verdict(const scenario::Scenario& scenario, const bridge::RunResult& result);
 
 /// Tells of the failure, with the line that repeats the run, and completes the outputs (null: none). Returns the exit
 /// status.

@@ -21,6 +21,7 @@
 #include "tools/nodes/seed_with_nodes.hpp"
 #include "tools/nodes/simulated_nodes.hpp"
 #include "tools/nodes/world_partner.hpp"
+#include "tools/output/json_document.hpp"
 #include "tools/output/summary.hpp"
 #include "tools/ranks/joined_ranks.hpp"
 #include "tools/ranks/launcher.hpp"
@@ -30,6 +31,7 @@
 #include "tools/run/outputs.hpp"
 #include "tools/run/prompt.hpp"
 #include "tools/run/reports.hpp"
+#include "tools/run/run_json.hpp"
 #include "tools/run/run_watchdog.hpp"
 #include "tools/run/seed_runs.hpp"
 #include "tools/run/session.hpp"
@@ -171,7 +173,9 @@ int run_once(const RunOptions& options, const scenario::Scenario& scenario, run:
   if (live) live->finish(result);
   printed.check();
   if (!same) tell_of_difference(*journal);
-  return same ? status(scenario, result) : 1;
+  const Verdict ended = same ? verdict(scenario, result) : Verdict{1, {}};
+  if (!options.json) return ended.status;
+  return end_with_json("run", ended.status, run_json(result, ended.unmet, replay_line(options, options.seed)));
 }
 
 // May begin this process anew, with a library for the scenario's programs.
@@ -199,13 +203,19 @@ void check_for_nodes(const RunOptions& options) {
 
 // Without a world there is nothing to write but what nodes do.
 void check_for_bag(const RunOptions& options) {
-  const std::pair<const char*, bool> of_worlds[] = {
-      {"--place", !options.places.empty()},       {"--order", options.order != RunOptions().order},
-      {"--journal", options.journal.has_value()}, {"--replay-journal", options.replay_journal.has_value()},
-      {"--summary", options.summary.has_value()}, {"--picture", options.picture.has_value()},
-      {"--page", options.page.has_value()},       {"--trajectory", options.trajectory.has_value()},
-      {"--record", options.record.has_value()},   {"--digests", options.digests.has_value()},
-      {"--events", options.events.has_value()},   {"--decisions", options.decisions.has_value()}};
+  const std::pair<const char*, bool> of_worlds[] = {{"--json", options.json},
+                                                    {"--place", !options.places.empty()},
+                                                    {"--order", options.order != RunOptions().order},
+                                                    {"--journal", options.journal.has_value()},
+                                                    {"--replay-journal", options.replay_journal.has_value()},
+                                                    {"--summary", options.summary.has_value()},
+                                                    {"--picture", options.picture.has_value()},
+                                                    {"--page", options.page.has_value()},
+                                                    {"--trajectory", options.trajectory.has_value()},
+                                                    {"--record", options.record.has_value()},
+                                                    {"--digests", options.digests.has_value()},
+                                                    {"--events", options.events.has_value()},
+                                                    {"--decisions", options.decisions.has_value()}};
   for (const auto& [option, is_given] : of_worlds)
     if (is_given) throw BadInput(option, "cannot be used where a bag is played in the place of a world");
 }

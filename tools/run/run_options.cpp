@@ -49,6 +49,7 @@ bool is_origin(const std::string& text) {
 }  // namespace
 
 bool RunOptions::writes_standard_output() const {
+  if (json) return true;
   for (const auto* file :
        {&summary, &picture, &page, &record, &digests, &events, &decisions, &record_durations, &journal})
     if (*file && is_standard_output(**file)) return true;
@@ -178,6 +179,7 @@ RunArguments::RunArguments(CommandLine& line)
 void RunArguments::add_outputs() {
   command_.option("--summary", summary_, "FILE.json",
                   "write the summary as JSON; -: to standard output, in place of the text");
+  command_.json(json_);
   command_.option("--picture", picture_, "FILE.svg", "draw the floor and the paths");
   command_.option("--page", page_, "FILE.html",
                   "write a page for browsers that shows the run: floor, timeline of tasks, plots,\n"
@@ -249,6 +251,18 @@ void RunArguments::check_writes_nothing() const {
 void RunArguments::check_alone() const {
   check_not_together("--seeds", {{"--seed", seed_}, {"--replay-durations", replay_durations_}});
   check_of_many("--seeds");
+}
+
+/// Takes --json, too: standard output is for the document alone, and not for who asks for commands there.
+void RunArguments::check_outputs(RunOptions& options) const {
+  check_files(options, {});
+  if (options.record_durations && options.replay_durations)
+    throw BadInput("--record-durations", "cannot be used together with --replay-durations");
+  if (!json_) return;
+  if (interactive_) throw BadInput("--json", "cannot be used together with --interactive");
+  if (tcl_) throw BadInput("--json", "cannot be used together with --tcl");
+  if (options.writes_standard_output()) refuse("--json", "no other file on standard output", "-");
+  options.json = true;
 }
 
 /// What is measured, compared or written per process is not there for several.
@@ -346,9 +360,7 @@ RunOptions RunArguments::options() const {
   options.events = file(events_);
   options.record_durations = file(record_durations_);
   options.replay_durations = file(replay_durations_);
-  check_files(options, {});
-  if (options.record_durations && options.replay_durations)
-    throw BadInput("--record-durations", "cannot be used together with --replay-durations");
+  check_outputs(options);
   return options;
 }
 

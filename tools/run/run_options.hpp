@@ -44,6 +44,7 @@ struct RunOptions {
   std::optional<std::string> serve;                     ///< ADDRESS:PORT of the viewer
   bool serve_control = false;                           ///< viewers may act on the run
   std::vector<std::string> serve_origins;               ///< of pages from elsewhere that may connect as Foxglove
+  bool json = false;                                    ///< the result as JSON to standard output
   bool is_brief = false;                                ///< of nodes: see nodes::NodeRunOptions
   bool check = false;                                   ///< self-check: compare runs instead of reporting a result
   std::optional<std::filesystem::path> summary, picture, page, trajectory, record, digests, events, decisions;
@@ -51,7 +52,7 @@ struct RunOptions {
 
   /// The end of a run, for a scenario whose own limit is `own`.
   Time limit(Duration own) const { return Time() + until.value_or(own); }
-  /// True if one of the output files is standard output, where no other text may be then.
+  /// True if JSON or one of the output files is on standard output, where no other text may be then.
   bool writes_standard_output() const;
 };
 
@@ -88,6 +89,7 @@ class RunArguments {
   void check_of_many(const char* option) const;
   void check_writes_nothing() const;
   void check_alone() const;
+  void check_outputs(RunOptions& options) const;
   void check_for_ranks() const;
   void check_partners(double speed) const;
   void take_served(RunOptions& options) const;
@@ -99,7 +101,7 @@ class RunArguments {
   std::string record_durations_, replay_durations_, play_;
   std::vector<std::string> places_, serve_origins_;
   PartnerOptions partners_;
-  bool serve_control_ = false, interactive_ = false, tcl_ = false, check_ = false, is_brief_ = false;
+  bool serve_control_ = false, interactive_ = false, tcl_ = false, check_ = false, is_brief_ = false, json_ = false;
 };
 
 }  // namespace waitpoint::tools

@@ -14,11 +14,13 @@
 #include "modules/run/ranks/archive.hpp"
 #include "modules/run/ranks/results.hpp"
 #include "tools/command/interruption.hpp"
+#include "tools/output/json_document.hpp"
 #include "tools/output/output_file.hpp"
 #include "tools/output/quantiles.hpp"
 #include "tools/output/summary.hpp"
 #include "tools/processes/children.hpp"
 #include "tools/run/reports.hpp"
+#include "tools/run/run_json.hpp"
 
 namespace waitpoint::tools {
 namespace {
@@ -96,29 +98,30 @@ int run_seeds(const RunOptions& options, const scenario::Scenario& scenario, con
   if (options.summary) summary.emplace(*options.summary);
   std::vector<bridge::RunResult> results;
   int worst = 0;
-  bool has_failed = false;
+  std::optional<FailedSeed> failed;
   Printed printed(options);
   printed.print(seeds_head());
   const auto take = [&](std::uint64_t seed, Ended ended) {
-    has_failed = !ended.failure.empty();
-    if (has_failed) {
-      report_failure(std::runtime_error(ended.failure), replay_line(options, seed), nullptr);
+    if (!ended.failure.empty()) {
+      failed = {seed, ended.failure, replay_line(options, seed)};
+      report_failure(std::runtime_error(ended.failure), failed->replay, nullptr);
       return false;
     }
     results.push_back(std::move(ended.result));
     printed.print(seeds_row(results.back()));
-    worst = std::max(worst, status(scenario, results.back()));
+    worst = std::max(worst, verdict(scenario, results.back()).status);
     return true;
   };
   options.jobs > 1 ? run_at_once(options, run, take) : run_in_turn(options, run, take);
-  if (has_failed) return 1;
+  if (failed) return options.json ? end_with_json("run", 1, runs_json(results, failed)) : 1;
   if (results.size() > 1) printed.print(quantiles_text(results));
   if (summary) {
     summary->write(summary_json(results));
     summary->commit();
   }
   printed.check();
-  return interruption() != 0 ? 130 : worst;
+  const int status = interruption() != 0 ? 130 : worst;
+  return options.json ? end_with_json("run", status, runs_json(results, failed)) : status;
 }
 
 }  // namespace waitpoint::tools

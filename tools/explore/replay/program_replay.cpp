@@ -13,6 +13,7 @@
 #include "tools/exec/access_obstacles.hpp"
 #include "tools/exec/family_report.hpp"
 #include "tools/exec/program_run.hpp"
+#include "tools/explore/replay/replay_json.hpp"
 #include "tools/explore/replay/replay_record.hpp"
 #include "tools/explore/runs/learned_code.hpp"
 #include "tools/explore/runs/program_finding.hpp"
@@ -21,6 +22,7 @@
 #include "tools/explore/runs/run_with_nodes.hpp"
 #include "tools/explore/search/feedback.hpp"
 #include "tools/nodes/log_folder.hpp"
+#include "tools/output/json_document.hpp"
 #include "tools/output/output_file.hpp"
 
 namespace waitpoint::tools {
@@ -103,9 +105,10 @@ int replay_program(const ExploreOptions& asked) {
   RunMemory memory(settings_of(options));
   ask_for_run(memory, replayed.files, options, plan, request, profile);
   const double limit_s = options.schedule_limit_s.value_or(least_limit_s);
-  const ProgramRun run(replayed.files, memory, replayed.begin_run(-1), limit_s);
+  // The program's output is in the way of a document.
+  const ProgramRun run(replayed.files, memory, replayed.begin_run(options.json ? STDERR_FILENO : -1), limit_s);
   const std::string output = replayed.streams ? replayed.streams->whole_output() : "";
-  write_standard_output(output);
+  write_text(output, options.json);
   Finding finding =
       finding_of_run(memory, run.status(), output, request, trace.has_value(), options.races != Races::ignore);
   if (options.has_nodes) tell_unmet(finding);
@@ -127,7 +130,8 @@ int replay_program(const ExploreOptions& asked) {
   std::fprintf(stderr, "waitpoint: %s%s\n", finding.passed() ? "passed" : "failed: ", finding.words.c_str());
   std::fputs(finding.details.c_str(), stderr);
   if (record.digest_bits > 0) std::fprintf(stderr, "waitpoint: the same run as in the record\n");
-  return finding.passed() ? 0 : 1;
+  const int status = finding.passed() ? 0 : 1;
+  return options.json ? end_with_json("explore", status, replay_json(options, record, finding, "")) : status;
 }
 
 }  // namespace waitpoint::tools

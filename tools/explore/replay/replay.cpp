@@ -4,9 +4,11 @@
 #include <optional>
 
 #include "core/error.hpp"
+#include "tools/explore/replay/replay_json.hpp"
 #include "tools/explore/replay/replay_record.hpp"
 #include "tools/explore/runs/scene.hpp"
 #include "tools/explore/search/failed_run.hpp"
+#include "tools/output/json_document.hpp"
 #include "tools/output/output_file.hpp"
 #include "tools/output/progress.hpp"
 #include "tools/output/summary.hpp"
@@ -35,14 +37,16 @@ int replay(const ExploreOptions& asked, const scenario::Scenario& scenario, std:
   result.seed = options.seed;  // not the seed of the schedule's noise, which is derived from it
   result.wall_s = wall_clock_s() - start_s;
   result.real_time_factor = result.wall_s > 0 ? result.simulated.seconds() / result.wall_s : 0;
-  write_standard_output(summary_text(result));
+  write_text(summary_text(result), options.json);
   if (trace) {
     trace->write(finding.trace);
     trace->commit();
   }
-  if (record.digest_bits > 0) write_standard_output("\nthe same run as in the record\n");
+  if (record.digest_bits > 0) write_text("\nthe same run as in the record\n", options.json);
   if (!finding.passed()) std::fprintf(stderr, "waitpoint: failed: %s\n", finding.words.c_str());
-  return finding.passed() ? 0 : 1;
+  const int status = finding.passed() ? 0 : 1;
+  if (!options.json) return status;
+  return end_with_json("explore", status, replay_json(options, record, finding, summary_json(result)));
 }
 
 }  // namespace waitpoint::tools

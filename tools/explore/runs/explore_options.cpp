@@ -15,6 +15,7 @@
 #include "tools/command/distinct_files.hpp"
 #include "tools/command/installed_part.hpp"
 #include "tools/command/option_values.hpp"
+#include "tools/output/output_file.hpp"
 
 namespace waitpoint::tools {
 namespace {
@@ -172,6 +173,7 @@ ExploreArguments::ExploreArguments(CommandLine& line)
   command_.option("--page", page_, "FILE.html",
                   "write the failing schedule beside the nearest passing one as a page for browsers, which opens\n"
                   "offline (docs/view.md)");
+  command_.json(json_);
   command_.option("--finding", finding_, "FILE.json", "write the same as data, for `waitpoint view`");
   command_.option_or_flag("--serve", serve_, "ADDRESS:PORT", free_port,
                           "show the search and its finding in a browser, until Ctrl-C: at this address, or at a\n"
@@ -253,6 +255,10 @@ void ExploreArguments::take_outputs(ExploreOptions& options) const {
   options.finding = file(finding_);
   if (!serve_.empty()) options.serve = serve_ == free_port ? "" : serve_;
   options.schedule = file(schedule_);
+  options.json = json_;
+  const std::string* const files[] = {&results_, &schedule_, &trace_, &page_, &finding_};
+  if (json_ && std::ranges::any_of(files, [](const std::string* name) { return is_standard_output(*name); }))
+    refuse("--json", "no other file on standard output", "-");
 }
 
 ExploreOptions ExploreArguments::options(const std::vector<std::string>& words) const {

@@ -48,6 +48,7 @@ struct ExploreOptions {
   std::optional<std::string> serve;  ///< address and port at which browsers see the search and its finding; empty: any
   std::string replay;                ///< a token or a file's name, to run only that schedule
   bool minimize = true;
+  bool json = false;                         ///< the result as JSON to standard output
   bool forks_each = false;                   ///< each schedule of a program has a process of its own
   std::uint32_t snapshots = 0;               ///< of a program: the most that are kept
   ProgramConditions conditions;              ///< of a program
@@ -85,7 +86,7 @@ class ExploreArguments {
   std::vector<std::string> assignments_, properties_, external_;
   ConfinementArguments confinement_;
   ConditionArguments conditions_;
-  bool is_program_ = false, keep_all_ = false, forks_each_ = false;
+  bool is_program_ = false, keep_all_ = false, forks_each_ = false, json_ = false;
 };
 
 }  // namespace waitpoint::tools

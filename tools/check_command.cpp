@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/check_command.hpp"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "core/printable_line.hpp"
+#include "modules/playback/playback.hpp"
+#include "modules/run/experiment.hpp"
+#include "modules/scenario/scenario_reader.hpp"
+#include "tools/command/program_layer.hpp"
+#include "tools/output/json_document.hpp"
+#include "tools/replay/log_source.hpp"
+#include "tools/run/run_watchdog.hpp"
+
+namespace waitpoint::tools {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+int tell_good(bool is_json, const std::string& text, const Json& json) {
+  write_text(text, is_json);
+  return is_json ? end_with_json("check", 0, json.dump(-1, ' ', false, Json::error_handler_t::replace)) : 0;
+}
+
+int check_log(const CheckOptions& options, const scenario::Scenario& scenario,
+              std::span<const genom::ModuleType> types) {
+  const LogSource source = log_source(scenario);
+  const logs::SensorLog log = source.read();
+  const playback::Playback playback(log, source.robot, types, {});
+  const std::string text = fmt::format("{}: good: {} modules, {} scans of {}\n", printable_line(scenario.file),
+                                       playback.modules(), log.scans.size(), printable_line(log.file));
+  return tell_good(options.json, text,
+                   {{"scenario", scenario.file},
+                    {"modules", playback.modules()},
+                    {"log", log.file},
+                    {"scans", log.scans.size()},
+                    {"warnings", Json::array()}});
+}
+
+}  // namespace
+
+int check(const CheckOptions& options, std::span<const genom::ModuleType> types) {
+  const scenario::Scenario scenario = scenario::read_scenario(options.scenario, options.assignments);
+  begin_with_program_layer(scenario);
+  const RunWatchdog watchdog(RunWatchdog::usual_limit_s);
+  if (scenario.log) return check_log(options, scenario, types);
+  const run::Experiment experiment(scenario, types, {});
+  std::size_t modules = 0, goals = 0;
+  for (const scenario::RobotScenario& robot : scenario.robots) {
+    goals += robot.goals.size();
+    for (const scenario::ModuleScenario& module : robot.modules) modules += module.enabled ? 1 : 0;
+  }
+  const std::size_t obstacles = experiment.world().description().obstacles.size();
+  std::string text =
+      fmt::format("{}: good: {} robots, {} modules, {} goals, {} obstacles\n",
+                  printable_line(options.scenario.string()), scenario.robots.size(), modules, goals, obstacles);
+  std::vector<std::string> plans;
+  for (const auto& robot : experiment.robots())
+    if (const std::string plan = robot->plan_text(); !plan.empty()) plans.push_back(plan);
+  for (const std::string& plan : plans) text += plan + "\n";
+  const std::vector<std::string> warnings = experiment.result().warnings;
+  for (const std::string& warning : warnings) text += "warning: " + warning + "\n";
+  return tell_good(options.json, text,
+                   {{"scenario", options.scenario.string()},
+                    {"robots", scenario.robots.size()},
+                    {"modules", modules},
+                    {"goals", goals},
+                    {"obstacles", obstacles},
+                    {"plans", plans},
+                    {"warnings", warnings}});
+}
+
+}  // namespace waitpoint::tools

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// `waitpoint check SCENARIO`: reads a scenario and assembles its run, without running it.
+#pragma once
+
+#include <span>
+
+#include "modules/genom/module_type.hpp"
+#include "tools/options.hpp"
+
+namespace waitpoint::tools {
+
+/// Prints what the scenario has; returns the exit status. BadInput for a scenario that cannot be run.
+int check(const CheckOptions& options, std::span<const genom::ModuleType> types);
+
+}  // namespace waitpoint::tools

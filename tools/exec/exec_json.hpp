@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What --json prints of a program's run, or of a series of them.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "fibers/posix/program/record.hpp"
+#include "tools/exec/program_run.hpp"
+
+namespace waitpoint::tools {
+
+/// How a run is named and repeated.
+struct NamedRun {
+  std::string program;
+  std::uint64_t seed = 1;
+  std::string replay;  ///< the command
+};
+
+/// The status that a shell sees.
+int status_of(const ProgramRun& run);
+
+/// How the run ended, its digest and counts, its races and misuses.
+std::string exec_json(const NamedRun& named, const ProgramRun& run, const posix::Record& record);
+
+/// A series of seeds: `failed` is the last run if that has failed, as an object of exec_json(); empty: none has.
+std::string seeds_json(const std::string& program, std::uint64_t runs, std::uint64_t schedules,
+                       const std::string& failed);
+
+}  // namespace waitpoint::tools
