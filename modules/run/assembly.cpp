@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "core/missing_part.hpp"
 #include "core/number_text.hpp"
 #include "modules/executive/known_space.hpp"
 #include "modules/run/known_map.hpp"
@@ -103,9 +104,7 @@ void Assembly::make_world(const world::WorldDescription& description, std::uint6
     scenario::check_dynamic(scenario_, world::loose_overlaps(description));
     world_ = world::make_bullet_world(description, seed);
     if (world_ == nullptr)
-      throw scenario_.engine_written.bad(
-          "engine bullet is not in this program: install libbullet-dev (Bullet in double precision) and build it "
-          "again");
+      throw scenario_.engine_written.bad(std::string("engine bullet is not in this program: ") + missing_part::bullet);
     return;
   }
   const auto loose = std::count_if(description.obstacles.begin(), description.obstacles.end(),

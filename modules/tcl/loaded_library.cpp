@@ -3,6 +3,7 @@
 
 #include <filesystem>
 
+#include "core/missing_part.hpp"
 #include "modules/tcl/interpreter.hpp"
 
 namespace waitpoint::tcl {
@@ -19,7 +20,7 @@ const Library& load(const std::string& where, int line) {
           ? std::filesystem::read_symlink("/proc/self/exe").parent_path().parent_path() / Library::file
           : std::filesystem::path(library_path());
   if (!std::filesystem::exists(path))
-    throw BadInput(where, line, "scripts in Tcl are not in this program: install tcl8.6-dev and build it again");
+    throw BadInput(where, line, std::string("scripts in Tcl are not in this program: ") + missing_part::tcl);
   void* const object = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (object == nullptr) throw BadInput(where, line, std::string("the library for Tcl cannot be loaded: ") + dlerror());
   const auto* const loaded = static_cast<const Library*>(dlsym(object, Library::symbol));

@@ -160,7 +160,7 @@ console.log(JSON.stringify(counts));
 
 class RosBag(unittest.TestCase):
     def setUp(self):
-        if "without rosbag_storage" in run("--record", folder() / "x.bag", until_s=0.1).stderr:
+        if "./dev add bags" in run("--record", folder() / "x.bag", until_s=0.1).stderr:
             self.skipTest("this waitpoint was built without rosbag_storage")
 
     def test_is_what_the_stock_rosbag_says_it_is(self):

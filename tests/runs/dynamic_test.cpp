@@ -143,7 +143,7 @@ TEST(DynamicWorldsInput, IsReadStrictly) {
 
 TEST(DynamicWorldsInput, WithoutBulletIsOneLineThatSaysWhatToInstall) {
   if (world::make_bullet_world({}, 1) != nullptr) GTEST_SKIP() << "built with Bullet";
-  EXPECT_NE(complaint(shipped("office.yaml", {on_bullet})).find("install libbullet-dev"), std::string::npos);
+  EXPECT_NE(complaint(shipped("office.yaml", {on_bullet})).find("`./dev add bullet`"), std::string::npos);
 }
 
 }  // namespace

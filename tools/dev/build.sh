@@ -22,7 +22,22 @@ configure() {
         return
       fi
     done
+    # Meson looks for libraries only at set-up.
+    part_appeared || return 0
+    meson setup --reconfigure "$build" "$root" >&2
   fi
+}
+
+# True if the packages of a part that build/ lacks have been installed since it was set up.
+part_appeared() {
+  command -v dpkg-query >/dev/null || return
+  local part
+  for part in "${parts[@]}"; do
+    grep -qF "${trace_of_part[$part]}" "$build/build.ninja" && continue
+    grep -qxF "${option_of_part[$part]} = disabled" "$build/meson-private/cmd_line.txt" && continue
+    [[ $(missing_packages $(needed debian "$part")) ]] || return 0
+  done
+  return 1
 }
 
 # Finds peers of the benchmarks installed since build/ was set up: Meson looks for libraries only at set-up.

@@ -5,11 +5,17 @@
 # Debian's names, and the upstream names of the same software.
 declare -A debian=(
   [run]='meson ninja-build g++ pkg-config python3 libboost-context-dev libfcl-dev libyaml-cpp-dev libcli11-dev libfmt-dev
-         nlohmann-json3-dev libpng-dev libtinyxml2-dev zlib1g-dev libbz2-dev liblz4-dev libzstd-dev libassimp-dev libbullet-dev libzydis-dev librosbag-storage-dev
-         libsensor-msgs-dev libnav-msgs-dev libtf2-msgs-dev libros-rosgraph-msgs-dev libvisualization-msgs-dev'
+         nlohmann-json3-dev libpng-dev libtinyxml2-dev zlib1g-dev libbz2-dev liblz4-dev libzstd-dev'
+  [accesses]='libzydis-dev'
+  [bags]='librosbag-storage-dev libsensor-msgs-dev libnav-msgs-dev libtf2-msgs-dev libros-rosgraph-msgs-dev libvisualization-msgs-dev'
+  [bullet]='libbullet-dev'
+  [meshes]='libassimp-dev'
+  [ranks]='libopenmpi-dev openmpi-bin'
+  [tcl]='tcl8.6-dev'
   [test]='libgtest-dev liboctomap-dev clang gdb libz3-dev python3-rosbag zstd xz-utils pigz pbzip2 perl libtbb-dev
          libuv1-dev cmake catch2 doctest-dev libopenmpi-dev openmpi-bin tcl8.6-dev'
          libuv1-dev cmake libopenmpi-dev openmpi-bin tcl8.6-dev python3-jsonschema'
+         libuv1-dev cmake'
   [ros]='python3-rosmaster libroscpp-dev libstd-msgs-dev libnav-msgs-dev libsensor-msgs-dev libtf2-ros-dev
         libnodeletlib-dev libnodeletlib-tools ros-robot-state-publisher python3-rospy python3-nav-msgs python3-sensor-msgs python3-tf2-ros librosbag-dev python3-rosbag'
   [ros2]='cyclonedds-dev cyclonedds-tools libfastrtps-dev libfastcdr-dev'
@@ -32,6 +38,14 @@ declare -A upstream=(
          accesses as switch points of explored programs, if wanted, Zydis 4; for ROS bags, if wanted,
          rosbag_storage and its messages'
   [test]='GoogleTest, OctoMap, g++ and clang++, gdb, Z3; if available: zstd, xz, pigz, pbzip2, Perl, TBB, libuv, CMake, Open MPI 4, Tcl 8.6, jsonschema for Python'
+         logs, if wanted, bzip2, lz4, zstd'
+  [accesses]='for accesses as switch points of explored programs: Zydis 4'
+  [bags]='for recordings as ROS bags: rosbag_storage and its messages'
+  [bullet]='for the dynamic world: Bullet 3.24 in double precision'
+  [meshes]='for meshes of other kinds than STL and OBJ: Assimp 5.2'
+  [ranks]='for runs of several processes: Open MPI 4'
+  [tcl]='for scripts in Tcl: Tcl 8.6'
+  [test]='GoogleTest, OctoMap, g++ and clang++, gdb, Z3; if available: zstd, xz, pigz, pbzip2, Perl, TBB, libuv, CMake'
   [ros]='of ROS 1: roscpp, rospy, tf2_ros, nodelet, rosbag, robot_state_publisher, rosmaster'
   [ros2]='Cyclone DDS 0.10 with idlc, Fast DDS 2.9'
   [view]='Chromium, Node.js 18, npm'
@@ -47,8 +61,17 @@ declare -A upstream=(
 )
 # Required for every build; all libraries except Google Benchmark and its peers come from subprojects/ if missing.
 declare -A tools=(
+  [accesses]='' [bags]='' [bullet]='' [meshes]='' [ranks]='' [tcl]=''
   [run]='meson ninja c++ pkg-config python3' [test]='' [ros]='rosmaster' [ros2]='idlc' [view]='chromium node npm' [builds]='clang++ apt-get' [wraps]='apt-get' [valgrind]='valgrind'
   [bench]='' [peers]='' [docs]='sphinx-build doxygen' [check]='' [format]='clang-format'
+)
+
+# Parts of the program that need a library of their own, and the option and the trace of each in the build.
+parts=(accesses bags bullet meshes ranks tcl)
+declare -A option_of_part=([accesses]=disassembler [bags]=rosbag [bullet]=bullet [meshes]=assimp [ranks]=ranks [tcl]=tcl)
+declare -A trace_of_part=(
+  [accesses]=libZydis [bags]=libwaitpoint-bags.so [bullet]=BulletDynamics [meshes]=libassimp [ranks]=libwaitpoint-mpi.so
+  [tcl]=libwaitpoint-tcl.so
 )
 
 say() { echo "dev: $*" >&2; }

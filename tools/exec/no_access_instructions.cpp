@@ -2,6 +2,7 @@
 //
 // In builds without a disassembler.
 #include "core/error.hpp"
+#include "core/missing_part.hpp"
 #include "tools/exec/access_instructions.hpp"
 
 namespace waitpoint::tools {
@@ -9,7 +10,7 @@ namespace waitpoint::tools {
 bool has_disassembler() { return false; }
 
 std::vector<posix::AccessInstruction> access_instructions(const std::filesystem::path&) {
-  throw BadInput("--switch-at", "this waitpoint was built without Zydis, which finds accesses (Debian's libzydis-dev)");
+  throw BadInput("--switch-at", std::string("accesses cannot be found by this program: ") + missing_part::accesses);
 }
 
 }  // namespace waitpoint::tools

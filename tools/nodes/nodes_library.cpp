@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <string>
 
+#include "core/missing_part.hpp"
 #include "tools/command/installed_part.hpp"
 
 namespace waitpoint::tools {
@@ -15,7 +16,7 @@ std::filesystem::path path_of_library(const Location& written) {
   try {
     return find_part(nodes::Library::file);
   } catch (const BadInput&) {
-    throw written.bad("ROS nodes are not in this program: `./dev ros` installs what they need, and builds it again");
+    throw written.bad(std::string("ROS nodes are not in this program: ") + missing_part::nodes);
   }
 }
 

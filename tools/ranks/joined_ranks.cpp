@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "core/error.hpp"
+#include "core/missing_part.hpp"
 #include "fibers/sync/system_calls.hpp"
 #include "tools/command/installed_part.hpp"
 #include "tools/command/interruption.hpp"
@@ -22,7 +23,7 @@ std::string library_path() {
   try {
     return find_part(library).string();
   } catch (const BadInput&) {
-    throw BadInput("--ranks", std::string("ranks are not in this program: ") + ranks_remedy);
+    throw BadInput("--ranks", std::string("ranks are not in this program: ") + missing_part::ranks);
   }
 }
 

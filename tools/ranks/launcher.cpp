@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/missing_part.hpp"
 #include "core/program_path.hpp"
 
 namespace waitpoint::tools {
@@ -127,7 +128,7 @@ bool is_rank() {
 
 int run_ranks(int ranks, std::span<const std::string> arguments) {
   const std::string mpirun = find_program("mpirun").string();
-  if (mpirun.empty()) throw BadInput("--ranks", std::string("there is no program 'mpirun': ") + ranks_remedy);
+  if (mpirun.empty()) throw BadInput("--ranks", std::string("there is no program 'mpirun': ") + missing_part::ranks);
   const std::vector<std::string> words = command_of(mpirun, ranks, arguments);
   Door door;
   sigset_t heeded, before;

@@ -11,7 +11,6 @@
 namespace waitpoint::tools {
 
 /// What a user is told to do where ranks are missing.
-inline constexpr const char* ranks_remedy = "install openmpi-bin and libopenmpi-dev, and build waitpoint again";
 
 /// True in one of several processes that mpirun has started.
 bool is_rank();

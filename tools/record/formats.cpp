@@ -5,32 +5,15 @@
 #include "tools/record/carmen_recording.hpp"
 #include "tools/record/foxglove_recording.hpp"
 #include "tools/record/mcap_file.hpp"
-
-#ifdef WAITPOINT_ROS_BAGS
 #include "tools/record/ros_bag_recording.hpp"
-#endif
 
 namespace waitpoint::tools {
-namespace {
-
-std::unique_ptr<Recording> make_bag(const std::filesystem::path& path,
-                                    [[maybe_unused]] const scenario::Scenario& scenario) {
-#ifdef WAITPOINT_ROS_BAGS
-  return std::make_unique<RosBagRecording>(path, scenario);
-#else
-  throw BadInput(
-      path.string(),
-      "this waitpoint was built without rosbag_storage (Debian: librosbag-storage-dev) and cannot write bags");
-#endif
-}
-
-}  // namespace
 
 std::unique_ptr<Recording> make_recording(const std::filesystem::path& path, const scenario::Scenario& scenario) {
   if (path.extension() == ".mcap")
     return std::make_unique<FoxgloveRecording>(path, scenario, std::make_unique<McapFile>(path));
   if (path.extension() == ".log") return std::make_unique<CarmenRecording>(path, scenario);
-  if (path.extension() == ".bag") return make_bag(path, scenario);
+  if (path.extension() == ".bag") return std::make_unique<RosBagRecording>(path, scenario);
   throw BadInput("--record",
                  "expected a file .mcap (Foxglove), .bag (ROS 1) or .log (CARMEN), found '" + path.string() + "'");
 }

@@ -61,11 +61,9 @@ boost::array<double, 36> of(const RosBagFile::Covariance& covariance) {
   return all;
 }
 
-}  // namespace
-
 // A bag that could not be written or closed is leaked: its destructor would write again, to a file that may be closed
 // already, and throw.
-struct RosBagFile::Bag {
+struct Bag {
   rosbag::Bag* bag = new rosbag::Bag;
 
   Bag() = default;
@@ -95,24 +93,51 @@ struct RosBagFile::Bag {
   }
 };
 
-RosBagFile::RosBagFile(const std::string& path) : path_(path), bag_(std::make_unique<Bag>()) {
-  bag_->call([&](rosbag::Bag& bag) { bag.open(path, rosbag::bagmode::Write); });
-}
+class WrittenBag final : public RosBagFile {
+ public:
+  explicit WrittenBag(const std::string& path) : path_(path) {
+    bag_.call([&](rosbag::Bag& bag) { bag.open(path, rosbag::bagmode::Write); });
+  }
 
-RosBagFile::~RosBagFile() = default;
+  void set_time(std::int64_t now_ns) override { now_ns_ = now_ns; }
+  void write_clock() override;
+  void write_transform(const Place& child, const std::string& child_frame) override;
+  void write_pose(const std::string& topic, const Place& place) override;
+  void write_pose(const std::string& topic, const Place& place, const Covariance& covariance) override;
+  void write_odometry(const std::string& topic, const Place& place, const Covariance& covariance,
+                      const std::string& child, double v, double w) override;
+  void write_scan(const std::string& topic, const Scan& scan) override;
+  void write_solids(const std::string& topic, const std::vector<Solid>& solids) override;
+  void write_path(const std::string& topic, std::int64_t time_ns, const std::string& frame,
+                  const std::vector<Place>& places) override;
+  void write_poses(const std::string& topic, std::int64_t time_ns, const std::string& frame,
+                   const std::vector<Place>& places) override;
+  void write_grid(const std::string& topic, const Grid& grid) override;
+  void write_log(const std::string& topic, std::int64_t time_ns, const std::string& who, const std::string& text,
+                 bool is_warning) override;
+  void close() override;
+
+ private:
+  template <class Message>
+  void write(const std::string& topic, const Message& message);
+
+  std::string path_;
+  Bag bag_;
+  std::int64_t now_ns_ = 0;
+};
 
 template <class Message>
-void RosBagFile::write(const std::string& topic, const Message& message) {
-  bag_->call([&](rosbag::Bag& bag) { bag.write(topic, std::max(time_of(now_ns_), ros::TIME_MIN), message); });
+void WrittenBag::write(const std::string& topic, const Message& message) {
+  bag_.call([&](rosbag::Bag& bag) { bag.write(topic, std::max(time_of(now_ns_), ros::TIME_MIN), message); });
 }
 
-void RosBagFile::write_clock() {
+void WrittenBag::write_clock() {
   rosgraph_msgs::Clock clock;
   clock.clock = time_of(now_ns_);
   write("/clock", clock);
 }
 
-void RosBagFile::write_transform(const Place& child, const std::string& child_frame) {
+void WrittenBag::write_transform(const Place& child, const std::string& child_frame) {
   geometry_msgs::TransformStamped transform;
   transform.header = header_of(child);
   transform.child_frame_id = child_frame;
@@ -125,14 +150,14 @@ void RosBagFile::write_transform(const Place& child, const std::string& child_fr
   write("/tf", message);
 }
 
-void RosBagFile::write_pose(const std::string& topic, const Place& place) {
+void WrittenBag::write_pose(const std::string& topic, const Place& place) {
   geometry_msgs::PoseStamped message;
   message.header = header_of(place);
   message.pose = pose_of(place);
   write(topic, message);
 }
 
-void RosBagFile::write_pose(const std::string& topic, const Place& place, const Covariance& covariance) {
+void WrittenBag::write_pose(const std::string& topic, const Place& place, const Covariance& covariance) {
   geometry_msgs::PoseWithCovarianceStamped message;
   message.header = header_of(place);
   message.pose.pose = pose_of(place);
@@ -140,7 +165,7 @@ void RosBagFile::write_pose(const std::string& topic, const Place& place, const 
   write(topic, message);
 }
 
-void RosBagFile::write_odometry(const std::string& topic, const Place& place, const Covariance& covariance,
+void WrittenBag::write_odometry(const std::string& topic, const Place& place, const Covariance& covariance,
                                 const std::string& child, double v, double w) {
   nav_msgs::Odometry message;
   message.header = header_of(place);
@@ -152,7 +177,7 @@ void RosBagFile::write_odometry(const std::string& topic, const Place& place, co
   write(topic, message);
 }
 
-void RosBagFile::write_scan(const std::string& topic, const Scan& scan) {
+void WrittenBag::write_scan(const std::string& topic, const Scan& scan) {
   sensor_msgs::LaserScan message;
   message.header.stamp = time_of(scan.time_ns);
   message.header.frame_id = scan.frame;
@@ -165,7 +190,7 @@ void RosBagFile::write_scan(const std::string& topic, const Scan& scan) {
   write(topic, message);
 }
 
-void RosBagFile::write_solids(const std::string& topic, const std::vector<Solid>& solids) {
+void WrittenBag::write_solids(const std::string& topic, const std::vector<Solid>& solids) {
   visualization_msgs::MarkerArray all;
   for (const Solid& solid : solids) {
     visualization_msgs::Marker marker;
@@ -184,7 +209,7 @@ void RosBagFile::write_solids(const std::string& topic, const std::vector<Solid>
   write(topic, all);
 }
 
-void RosBagFile::write_path(const std::string& topic, std::int64_t time_ns, const std::string& frame,
+void WrittenBag::write_path(const std::string& topic, std::int64_t time_ns, const std::string& frame,
                             const std::vector<Place>& places) {
   nav_msgs::Path path;
   path.header = header_of({time_ns, frame, 0, 0, 0, 0, 1});
@@ -197,7 +222,7 @@ void RosBagFile::write_path(const std::string& topic, std::int64_t time_ns, cons
   write(topic, path);
 }
 
-void RosBagFile::write_poses(const std::string& topic, std::int64_t time_ns, const std::string& frame,
+void WrittenBag::write_poses(const std::string& topic, std::int64_t time_ns, const std::string& frame,
                              const std::vector<Place>& places) {
   geometry_msgs::PoseArray poses;
   poses.header = header_of({time_ns, frame, 0, 0, 0, 0, 1});
@@ -205,7 +230,7 @@ void RosBagFile::write_poses(const std::string& topic, std::int64_t time_ns, con
   write(topic, poses);
 }
 
-void RosBagFile::write_grid(const std::string& topic, const Grid& grid) {
+void WrittenBag::write_grid(const std::string& topic, const Grid& grid) {
   nav_msgs::OccupancyGrid message;
   message.header = header_of(grid.origin);
   message.info.map_load_time = message.header.stamp;
@@ -217,7 +242,7 @@ void RosBagFile::write_grid(const std::string& topic, const Grid& grid) {
   write(topic, message);
 }
 
-void RosBagFile::write_log(const std::string& topic, std::int64_t time_ns, const std::string& who,
+void WrittenBag::write_log(const std::string& topic, std::int64_t time_ns, const std::string& who,
                            const std::string& text, bool is_warning) {
   rosgraph_msgs::Log log;
   log.header.stamp = time_of(time_ns);
@@ -227,8 +252,8 @@ void RosBagFile::write_log(const std::string& topic, std::int64_t time_ns, const
   write(topic, log);
 }
 
-void RosBagFile::close() {
-  bag_->call([](rosbag::Bag& bag) { bag.close(); });
+void WrittenBag::close() {
+  bag_.call([](rosbag::Bag& bag) { bag.close(); });
   // The library overlooks failures of ftello(), after which its index points elsewhere.
   try {
     Bag written;
@@ -239,4 +264,10 @@ void RosBagFile::close() {
   }
 }
 
+std::unique_ptr<RosBagFile> make(const std::string& path) { return std::make_unique<WrittenBag>(path); }
+
+}  // namespace
 }  // namespace waitpoint::tools
+
+extern "C" [[gnu::visibility("default")]] const waitpoint::tools::BagLibrary waitpoint_bag_library_1 = {
+    .make = &waitpoint::tools::make};

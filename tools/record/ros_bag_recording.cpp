@@ -35,8 +35,9 @@ RosBagFile::Grid grid(Time time, const std::string& frame, const OccupancyGrid& 
 
 RosBagRecording::RosBagRecording(const std::filesystem::path& path, const scenario::Scenario& scenario)
     : ViewerRecording(path, scenario), file_(path) {
+  const BagLibrary& library = bag_library(path.string());
   try {
-    bag_ = std::make_unique<RosBagFile>(file_.written_to().string());
+    bag_ = library.make(file_.written_to().string());
   } catch (const std::exception& failure) {
     throw BadInput(path.string(), std::string("cannot be written: ") + failure.what());
   }

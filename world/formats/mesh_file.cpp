@@ -6,6 +6,7 @@
 
 #include "core/error.hpp"
 #include "core/file_contents.hpp"
+#include "core/missing_part.hpp"
 #include "world/formats/limits.hpp"
 #include "world/formats/obj.hpp"
 #include "world/formats/stl.hpp"
@@ -26,9 +27,10 @@ TriangleMesh read(const std::string& file, LeftOut& left_out) {
   if (ending == ".stl") return parse_stl(file_contents(file, "an STL mesh", mesh_bytes_max), file, left_out);
   if (ending == ".obj") return parse_obj(file_contents(file, "an OBJ mesh", mesh_bytes_max), file, left_out);
   if (assimp_reads(ending)) return read_mesh_by_assimp(file_contents(file, "a mesh", tree_bytes_max), file, left_out);
-  throw BadInput(file, std::string("expected a mesh in a file that ends in .stl or .obj") +
-                           (assimp_reads(".dae") ? ", or that Assimp reads"
-                                                 : ": other kinds need Assimp, which is not in this program"));
+  throw BadInput(
+      file, std::string("expected a mesh in a file that ends in .stl or .obj") +
+                (assimp_reads(".dae") ? std::string(", or that Assimp reads")
+                                      : std::string("; others are not read by this program: ") + missing_part::meshes));
 }
 
 }  // namespace
