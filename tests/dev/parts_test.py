@@ -1,10 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Parts of the program that need libraries of their own: `./dev add`, and what the other commands do about them."""
+"""Parts of the program that need libraries of their own, and the packages: `./dev add`, what the other commands do about
+them, and what debian/ says of the tree."""
 
 import os
 import pathlib
 import re
 import subprocess
+import sys
 import tempfile
 import unittest
 
@@ -58,6 +60,37 @@ class Parts(unittest.TestCase):
     def test_the_program_names_only_commands_that_exist(self):
         named = re.findall(r"`\./dev add (\w+)`", (ROOT / "core/missing_part.hpp").read_text())
         self.assertEqual(sorted(named), ["accesses", "bags", "bullet", "meshes", "ranks", "tcl"])
+        packages = set(re.findall(r"install the package (waitpoint-\w+)", (ROOT / "core/missing_part.hpp").read_text()))
+        self.assertEqual(packages - set(re.findall(r"(?m)^Package: (\S+)", (ROOT / "debian/control").read_text())), set())
+
+
+class Packages(unittest.TestCase):
+    """What Debian's packages take from the tree."""
+
+    def test_have_the_version_of_the_project(self):
+        project = re.search(r"version: '(.+)'", (ROOT / "meson.build").read_text())[1]
+        packaged = re.match(r"waitpoint \((.+)-\d+\)", (ROOT / "debian/changelog").read_text())[1]
+        self.assertEqual(packaged, project.replace("-", "~"))
+
+    def test_the_interface_keeps_the_versions_of_its_names(self):
+        with tempfile.TemporaryDirectory() as folder:
+            symbols = pathlib.Path(folder) / "symbols"
+
+            def update(source, version):
+                library = pathlib.Path(folder) / "lib.so"
+                subprocess.run(["c++", "-shared", "-fPIC", "-x", "c++", "-", "-o", library], input=source, text=True, check=True)
+                tool = [sys.executable, ROOT / "tools/dev/symbols.py", library, version, symbols]
+                return subprocess.run(tool, capture_output=True, text=True)
+
+            first = "namespace waitpoint { void run(int) {} void stop() {} inline void pause() {} }"
+            self.assertEqual(update(first, "1.0.0").returncode, 0)
+            more = update(first + "namespace waitpoint { void run(long) {} }", "1.1.0")
+            self.assertEqual((more.returncode, more.stdout), (0, ""))
+            self.assertEqual([line for line in symbols.read_text().splitlines() if "c++" in line],
+                             [' (c++)"waitpoint::run(int)@Base" 1.0.0', ' (c++)"waitpoint::run(long)@Base" 1.1.0',
+                              ' (c++)"waitpoint::stop()@Base" 1.0.0'])
+            less = update("namespace waitpoint { void run(int) {} void run(long) {} }", "2.0.0")
+            self.assertEqual((less.returncode, less.stdout), (1, "gone: waitpoint::stop()\n"))
 
 
 if __name__ == "__main__":

@@ -27,6 +27,8 @@ declare -A debian=(
   [peers]='libsystemc-dev libsimgrid-dev libboost-fiber-dev libembree-dev libbox2d-dev
            libode-dev libcgal-dev'
   [docs]='python3-sphinx python3-myst-parser furo doxygen'
+  [package]='git dpkg-dev debhelper xz-utils'
+  [packages]='debootstrap'
   [check]='clang-format clang-tidy'
   [format]='clang-format'
 )
@@ -56,6 +58,8 @@ declare -A upstream=(
   [peers]='SystemC 2.3.4, SimGrid 3.32, Boost.Fiber 1.74, Embree 3.13, Box2D 2.4,
            ODE 0.16, CGAL 5.5 (each is left out where it is missing)'
   [docs]='Sphinx 5.3 with MyST and furo, Doxygen 1.9'
+  [package]='Debian 12, git'
+  [packages]='debootstrap'
   [check]='clang-format and clang-tidy 14'
   [format]='clang-format 14'
 )
@@ -63,7 +67,7 @@ declare -A upstream=(
 declare -A tools=(
   [accesses]='' [bags]='' [bullet]='' [meshes]='' [ranks]='' [tcl]=''
   [run]='meson ninja c++ pkg-config python3' [test]='' [ros]='rosmaster' [ros2]='idlc' [view]='chromium node npm' [builds]='clang++ apt-get' [wraps]='apt-get' [valgrind]='valgrind'
-  [bench]='' [peers]='' [docs]='sphinx-build doxygen' [check]='' [format]='clang-format'
+  [bench]='' [peers]='' [docs]='sphinx-build doxygen' [package]='git dpkg-buildpackage' [packages]='debootstrap' [check]='' [format]='clang-format'
 )
 
 # Parts of the program that need a library of their own, and the option and the trace of each in the build.
