@@ -9,6 +9,7 @@
 #include "core/error.hpp"
 #include "core/exact_kernels.hpp"
 #include "core/exact_math.hpp"
+#include "core/instructions.hpp"
 
 namespace waitpoint::exact {
 namespace {
@@ -109,7 +110,7 @@ void sincos_16(std::span<const double> x, double* sines, double* cosines) { sinc
 void atan2_16(std::span<const double> y, const double* x, double* angles) { atan2_in<16>(y, x, angles); }
 void log_16(std::span<const double> x, double* logarithms) { log_in<16>(x, logarithms); }
 
-#if defined(__x86_64__)
+#if WAITPOINT_X86_64
 #define WAITPOINT_AVX2 __attribute__((target("avx2")))
 WAITPOINT_AVX2 void sincos_32(std::span<const double> x, double* sines, double* cosines) {
   sincos_in<32>(x, sines, cosines);
@@ -135,8 +136,8 @@ const BatchFunctions& functions() {
 }  // namespace
 
 std::vector<BatchFunctions> all_batch_functions() {
-  std::vector<BatchFunctions> all = {{"baseline", sincos_16, atan2_16, log_16}};
-#if defined(__x86_64__)
+  std::vector<BatchFunctions> all = {{WAITPOINT_X86_64 ? "SSE2" : "two lanes", sincos_16, atan2_16, log_16}};
+#if WAITPOINT_X86_64
   if (__builtin_cpu_supports("avx2")) all.push_back({"AVX2", sincos_32, atan2_32, log_32});
   if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq"))
     all.push_back({"AVX-512", sincos_64, atan2_64, log_64});

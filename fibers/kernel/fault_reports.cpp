@@ -71,15 +71,24 @@ const Task* overflowed(const Scheduler& scheduler, const char* address) {
   return nullptr;
 }
 
-// A call through a bad pointer: the address that it returns to is on top of the stack. The unwinder would read the code
-// at the bad address.
-void leave_bad_code(ucontext_t& context) {
-  greg_t* const registers = context.uc_mcontext.gregs;
+bool is_readable(std::uint64_t address) {
   char byte = 0;
-  const iovec to{&byte, 1}, from{reinterpret_cast<void*>(registers[REG_RIP]), 1};
-  if (process_vm_readv(getpid(), &to, 1, &from, 1, 0) == 1) return;
+  const iovec to{&byte, 1}, from{reinterpret_cast<void*>(address), 1};
+  return process_vm_readv(getpid(), &to, 1, &from, 1, 0) == 1;
+}
+
+// A call through a bad pointer: back to the address that it returns to, which is on top of the stack or in a register.
+// The unwinder would read the code at the bad address.
+void leave_bad_code(ucontext_t& context) {
+#if defined(__x86_64__)
+  greg_t* const registers = context.uc_mcontext.gregs;
+  if (is_readable(static_cast<std::uint64_t>(registers[REG_RIP]))) return;
   registers[REG_RIP] = *reinterpret_cast<greg_t*>(registers[REG_RSP]);
   registers[REG_RSP] += sizeof(greg_t);
+#elif defined(__aarch64__)
+  constexpr int link = 30;
+  if (!is_readable(context.uc_mcontext.pc)) context.uc_mcontext.pc = context.uc_mcontext.regs[link];
+#endif
 }
 
 [[noreturn]] void act_in_copy(PostMortem function, const char* reason) {

@@ -10,6 +10,7 @@
 
 #include <cstdint>
 
+#include "core/instructions.hpp"
 #include "fibers/switch/fiber_record.hpp"
 
 namespace waitpoint::kernel {
@@ -39,7 +40,9 @@ struct Arrival {
 // control word:4 | r12 to r15, unused here | rbx | rbp | address of continuation. rbx and rbp are saved here, since a
 // compiler does not accept them as clobbers in a frame that needs them. Functions that contain this call others too, so
 // they have no red zone below their stack.
-#ifdef __x86_64__
+//
+// On other processors, and in portable builds, it is jump_fcontext itself.
+#if WAITPOINT_X86_64
 [[gnu::always_inline]] inline Arrival depart(Departure away) {
   Arrival arrival;
   asm volatile(

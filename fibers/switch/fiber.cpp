@@ -5,6 +5,7 @@
 #include <cerrno>
 
 #include "core/error.hpp"
+#include "core/instructions.hpp"
 #include "fibers/switch/runtime_state.hpp"
 #include "fibers/switch/sanitizer.hpp"
 #include "fibers/switch/thread_pointer.hpp"
@@ -42,7 +43,7 @@ inline void jump(Fiber& from, Fiber& to) {
 
 // Switches back to prepare(). The fiber is entered by depart(), which does not restore all registers: hence the
 // clobbers.
-#ifdef __x86_64__
+#if WAITPOINT_X86_64
 context::transfer_t wait_to_begin(context::fcontext_t maker) {
   context::transfer_t came{};
   void* nothing = nullptr;
@@ -56,9 +57,17 @@ context::transfer_t wait_to_begin(context::fcontext_t maker) {
 context::transfer_t wait_to_begin(context::fcontext_t maker) { return context::jump_fcontext(maker, nullptr); }
 #endif
 
+// In the outermost frame of a fiber: debuggers and unwinders stop here.
+#if defined(__x86_64__)
+#define WAITPOINT_OUTERMOST_FRAME asm volatile(".cfi_undefined rip")
+#elif defined(__aarch64__)
+#define WAITPOINT_OUTERMOST_FRAME asm volatile(".cfi_undefined x30")
+#else
+#define WAITPOINT_OUTERMOST_FRAME
+#endif
+
 void run_entry(context::transfer_t transfer) {
-  // The outermost frame of the fiber: debuggers and unwinders stop here.
-  asm volatile(".cfi_undefined rip");
+  WAITPOINT_OUTERMOST_FRAME;
   // prepare() switches here once, so that Start can be read from its frame; the next switch starts the fiber.
   const Start start = *static_cast<const Start*>(transfer.data);
   transfer = wait_to_begin(transfer.fctx);
@@ -105,7 +114,7 @@ void switch_fiber_and_storage(Fiber& from, Fiber& to) {
   jump(from, to);
 }
 
-#ifndef __x86_64__
+#if !WAITPOINT_X86_64
 Arrival depart(Departure away) {
   const context::transfer_t came = context::jump_fcontext(away.context, reinterpret_cast<void*>(away.how_else));
   return {came.fctx, came.data};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A stack that can be left and re-entered. Only fiber.cpp uses Boost.Context: to make fibers, and to switch them on
-// other processors than x86-64 (departure.hpp).
+// A stack that can be left and re-entered. Only fiber.cpp uses Boost.Context: to make fibers, and to switch them
+// where that is not inline (departure.hpp).
 //
 // Boost 1.74 keeps no exception state per fiber: a fiber that switches inside a catch block, or in a destructor during
 // unwinding, would see another's exceptions. So the runtime's per-thread record of exceptions in flight, and errno, are

@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "core/error.hpp"
+#include "core/instructions.hpp"
 #include "fibers/switch/fiber_record.hpp"
 
 // The runtimes' public interfaces (sanitizer/*_interface.h); a program has at most one of them.
@@ -57,16 +58,21 @@ constexpr unsigned without_synchronization = 1;  // a switch does not synchronis
 
 bool is_outside(const Fiber& fiber) { return fiber.stack.low == nullptr; }
 
-// valgrind's client requests, as in its manual: a sequence of rotations without effect on a processor.
+// valgrind's client requests, as in its manual: a sequence of rotations without effect on a processor. Of x86-64 only:
+// elsewhere valgrind is not told of stacks.
 constexpr std::uint64_t running_on_valgrind = 0x1001, register_stack = 0x1501, deregister_stack = 0x1502;
 
 std::uint64_t ask_valgrind(std::uint64_t request, std::uint64_t first = 0, std::uint64_t second = 0) {
-  const volatile std::uint64_t arguments[6] = {request, first, second, 0, 0, 0};
   std::uint64_t answer = 0;
+#if WAITPOINT_X86_64
+  const volatile std::uint64_t arguments[6] = {request, first, second, 0, 0, 0};
   asm volatile("rolq $3, %%rdi; rolq $13, %%rdi; rolq $61, %%rdi; rolq $51, %%rdi; xchgq %%rbx, %%rbx"
                : "=d"(answer)
                : "a"(arguments), "0"(answer)
                : "cc", "memory");
+#else
+  static_cast<void>(request), static_cast<void>(first), static_cast<void>(second);
+#endif
   return answer;
 }
 

@@ -3,26 +3,26 @@
 // of all per-thread state of a C library: errno, locale, exceptions in flight, keys.
 #pragma once
 
-#if defined(__x86_64__)
+#include "core/error.hpp"
+#include "core/instructions.hpp"
+#if WAITPOINT_X86_64
 #include <asm/prctl.h>
 #include <sys/auxv.h>
 #include <sys/syscall.h>
 #endif
 
-#include "core/error.hpp"
-
 namespace waitpoint::kernel {
 
 /// True if fibers can have their own on this processor.
 constexpr bool has_thread_pointers() {
-#if defined(__x86_64__)
+#if WAITPOINT_X86_64
   return true;
 #else
   return false;
 #endif
 }
 
-#if defined(__x86_64__)
+#if WAITPOINT_X86_64
 
 inline void* thread_pointer() {
   void* pointer = nullptr;

@@ -6,6 +6,7 @@
 #   COMPILER[-libc++]-LEVEL[-v3]   like clang++-O0, clang++-libc++-O3-v3: built in build-BUILD/. With libc++ the C++
 #                                  libraries come from subprojects/, so that the whole program uses it; v3 is
 #                                  x86-64-v3: processors with AVX2 and FMA
+#   portable                       the default build with -Dportable=true, in build-portable/
 #   build                          the default build
 #   build-no-fma                   the same program without the processor's FMA and AVX2
 #   build-plain-path               the same program without the kernel's fast paths
@@ -20,7 +21,7 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 source "$root/tools/dev/packages.sh"
 source "$root/tools/dev/build.sh"
 
-all_builds=({g++,clang++,clang++-libc++}-O{0,2,3} {g++,clang++,clang++-libc++}-O3-v3 build-no-fma build-plain-path)
+all_builds=({g++,clang++,clang++-libc++}-O{0,2,3} {g++,clang++,clang++-libc++}-O3-v3 portable build-no-fma build-plain-path)
 
 # glibc selects its sine by the processor's features; python uses glibc's.
 no_fma=glibc.cpu.hwcaps=-FMA,-FMA4,-AVX2
@@ -44,6 +45,10 @@ outcome() {
 # Builds BUILD in build-BUILD/ and shows the log on failure: build_one BUILD
 build_one() {
   local build=$root/build-$1 log=$root/build-$1.log words=$1 options=()
+  if [[ $words == portable ]]; then
+    words=g++-O2
+    options+=(-Dportable=true)
+  fi
   if [[ $words == *-v3 ]]; then
     words=${words%-v3}
     options+=(-Dcpp_args=-march=x86-64-v3)
@@ -85,7 +90,7 @@ fi
 
 (($#)) || set -- "${all_builds[@]}"
 for name; do
-  [[ $name != build* ]] || continue
+  [[ $name != build* && $name != portable ]] || continue
   compiler=${name%%+*}++
   command -v "$compiler" >/dev/null || { say "$compiler is not installed" && exit 77; }
   [[ $name != *libc++* ]] || echo '#include <vector>' | clang++ -stdlib=libc++ -fsyntax-only -x c++ - 2>/dev/null ||

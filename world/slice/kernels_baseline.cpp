@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// For any processor; on x86-64, SSE2.
+// What every processor of a kind has: SSE2 on x86-64, NEON on 64-bit ARM.
 #include "world/slice/kernels.hpp"
 #include "world/slice/vector_asking.hpp"
 #include "world/slice/vector_culling.hpp"
@@ -7,7 +7,7 @@
 namespace waitpoint::world {
 
 constinit const Kernels kernels_baseline = {
-    "baseline",
+    WAITPOINT_X86_64 ? "SSE2" : "NEON",
     &VectorCulling<2>::turn,
     &VectorCulling<2>::look,
     &VectorCulling<2>::all_nearer,

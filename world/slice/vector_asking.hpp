@@ -10,9 +10,9 @@
 
 namespace waitpoint::world {
 
-template <int lanes>
+template <int lanes, Instructions set = Instructions::own>
 struct VectorAsking {
-  using V = Vectors<lanes>;
+  using V = Vectors<lanes, set>;
   using Doubles = typename V::Doubles;
   using Longs = typename V::Longs;
   static_assert(Beams::block % lanes == 0, "a block of beams fills whole vectors");

@@ -10,9 +10,9 @@
 
 namespace waitpoint::world {
 
-template <int lanes>
+template <int lanes, Instructions set = Instructions::own>
 struct VectorCulling {
-  using V = Vectors<lanes>;
+  using V = Vectors<lanes, set>;
   using Doubles = typename V::Doubles;
   using Longs = typename V::Longs;
   using Floats = typename V::Floats;
@@ -111,9 +111,10 @@ struct VectorCulling {
            (Ints)(V::gather(view.farthest_m2, last_block) < near_m2) & (Ints)(last_block - first_block <= 1);
   }
 
-  // Rounded down, clamped to -1 and the number of beams.
+  // Rounded down, clamped to -1 and the number of beams; -1 for no number, as for the direction of a corner at the
+  // origin. Clamped before the conversion, which depends on the processor for what does not fit.
   static Ints numbers(Floats at, const View& view) {
-    const Floats within = V::least(V::greatest(at, V::all(-1.0f)), V::all(static_cast<float>(view.beams)));
+    const Floats within = V::least(V::greatest(V::all(-1.0f), at), V::all(static_cast<float>(view.beams)));
     return __builtin_convertvector(within + 2, Ints) - 2;
   }
   static std::int32_t number(float at, const View& view) {

@@ -1,17 +1,26 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// SIMD vectors of each width, in the vector extension of GCC and clang.
+// SIMD vectors of each width, in the vector extension of GCC and clang. The only source with intrinsics: where the
+// extension does not lead to one instruction, there is one for SSE2, AVX, AVX-512 and NEON, and a loop that gives the
+// same bits.
 //
 // Each instruction set has its own source, compiled for it (kernels_*.cpp). Such a source must not emit a function that
 // the linker could choose for other sources: it calls no inline function from elsewhere, and its own are templates
-// distinguished by `lanes`.
+// distinguished by `lanes` and `set`.
 #pragma once
 
 #include <cstdint>
-#if defined(__SSE2__)
+
+#include "core/instructions.hpp"
+#if WAITPOINT_X86_64
 #include <immintrin.h>
+#elif WAITPOINT_AARCH64
+#include <arm_neon.h>
 #endif
 
 namespace waitpoint::world {
+
+/// Those of the processor that the source is compiled for, or what the compiler makes of loops.
+enum class Instructions { own, portable };
 
 /// Vectors of `lanes` doubles or 64-bit integers, and of as many floats or 32-bit integers as fit, at most eight.
 template <int lanes>
@@ -38,9 +47,11 @@ struct VectorTypes<8> {
   typedef std::int32_t Ints __attribute__((vector_size(32)));
 };
 
-/// Operations on such vectors.
-template <int lanes>
+/// Operations on such vectors. Both sets give the same bits for all numbers, infinities, denormal ones and zeros of
+/// either sign included, and a NaN for the same arguments.
+template <int lanes, Instructions set = Instructions::own>
 struct Vectors {
+  static constexpr bool has_intrinsics = set == Instructions::own;
   using Doubles = typename VectorTypes<lanes>::Doubles;
   using Longs = typename VectorTypes<lanes>::Longs;
   using Floats = typename VectorTypes<lanes>::Floats;
@@ -85,8 +96,9 @@ struct Vectors {
   }
 
   static Floats gather(const float* from, Ints at) {
-#if defined(__AVX2__)
-    if constexpr (float_lanes == 8) return (Floats)_mm256_i32gather_ps(from, (__m256i)at, sizeof(float));
+#if WAITPOINT_X86_64 && defined(__AVX2__)
+    if constexpr (has_intrinsics && float_lanes == 8)
+      return (Floats)_mm256_i32gather_ps(from, (__m256i)at, sizeof(float));
 #endif
     Floats v;
     for (int i = 0; i < float_lanes; ++i) v[i] = from[at[i]];
@@ -94,45 +106,53 @@ struct Vectors {
   }
 
   static Doubles root(Doubles v) {
+#if WAITPOINT_X86_64
 #if defined(__AVX512F__)
     // Not _mm512_sqrt_pd(), in whose header GCC 12 finds an uninitialised value (its bug 105593).
-    if constexpr (lanes == 8) return (Doubles)_mm512_maskz_sqrt_pd(0xFF, (__m512d)v);
+    if constexpr (has_intrinsics && lanes == 8) return (Doubles)_mm512_maskz_sqrt_pd(0xFF, (__m512d)v);
 #endif
 #if defined(__AVX__)
-    if constexpr (lanes == 4) return (Doubles)_mm256_sqrt_pd((__m256d)v);
+    if constexpr (has_intrinsics && lanes == 4) return (Doubles)_mm256_sqrt_pd((__m256d)v);
 #endif
-#if defined(__SSE2__)
-    if constexpr (lanes == 2) return (Doubles)_mm_sqrt_pd((__m128d)v);
+    if constexpr (has_intrinsics && lanes == 2) return (Doubles)_mm_sqrt_pd((__m128d)v);
+#elif WAITPOINT_AARCH64
+    if constexpr (has_intrinsics && lanes == 2) return (Doubles)vsqrtq_f64((float64x2_t)v);
 #endif
     for (int i = 0; i < lanes; ++i) v[i] = __builtin_sqrt(v[i]);
     return v;
   }
 
-  // A bit per lane whose bits are all ones.
+  // A bit per lane whose bits are all ones; in the others all are zeros.
   static unsigned bits(Longs mask) {
+#if WAITPOINT_X86_64
 #if defined(__AVX512DQ__)
-    if constexpr (lanes == 8) return _mm512_movepi64_mask((__m512i)mask);
+    if constexpr (has_intrinsics && lanes == 8) return _mm512_movepi64_mask((__m512i)mask);
 #endif
 #if defined(__AVX__)
-    if constexpr (lanes == 4) return static_cast<unsigned>(_mm256_movemask_pd((__m256d)mask));
+    if constexpr (has_intrinsics && lanes == 4) return static_cast<unsigned>(_mm256_movemask_pd((__m256d)mask));
 #endif
-#if defined(__SSE2__)
-    if constexpr (lanes == 2) return static_cast<unsigned>(_mm_movemask_pd((__m128d)mask));
+    if constexpr (has_intrinsics && lanes == 2) return static_cast<unsigned>(_mm_movemask_pd((__m128d)mask));
+#elif WAITPOINT_AARCH64
+    if constexpr (has_intrinsics && lanes == 2)
+      return static_cast<unsigned>(vaddvq_u64(vandq_u64((uint64x2_t)mask, uint64x2_t{1, 2})));
 #endif
-    unsigned set = 0;
-    for (int i = 0; i < lanes; ++i) set |= mask[i] != 0 ? 1u << i : 0u;
-    return set;
+    unsigned in_lanes = 0;
+    for (int i = 0; i < lanes; ++i) in_lanes |= mask[i] != 0 ? 1u << i : 0u;
+    return in_lanes;
   }
   static unsigned bits(Ints mask) {
+#if WAITPOINT_X86_64
 #if defined(__AVX__)
-    if constexpr (float_lanes == 8) return static_cast<unsigned>(_mm256_movemask_ps((__m256)mask));
+    if constexpr (has_intrinsics && float_lanes == 8) return static_cast<unsigned>(_mm256_movemask_ps((__m256)mask));
 #endif
-#if defined(__SSE2__)
-    if constexpr (lanes == 2) return static_cast<unsigned>(_mm_movemask_ps((__m128)mask));
+    if constexpr (has_intrinsics && float_lanes == 4) return static_cast<unsigned>(_mm_movemask_ps((__m128)mask));
+#elif WAITPOINT_AARCH64
+    if constexpr (has_intrinsics && float_lanes == 4)
+      return vaddvq_u32(vandq_u32((uint32x4_t)mask, uint32x4_t{1, 2, 4, 8}));
 #endif
-    unsigned set = 0;
-    for (int i = 0; i < float_lanes; ++i) set |= mask[i] != 0 ? 1u << i : 0u;
-    return set;
+    unsigned in_lanes = 0;
+    for (int i = 0; i < float_lanes; ++i) in_lanes |= mask[i] != 0 ? 1u << i : 0u;
+    return in_lanes;
   }
 };
 
