@@ -6,6 +6,7 @@ that the fiber's switch saved on its stack; no others are needed. So frame 0 rem
 it are the fiber's. A filter hides frame 0 from back traces.
 
     fibers/switch/departure.hpp, x86-64, at the context c:  +40 rbx  +48 rbp  +56 rip;  rsp = c + 64
+    Boost.Context, 64-bit ARM:  +64 x19 to x28  +144 x29  +152 x30  +160 pc;  sp = c + 176
 """
 
 import re
@@ -15,10 +16,28 @@ import gdb.unwinder
 
 from . import records
 
-SAVED = {"rbx": 40, "rbp": 48, "rip": 56}
-STACK_ABOVE_CONTEXT = 64
+
+class Layout:
+    """Where a switch saves registers, from the context on, and the names of those that locate a frame."""
+
+    def __init__(self, pc, sp, saved, size):
+        self.pc, self.sp, self.saved, self.size = pc, sp, saved, size
+
+
+LAYOUTS = {
+    "i386:x86-64": Layout("rip", "rsp", {"rbx": 40, "rbp": 48, "rip": 56}, 64),
+    "aarch64": Layout("pc", "sp", {**{f"x{number}": 64 + 8 * (number - 19) for number in range(19, 31)}, "pc": 160}, 176),
+}
 # Frames of the primitives and of the library's templates beneath them: not of interest to users.
 INNER = re.compile(r"(?<!/tests)/fibers/(switch|kernel|clocks|sync|io|laas|posix)/|/include/c\+\+/")
+
+
+def own_layout():
+    """That of the process's architecture."""
+    layout = LAYOUTS.get(gdb.selected_inferior().architecture().name())
+    if layout is None:
+        raise gdb.GdbError("the registers of a parked fiber are known for x86-64 and 64-bit ARM only")
+    return layout
 
 
 class FrameId:
@@ -34,8 +53,10 @@ class ParkedFiber(gdb.unwinder.Unwinder):
         self.context = 0
 
     def select(self, context):
+        layout = own_layout()
         frame = gdb.newest_frame()
-        self.context, self.pc, self.sp = 0, frame.pc(), int(frame.read_register("rsp"))
+        self.layout, self.pc, self.sp = layout, frame.pc(), int(frame.read_register(layout.sp))
+        self.context = 0
         gdb.invalidate_cached_frames()
         self.context = context
         gdb.invalidate_cached_frames()
@@ -46,26 +67,27 @@ class ParkedFiber(gdb.unwinder.Unwinder):
             gdb.invalidate_cached_frames()
 
     def resumes_at(self):
-        return int.from_bytes(records.memory(self.context + SAVED["rip"], 8), "little")
+        return int.from_bytes(records.memory(self.context + self.layout.saved[self.layout.pc], 8), "little")
 
     def __call__(self, pending):
         if not self.context:
             return None
-        pc, sp = int(pending.read_register("rip")), int(pending.read_register("rsp"))
+        layout = self.layout
+        pc, sp = int(pending.read_register(layout.pc)), int(pending.read_register(layout.sp))
         if (pc, sp) != (self.pc, self.sp):
             return None
         # A stack address just below the fiber's: gdb requires callers to be higher.
         unwound = pending.create_unwind_info(FrameId(gdb.Value(self.context - 16), gdb.Value(pc)))
-        saved = records.memory(self.context, STACK_ABOVE_CONTEXT)
-        for register, offset in SAVED.items():
+        saved = records.memory(self.context, layout.size)
+        for register, offset in layout.saved.items():
             value = int.from_bytes(saved[offset : offset + 8], "little")
             unwound.add_saved_register(register, typed(value, register))
-        unwound.add_saved_register("rsp", typed(self.context + STACK_ABOVE_CONTEXT, "rsp"))
+        unwound.add_saved_register(layout.sp, typed(self.context + layout.size, layout.sp))
         return unwound
 
 
 def typed(value, register):
-    kind = "unsigned long" if register not in ("rip", "rsp", "rbp") else "char"
+    kind = "unsigned long" if register not in ("rip", "rsp", "rbp", "pc", "sp") else "char"
     kind = gdb.lookup_type(kind)
     return gdb.Value(value).cast(kind if kind.sizeof == 8 else kind.pointer())
 
@@ -128,8 +150,6 @@ def select_users_frame():
 
 def select(task):
     """Selects `task` until another selection or until the process continues."""
-    if gdb.selected_inferior().architecture().name() != "i386:x86-64":
-        raise gdb.GdbError("the registers of a parked fiber are known for x86-64 only")
     if task.context:
         parked.select(task.context)
     else:  # it has the processor
