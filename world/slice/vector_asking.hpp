@@ -2,6 +2,7 @@
 // hit_distance() for several beams at once, in doubles and to the last bit (see kernels.hpp).
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 #include "world/planar/ray.hpp"
@@ -209,7 +210,8 @@ struct VectorAsking {
   static void note_farthest(std::int32_t block, const Beams& beams) {
     Doubles farthest{};
     for (int i = 0; i < Beams::block; i += lanes)
-      farthest = V::greatest(farthest, V::template load<Doubles>(beams.range_m + block * Beams::block + i));
+      farthest =
+          V::greatest(farthest, V::template load<Doubles>(beams.range_m + std::ptrdiff_t{block} * Beams::block + i));
     set_farthest(beams.farthest_m2[block], farthest);
   }
 };
