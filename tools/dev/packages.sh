@@ -13,9 +13,7 @@ declare -A debian=(
   [ranks]='libopenmpi-dev openmpi-bin'
   [tcl]='tcl8.6-dev'
   [test]='libgtest-dev liboctomap-dev clang gdb libz3-dev python3-rosbag zstd xz-utils pigz pbzip2 perl libtbb-dev
-         libuv1-dev cmake catch2 doctest-dev libopenmpi-dev openmpi-bin tcl8.6-dev'
-         libuv1-dev cmake libopenmpi-dev openmpi-bin tcl8.6-dev python3-jsonschema'
-         libuv1-dev cmake'
+         libuv1-dev cmake catch2 doctest-dev python3-jsonschema'
   [ros]='python3-rosmaster libroscpp-dev libstd-msgs-dev libnav-msgs-dev libsensor-msgs-dev libtf2-ros-dev
         libnodeletlib-dev libnodeletlib-tools ros-robot-state-publisher python3-rospy python3-nav-msgs python3-sensor-msgs python3-tf2-ros librosbag-dev python3-rosbag'
   [ros2]='cyclonedds-dev cyclonedds-tools libfastrtps-dev libfastcdr-dev'
@@ -23,6 +21,7 @@ declare -A debian=(
   [builds]='clang libc++-dev libc++abi-dev'
   [wraps]=''
   [valgrind]='valgrind'
+  [arm64]='g++-aarch64-linux-gnu qemu-user mmdebstrap ccache'
   [bench]='libbenchmark-dev'
   [peers]='libsystemc-dev libsimgrid-dev libboost-fiber-dev libembree-dev libbox2d-dev
            libode-dev libcgal-dev'
@@ -35,11 +34,6 @@ declare -A debian=(
 declare -A upstream=(
   [run]='Meson 1.0, Ninja, a C++20 compiler, pkg-config, Python 3; Boost.Context 1.74, FCL 0.7 with libccd and Eigen 3.4,
          yaml-cpp, CLI11, fmt, nlohmann_json, libpng, TinyXML-2, zlib; for compressed
-         logs, if wanted, bzip2, lz4, zstd; for meshes of other kinds than STL and OBJ, if
-         wanted, Assimp 5.2; for the dynamic world, if wanted, Bullet 3.24 in double precision; for
-         accesses as switch points of explored programs, if wanted, Zydis 4; for ROS bags, if wanted,
-         rosbag_storage and its messages'
-  [test]='GoogleTest, OctoMap, g++ and clang++, gdb, Z3; if available: zstd, xz, pigz, pbzip2, Perl, TBB, libuv, CMake, Open MPI 4, Tcl 8.6, jsonschema for Python'
          logs, if wanted, bzip2, lz4, zstd'
   [accesses]='for accesses as switch points of explored programs: Zydis 4'
   [bags]='for recordings as ROS bags: rosbag_storage and its messages'
@@ -47,13 +41,14 @@ declare -A upstream=(
   [meshes]='for meshes of other kinds than STL and OBJ: Assimp 5.2'
   [ranks]='for runs of several processes: Open MPI 4'
   [tcl]='for scripts in Tcl: Tcl 8.6'
-  [test]='GoogleTest, OctoMap, g++ and clang++, gdb, Z3; if available: zstd, xz, pigz, pbzip2, Perl, TBB, libuv, CMake'
+  [test]='GoogleTest, OctoMap, g++ and clang++, gdb, Z3; if available: zstd, xz, pigz, pbzip2, Perl, TBB, libuv, CMake, Catch2 2.13, doctest 2.4, jsonschema for Python'
   [ros]='of ROS 1: roscpp, rospy, tf2_ros, nodelet, rosbag, robot_state_publisher, rosmaster'
   [ros2]='Cyclone DDS 0.10 with idlc, Fast DDS 2.9'
   [view]='Chromium, Node.js 18, npm'
   [builds]='clang++ with libc++; Debian'"'"'s source packages'
   [wraps]='Debian'"'"'s source packages'
   [valgrind]='valgrind'
+  [arm64]='Debian'"'"'s cross compiler for arm64, qemu-user, mmdebstrap, ccache'
   [bench]='Google Benchmark'
   [peers]='SystemC 2.3.4, SimGrid 3.32, Boost.Fiber 1.74, Embree 3.13, Box2D 2.4,
            ODE 0.16, CGAL 5.5 (each is left out where it is missing)'
@@ -76,6 +71,8 @@ declare -A option_of_part=([accesses]=disassembler [bags]=rosbag [bullet]=bullet
 declare -A trace_of_part=(
   [accesses]=libZydis [bags]=libwaitpoint-bags.so [bullet]=BulletDynamics [meshes]=libassimp [ranks]=libwaitpoint-mpi.so
   [tcl]=libwaitpoint-tcl.so
+  [run]='meson ninja c++ pkg-config python3' [test]='' [ros]='rosmaster' [ros2]='idlc' [view]='chromium node npm' [builds]='clang++ apt-get' [wraps]='apt-get' [valgrind]='valgrind' [arm64]='aarch64-linux-gnu-g++ qemu-aarch64 mmdebstrap ccache'
+  [bench]='' [peers]='' [check]='' [format]='clang-format'
 )
 
 say() { echo "dev: $*" >&2; }

@@ -219,6 +219,8 @@ def jobs_of(build, arguments):
         options.append(f"--gtest_filter={'*' + arguments.filter + '*' if plain else arguments.filter}")
     for test in sorted(json.loads(description), key=lambda test: -test["priority"]):
         environment = {**os.environ, **test["env"]}
+        if arguments.program:
+            environment["WAITPOINT_PROGRAM"] = str(arguments.program.resolve())
         if arguments.programs and test["name"] not in arguments.programs:
             continue
         timeout_s = test["timeout"] * arguments.patience or None
@@ -250,6 +252,7 @@ def main():
     parser.add_argument("--jobs", type=int, default=2, help="number of programs to run at once (default: 2)")
     parser.add_argument("--programs", type=lambda names: names.split(","), help=argparse.SUPPRESS)
     parser.add_argument("--under", type=shlex.split, default=[], help=argparse.SUPPRESS)
+    parser.add_argument("--program", type=pathlib.Path, help=argparse.SUPPRESS)  # in place of the built one
     parser.add_argument("--patience", type=int, default=1, help=argparse.SUPPRESS)
     arguments, arguments.options = parser.parse_known_args()
 
