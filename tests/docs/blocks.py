@@ -21,7 +21,7 @@ import re
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 COMMANDS = ("console", "sh")
-DATA = ("c", "cpp", "ctl", "diff", "gen", "tcl", "walls", "yaml")
+DATA = ("c", "cmake", "cpp", "ctl", "diff", "gen", "meson", "tcl", "walls", "yaml")
 MARKS = ("not run", "long", "output of", "status")
 
 ITEM = re.compile(
