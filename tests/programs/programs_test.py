@@ -300,7 +300,7 @@ int main() {
 CMAKE_PROJECT = """
 cmake_minimum_required(VERSION 3.18)
 project(consumer CXX)
-find_package(waitpoint 0.2 REQUIRED)
+find_package(waitpoint 1 REQUIRED)
 include_directories(.)
 foreach(kind threads races)
   if(TARGET waitpoint::${kind})

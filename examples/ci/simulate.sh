@@ -1,0 +1,41 @@
+#!/bin/sh
+# SPDX-License-Identifier: BSD-3-Clause
+#
+# Runs a scenario and explores its schedules; prints a summary in Markdown, with the command that repeats a failure:
+#   simulate.sh SCENARIO [OPTIONS of waitpoint explore]
+# Exit status 0 if both passed, 1 if not, 2 if one could not begin. Leaves run.json and explore.json in the current folder.
+# Needs waitpoint and jq.
+set -u
+scenario=${1:?simulate.sh SCENARIO [OPTIONS of waitpoint explore]}
+shift
+
+# A command of waitpoint, whose document is FILE: begin FILE COMMAND...
+begin() {
+  file=$1
+  shift
+  waitpoint "$@" --json > "$file" 2> "$file.text"
+  status=$?
+  [ -s "$file" ] && return
+  printf '**waitpoint %s did not begin:**\n\n    %s\n' "$*" "$(tail -n 1 "$file.text")"
+  exit 2
+}
+
+failed=0
+printf '## %s\n\n' "$scenario"
+
+begin run.json run "$scenario"
+jq -r '.result | "| goals | collisions | greatest position error | digest |\n|---|---|---|---|\n" +
+  "| \(.goals_reached) of \(.goals) | \(.collisions) | \(.position_error_max_m) m | `\(.digest)` |\n"' run.json
+if [ "$status" -ne 0 ]; then
+  failed=1
+  jq -r '.result | "**The run failed:** \((.unmet // []) | join("; ")) (\(.outcome)). It is repeated by\n\n    \(.replay)\n"' run.json
+fi
+
+begin explore.json explore "$scenario" "$@"
+if [ "$status" -eq 0 ]; then
+  jq -r '"\(.result.search.schedules) schedules passed."' explore.json
+else
+  failed=1
+  jq -r '.result.failure | "**\(.schedule) fails:** \(.message | split("\n")[0]). It is repeated by\n\n    \(.replay)\n"' explore.json
+fi
+exit "$failed"
