@@ -36,10 +36,10 @@ struct Arrival {
 // too deep after each switch, and mispredict all later returns; a jump keeps its depth equal to the fibers'. Inline
 // assembly tells the compiler the clobbered registers, so that it saves only those it still needs.
 //
-// The frame on the stack is that of Boost.Context's jump_fcontext, which made the fiber's first one: mxcsr:4 x87
-// control word:4 | r12 to r15, unused here | rbx | rbp | address of continuation. rbx and rbp are saved here, since a
-// compiler does not accept them as clobbers in a frame that needs them. Functions that contain this call others too, so
-// they have no red zone below their stack.
+// The frame on the stack, also a fiber's first one (fiber.cpp): mxcsr:4 x87 control word:4 | four words that are not
+// used | rbx | rbp | address of continuation. rbx and rbp are saved here, since a compiler does not accept them as
+// clobbers in a frame that needs them. Functions that contain this call others too, so they have no red zone below
+// their stack.
 //
 // On other processors, and in portable builds, it is jump_fcontext itself.
 #if WAITPOINT_X86_64

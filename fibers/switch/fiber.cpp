@@ -41,20 +41,32 @@ inline void jump(Fiber& from, Fiber& to) {
   note_where_left(depart(departure(from, to)));
 }
 
-// Switches back to prepare(). The fiber is entered by depart(), which does not restore all registers: hence the
-// clobbers.
+// Switches back to prepare(), with the context to continue in. The fiber is entered by depart(), which does not restore
+// all registers: hence the clobbers. The frame is that of depart(), since that of jump_fcontext differs between
+// versions of Boost.
 #if WAITPOINT_X86_64
 context::transfer_t wait_to_begin(context::fcontext_t maker) {
   context::transfer_t came{};
-  void* nothing = nullptr;
-  asm volatile("call jump_fcontext@PLT"
-               : "=a"(came.fctx), "=d"(came.data), "+D"(maker), "+S"(nothing)
-               :
-               : "rcx", "r8", "r9", "r10", "r11", "r12", "r13", "r14", "r15", "memory", "cc");
+  asm volatile(
+      "leaq 1f(%%rip), %%rax\n\t"
+      "leaq -0x40(%%rsp), %%rsp\n\t"
+      "stmxcsr (%%rsp)\n\t"
+      "fnstcw 4(%%rsp)\n\t"
+      "movq %%rbx, 0x28(%%rsp)\n\t"
+      "movq %%rbp, 0x30(%%rsp)\n\t"
+      "movq %%rax, 0x38(%%rsp)\n\t"
+      "movq %%rsp, %%rsi\n\t"
+      "call jump_fcontext@PLT\n"
+      "1:"
+      : "=a"(came.fctx), "=d"(came.data), "+D"(maker)
+      :
+      : "rcx", "rsi", "r8", "r9", "r10", "r11", "r12", "r13", "r14", "r15", "memory", "cc");
   return came;
 }
+context::fcontext_t context_of(const context::transfer_t& waiting) { return waiting.data; }
 #else
 context::transfer_t wait_to_begin(context::fcontext_t maker) { return context::jump_fcontext(maker, nullptr); }
+context::fcontext_t context_of(const context::transfer_t& waiting) { return waiting.fctx; }
 #endif
 
 // In the outermost frame of a fiber: debuggers and unwinders stop here.
@@ -97,7 +109,7 @@ void prepare(Fiber& fiber, const Stack& stack, char* top, void (*entry)(void*), 
   if (sanitizer::present) sanitizer::prepare(fiber);
   Start start{fiber, entry, argument};
   context::fcontext_t fresh = context::make_fcontext(top, static_cast<std::size_t>(top - stack.low), run_entry);
-  fiber.context = context::jump_fcontext(fresh, &start).fctx;
+  fiber.context = context_of(context::jump_fcontext(fresh, &start));
 }
 
 void switch_fiber(Fiber& from, Fiber& to) {

@@ -35,11 +35,12 @@ RosBagFile::Grid grid(Time time, const std::string& frame, const OccupancyGrid& 
 
 RosBagRecording::RosBagRecording(const std::filesystem::path& path, const scenario::Scenario& scenario)
     : ViewerRecording(path, scenario), file_(path) {
-  const BagLibrary& library = bag_library(path.string());
+  const std::string name = path.string();
+  const BagLibrary& library = bag_library(name);
   try {
     bag_ = library.make(file_.written_to().string());
   } catch (const std::exception& failure) {
-    throw BadInput(path.string(), std::string("cannot be written: ") + failure.what());
+    throw BadInput(name, std::string("cannot be written: ") + failure.what());
   }
 }
 

@@ -66,8 +66,9 @@ std::int64_t whole_number_in(const Json& request, const char* key, std::int64_t 
 
 bool flag_in(const Json& request, const char* key, std::optional<bool> otherwise) {
   if (otherwise && !request.contains(key)) return *otherwise;
-  const Json& value = member(request, key, "true or false");
-  if (!value.is_boolean()) refuse(key, "true or false", value);
+  const std::string expected = "true or false";
+  const Json& value = member(request, key, expected);
+  if (!value.is_boolean()) refuse(key, expected, value);
   return value;
 }
 
