@@ -5,7 +5,7 @@
 #
 # The libraries are Debian's packages of arm64, unpacked in build-arm64-root/ and not installed: nothing of them runs here
 # but what the program links. Builds in build-arm64/; runs the tests of core and world, or those named, each program by
-# qemu, without those of a process's death, whose signals qemu does not deliver as a system does; then simulates office
+# qemu, without those of a process's death, of which two fail there for a reason that is not known; then simulates office
 # and office-10 there and on this machine: the digests must be equal. OPTIONS go to run_tests.py.
 set -euo pipefail
 
