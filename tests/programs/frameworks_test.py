@@ -18,7 +18,7 @@ class Frameworks(Installed):
         if not pathlib.Path("/usr/include", HEADERS[framework]).exists():
             self.skipTest(f"{framework} is not installed")
         program = self.folder / framework
-        run("g++", "-std=c++20", "-g", HERE / f"frameworks/{framework}.cpp", "-o", program,
+        run("g++", "-std=c++20", "-g", f"-I{HERE.parents[1]}", HERE / f"frameworks/{framework}.cpp", "-o", program,
             *flags(self.prefix, "--cflags", "--libs", "waitpoint"))
         return program
 
