@@ -43,35 +43,38 @@ struct Arrival {
 //
 // On other processors, and in portable builds, it is jump_fcontext itself.
 #if WAITPOINT_X86_64
+/// Pushes the frame that depart() restores, whose continuation is the label 1.
+#define WAITPOINT_PUSH_FRAME     \
+  "leaq 1f(%%rip), %%rax\n\t"    \
+  "leaq -0x40(%%rsp), %%rsp\n\t" \
+  "stmxcsr (%%rsp)\n\t"          \
+  "fnstcw 4(%%rsp)\n\t"          \
+  "movq %%rbx, 0x28(%%rsp)\n\t"  \
+  "movq %%rbp, 0x30(%%rsp)\n\t"  \
+  "movq %%rax, 0x38(%%rsp)\n\t"
+
 [[gnu::always_inline]] inline Arrival depart(Departure away) {
   Arrival arrival;
-  asm volatile(
-      "leaq 1f(%%rip), %%rax\n\t"
-      "leaq -0x40(%%rsp), %%rsp\n\t"
-      "stmxcsr (%%rsp)\n\t"
-      "fnstcw 4(%%rsp)\n\t"
-      "movq %%rbx, 0x28(%%rsp)\n\t"
-      "movq %%rbp, 0x30(%%rsp)\n\t"
-      "movq %%rax, 0x38(%%rsp)\n\t"
-      "movq %%rsp, %%rax\n\t"
-      "movq %%rdi, %%rsp\n\t"
-      "ldmxcsr (%%rsp)\n\t"
-      "fldcw 4(%%rsp)\n\t"
-      "movq 0x28(%%rsp), %%rbx\n\t"
-      "movq 0x30(%%rsp), %%rbp\n\t"
-      "movq 0x38(%%rsp), %%r8\n\t"
-      "leaq 0x40(%%rsp), %%rsp\n\t"
-      "jmp *%%r8\n"
-      "1:"
-      : "=a"(arrival.context), "+d"(away.how_else), "+D"(away.context)
-      :
-      : "rcx", "rsi", "r8", "r9", "r10", "r11", "r12", "r13", "r14", "r15", "xmm0", "xmm1", "xmm2", "xmm3", "xmm4",
-        "xmm5", "xmm6", "xmm7", "xmm8", "xmm9", "xmm10", "xmm11", "xmm12", "xmm13", "xmm14", "xmm15",
+  asm volatile(WAITPOINT_PUSH_FRAME
+               "movq %%rsp, %%rax\n\t"
+               "movq %%rdi, %%rsp\n\t"
+               "ldmxcsr (%%rsp)\n\t"
+               "fldcw 4(%%rsp)\n\t"
+               "movq 0x28(%%rsp), %%rbx\n\t"
+               "movq 0x30(%%rsp), %%rbp\n\t"
+               "movq 0x38(%%rsp), %%r8\n\t"
+               "leaq 0x40(%%rsp), %%rsp\n\t"
+               "jmp *%%r8\n"
+               "1:"
+               : "=a"(arrival.context), "+d"(away.how_else), "+D"(away.context)
+               :
+               : "rcx", "rsi", "r8", "r9", "r10", "r11", "r12", "r13", "r14", "r15", "xmm0", "xmm1", "xmm2", "xmm3",
+                 "xmm4", "xmm5", "xmm6", "xmm7", "xmm8", "xmm9", "xmm10", "xmm11", "xmm12", "xmm13", "xmm14", "xmm15",
 #ifdef __AVX512F__
-        "xmm16", "xmm17", "xmm18", "xmm19", "xmm20", "xmm21", "xmm22", "xmm23", "xmm24", "xmm25", "xmm26", "xmm27",
-        "xmm28", "xmm29", "xmm30", "xmm31", "k1", "k2", "k3", "k4", "k5", "k6", "k7",
+                 "xmm16", "xmm17", "xmm18", "xmm19", "xmm20", "xmm21", "xmm22", "xmm23", "xmm24", "xmm25", "xmm26",
+                 "xmm27", "xmm28", "xmm29", "xmm30", "xmm31", "k1", "k2", "k3", "k4", "k5", "k6", "k7",
 #endif
-        "st", "st(1)", "st(2)", "st(3)", "st(4)", "st(5)", "st(6)", "st(7)", "memory", "cc");
+                 "st", "st(1)", "st(2)", "st(3)", "st(4)", "st(5)", "st(6)", "st(7)", "memory", "cc");
   arrival.left = reinterpret_cast<void*>(away.how_else);
   return arrival;
 }

@@ -47,20 +47,13 @@ inline void jump(Fiber& from, Fiber& to) {
 #if WAITPOINT_X86_64
 context::transfer_t wait_to_begin(context::fcontext_t maker) {
   context::transfer_t came{};
-  asm volatile(
-      "leaq 1f(%%rip), %%rax\n\t"
-      "leaq -0x40(%%rsp), %%rsp\n\t"
-      "stmxcsr (%%rsp)\n\t"
-      "fnstcw 4(%%rsp)\n\t"
-      "movq %%rbx, 0x28(%%rsp)\n\t"
-      "movq %%rbp, 0x30(%%rsp)\n\t"
-      "movq %%rax, 0x38(%%rsp)\n\t"
-      "movq %%rsp, %%rsi\n\t"
-      "call jump_fcontext@PLT\n"
-      "1:"
-      : "=a"(came.fctx), "=d"(came.data), "+D"(maker)
-      :
-      : "rcx", "rsi", "r8", "r9", "r10", "r11", "r12", "r13", "r14", "r15", "memory", "cc");
+  asm volatile(WAITPOINT_PUSH_FRAME
+               "movq %%rsp, %%rsi\n\t"
+               "call jump_fcontext@PLT\n"
+               "1:"
+               : "=a"(came.fctx), "=d"(came.data), "+D"(maker)
+               :
+               : "rcx", "rsi", "r8", "r9", "r10", "r11", "r12", "r13", "r14", "r15", "memory", "cc");
   return came;
 }
 context::fcontext_t context_of(const context::transfer_t& waiting) { return waiting.data; }
