@@ -61,7 +61,9 @@ declare -A upstream=(
 # Required for every build; all libraries except Google Benchmark and its peers come from subprojects/ if missing.
 declare -A tools=(
   [accesses]='' [bags]='' [bullet]='' [meshes]='' [ranks]='' [tcl]=''
-  [run]='meson ninja c++ pkg-config python3' [test]='' [ros]='rosmaster' [ros2]='idlc' [view]='chromium node npm' [builds]='clang++ apt-get' [wraps]='apt-get' [valgrind]='valgrind'
+  [run]='meson ninja c++ pkg-config python3' [test]='' [ros]='rosmaster' [ros2]='idlc' [view]='chromium node npm'
+  [builds]='clang++ apt-get' [wraps]='apt-get' [valgrind]='valgrind'
+  [arm64]='aarch64-linux-gnu-g++ qemu-aarch64 mmdebstrap ccache'
   [bench]='' [peers]='' [docs]='sphinx-build doxygen' [package]='git dpkg-buildpackage' [packages]='debootstrap' [check]='' [format]='clang-format'
 )
 
@@ -71,8 +73,6 @@ declare -A option_of_part=([accesses]=disassembler [bags]=rosbag [bullet]=bullet
 declare -A trace_of_part=(
   [accesses]=libZydis [bags]=libwaitpoint-bags.so [bullet]=BulletDynamics [meshes]=libassimp [ranks]=libwaitpoint-mpi.so
   [tcl]=libwaitpoint-tcl.so
-  [run]='meson ninja c++ pkg-config python3' [test]='' [ros]='rosmaster' [ros2]='idlc' [view]='chromium node npm' [builds]='clang++ apt-get' [wraps]='apt-get' [valgrind]='valgrind' [arm64]='aarch64-linux-gnu-g++ qemu-aarch64 mmdebstrap ccache'
-  [bench]='' [peers]='' [check]='' [format]='clang-format'
 )
 
 say() { echo "dev: $*" >&2; }
