@@ -2,15 +2,12 @@
 #include "fibers/posix/descriptors/connections.hpp"
 
 #include <poll.h>
-#include <sys/epoll.h>
 #include <sys/socket.h>
-
-#include <algorithm>
-#include <cstdlib>
 
 #include "core/digest.hpp"
 #include "fibers/posix/base/error_number.hpp"
 #include "fibers/posix/base/interposed.hpp"
+#include "fibers/posix/descriptors/epoll_watches.hpp"
 #include "fibers/posix/descriptors/inside_files.hpp"
 #include "fibers/posix/descriptors/internet_address.hpp"
 #include "fibers/posix/descriptors/partners.hpp"
@@ -30,20 +27,6 @@ Connection connections[known_descriptors_max];
 constexpr std::size_t listening_max = 64;
 int listening[listening_max];
 std::size_t listening_count = 0;
-
-/// An epoll descriptor and one that it watches. The system keeps a watch when the descriptor is closed that has a
-/// duplicate: so does the list.
-struct Watch {
-  int epoll;
-  int descriptor;
-  epoll_event what;
-};
-Watch* watches = nullptr;
-std::size_t watch_count = 0, watch_room = 0;
-
-/// Of an epoll descriptor whose watches are all in the list.
-enum class Watching : std::uint8_t { nothing, listed, unknown };
-Watching watching[known_descriptors_max];
 
 bool is_in_range(int descriptor) { return descriptor >= 0 && descriptor < known_descriptors_max; }
 
@@ -86,14 +69,11 @@ const Connection* connection_of(int descriptor) {
 }
 
 family::Changes awaited_by_epoll(int epoll) {
-  if (watching[epoll] == Watching::unknown) return family::of_descriptors;
+  if (!are_watches_known(epoll)) return family::of_descriptors;
   family::Changes all = 0;
-  for (std::size_t i = 0; i < watch_count; ++i) {
-    const Watch& watch = watches[i];
-    if (watch.epoll != epoll) continue;
-    const short events = static_cast<short>(((watch.what.events & EPOLLIN) != 0 ? POLLIN : 0) |
-                                            ((watch.what.events & EPOLLOUT) != 0 ? POLLOUT : 0));
-    all |= changes_at(watch.descriptor, events);
+  for (const EpollWatch* watch = next_watch(epoll, nullptr); watch != nullptr; watch = next_watch(epoll, watch)) {
+    const bool reads = (watch->what.events & EPOLLIN) != 0, writes = (watch->what.events & EPOLLOUT) != 0;
+    all |= changes_at(watch->descriptor, static_cast<short>((reads ? POLLIN : 0) | (writes ? POLLOUT : 0)));
   }
   return all;
 }
@@ -102,7 +82,7 @@ family::Changes awaited_by_epoll(int epoll) {
 
 family::Changes changes_at(int descriptor, short events) {
   if (!is_in_range(descriptor)) return family::of_descriptors;
-  if (watching[descriptor] != Watching::nothing) return awaited_by_epoll(descriptor);
+  if (watches_others(descriptor)) return awaited_by_epoll(descriptor);
   if (const InsideFile* const pipe = pipe_inside(descriptor)) return family::of_stream(pipe->number);
   if (is_inside(descriptor)) return family::of_descriptors;
   const Connection* const connection = connection_of(descriptor);
@@ -122,61 +102,11 @@ bool is_within_family(int descriptor) {
   return connection != nullptr && connection->is_within_family;
 }
 
-void note_watch(int epoll, int descriptor, const epoll_event& what) {
-  if (!is_in_range(epoll)) return;
-  if (watching[epoll] == Watching::nothing) watching[epoll] = Watching::listed;
-  for (std::size_t i = 0; i < watch_count; ++i)
-    if (watches[i].epoll == epoll && watches[i].descriptor == descriptor) return void(watches[i].what = what);
-  if (watch_count == watch_room) {
-    const std::size_t room = 2 * watch_room + 32;
-    auto* const more = static_cast<Watch*>(std::realloc(watches, room * sizeof(Watch)));
-    if (more == nullptr) return void(watching[epoll] = Watching::unknown);
-    watches = more;
-    watch_room = room;
-  }
-  watches[watch_count++] = {epoll, descriptor, what};
-}
-
-void end_watch(int epoll, int descriptor) {
-  for (std::size_t i = 0; i < watch_count; ++i)
-    if (watches[i].epoll == epoll && watches[i].descriptor == descriptor)
-      return void(watches[i] = watches[--watch_count]);
-}
-
-void put_in_order(int epoll, epoll_event* events, int count) {
-  if (count < 2 || !is_in_range(epoll) || watching[epoll] != Watching::listed) return;
-  int in_order = 0;
-  for (std::size_t i = 0; i < watch_count && in_order < count; ++i) {
-    if (watches[i].epoll != epoll) continue;
-    for (int k = in_order; k < count; ++k) {
-      if (events[k].data.u64 != watches[i].what.data.u64) continue;
-      std::rotate(events + in_order, events + k, events + k + 1);
-      ++in_order;
-      break;
-    }
-  }
-}
-
-void note_shared_epoll(int from, int made) {
-  if (!is_in_range(from) || !is_in_range(made) || watching[from] == Watching::nothing) return;
-  watching[from] = watching[made] = Watching::unknown;
-}
-
-void note_shared_epolls() {
-  for (std::size_t i = 0; i < watch_count; ++i) watching[watches[i].epoll] = Watching::unknown;
-}
-
 void forget_connection(int descriptor) {
   if (!is_in_range(descriptor)) return;
   connections[descriptor] = {};
   for (std::size_t i = 0; i < listening_count; ++i)
     if (listening[i] == descriptor) listening[i] = listening[--listening_count];
-  if (watching[descriptor] == Watching::nothing) return;
-  watching[descriptor] = Watching::nothing;
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < watch_count; ++i)
-    if (watches[i].epoll != descriptor) watches[kept++] = watches[i];
-  watch_count = kept;
 }
 
 }  // namespace waitpoint::posix

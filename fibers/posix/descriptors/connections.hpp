@@ -7,8 +7,6 @@
 // bit only cost checks in vain. What is not known awaits, and changes, all.
 #pragma once
 
-#include <sys/epoll.h>
-
 #include "fibers/posix/family/family.hpp"
 
 namespace waitpoint::posix {
@@ -22,15 +20,6 @@ bool is_within_family(int descriptor);
 /// Waits in real time for connections to the sockets that listen, as far as the family has made them.
 void await_connections();
 
-/// The epoll descriptor watches another for these events, or no longer.
-void note_watch(int epoll, int descriptor, const epoll_event& what);
-void end_watch(int epoll, int descriptor);
-/// Puts events that the epoll descriptor returned in the order of the watches. The system returns them in the order in
-/// which it noted them, which on a loaded machine depends on real time.
-void put_in_order(int epoll, epoll_event* events, int count);
-/// Others may change by another descriptor what it watches: a duplicate of it, or a process after a fork.
-void note_shared_epoll(int from, int made);
-void note_shared_epolls();
 /// The descriptor is closed, or connects anew.
 void forget_connection(int descriptor);
 

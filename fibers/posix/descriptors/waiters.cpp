@@ -13,8 +13,8 @@
 namespace waitpoint::posix {
 namespace {
 
-Waiter* first = nullptr;
-Waiter* last = nullptr;
+Waiter* head = nullptr;
+Waiter* tail = nullptr;
 int waiting_outside = 0;
 int waiting_for_no_descriptor = 0;  // these must be polled
 int waiting_for_input = 0;          // for descriptors outside
@@ -26,11 +26,11 @@ family::Changes outside_changes = 0;  // what threads wait for outside
 void note_waits() {
   if (family::own == nullptr) return;
   // Without other processes it is not worth a search.
-  family::Changes awaited = first != nullptr ? family::of_anything : 0;
+  family::Changes awaited = head != nullptr ? family::of_anything : 0;
   outside_changes = waiting_outside > 0 ? family::of_anything : 0;
   if (family::has_others()) {
     awaited = outside_changes = 0;
-    for (const Waiter* waiter = first; waiter != nullptr; waiter = waiter->next) {
+    for (const Waiter* waiter = head; waiter != nullptr; waiter = waiter->next) {
       awaited |= waiter->awaited;
       if (waiter->outside) outside_changes |= waiter->awaited;
     }
@@ -59,15 +59,15 @@ void count_outside(const Waiter& waiter, int by) {
 
 }  // namespace
 
-Waiter* first_waiter() { return first; }
+Waiter* first_waiter() { return head; }
 
 void add(Waiter& waiter) {
-  WAITPOINT_CHECK(last == nullptr ? first == nullptr : last->next == nullptr && last != &waiter,
+  WAITPOINT_CHECK(tail == nullptr ? head == nullptr : tail->next == nullptr && tail != &waiter,
                   "the end of the list of waiting threads is broken");
   waiter.next = nullptr;
-  waiter.previous = last;
-  (last == nullptr ? first : last->next) = &waiter;
-  last = &waiter;
+  waiter.previous = tail;
+  (tail == nullptr ? head : tail->next) = &waiter;
+  tail = &waiter;
   if (waiter.outside) {
     count_outside(waiter, 1);
     if (family::own != nullptr) family::own->is_to_look = true;
@@ -76,11 +76,11 @@ void add(Waiter& waiter) {
 }
 
 void remove(Waiter& waiter) {
-  WAITPOINT_CHECK((waiter.previous == nullptr ? first : waiter.previous->next) == &waiter &&
-                      (waiter.next == nullptr ? last : waiter.next->previous) == &waiter,
+  WAITPOINT_CHECK((waiter.previous == nullptr ? head : waiter.previous->next) == &waiter &&
+                      (waiter.next == nullptr ? tail : waiter.next->previous) == &waiter,
                   "a thread that ends its wait is not in the list of waiting threads");
-  (waiter.previous == nullptr ? first : waiter.previous->next) = waiter.next;
-  (waiter.next == nullptr ? last : waiter.next->previous) = waiter.previous;
+  (waiter.previous == nullptr ? head : waiter.previous->next) = waiter.next;
+  (waiter.next == nullptr ? tail : waiter.next->previous) = waiter.previous;
   if (waiter.outside) count_outside(waiter, -1);
   note_waits();
 }
@@ -95,7 +95,7 @@ family::Changes awaited_at(const pollfd* descriptors, nfds_t count) {
 family::Changes awaited_outside() { return outside_changes; }
 
 void note_changed_watches() {
-  for (Waiter* waiter = first; waiter != nullptr; waiter = waiter->next)
+  for (Waiter* waiter = head; waiter != nullptr; waiter = waiter->next)
     if (waiter->count > 0) waiter->awaited = awaited_at(waiter->descriptors, waiter->count);
   note_waits();
 }
@@ -116,7 +116,7 @@ bool can_others_act(const kernel::Scheduler& scheduler) {
   if (family::has_others()) return true;
   for (const kernel::Task* task = scheduler.first_task(); task != nullptr; task = task->next) {
     if (task->state == kernel::TaskState::blocked && !task->finite_wait) continue;
-    const Waiter* waiter = first;
+    const Waiter* waiter = head;
     while (waiter != nullptr && waiter->task != task) waiter = waiter->next;
     if (waiter == nullptr || !waiter->outside) return true;
   }
@@ -127,7 +127,7 @@ bool can_others_act(const kernel::Scheduler& scheduler) {
 
 bool anybody_awaits_partner(const kernel::Scheduler& scheduler) {
   Partner nearest = Partner::none;
-  for (const Waiter* waiter = first; waiter != nullptr; waiter = waiter->next)
+  for (const Waiter* waiter = head; waiter != nullptr; waiter = waiter->next)
     if (waiter->task->state == kernel::TaskState::blocked) nearest = std::max(nearest, waiter->partner);
   if (nearest == Partner::possible) return !is_explored() && !can_others_act(scheduler);
   return nearest == Partner::certain;
@@ -135,7 +135,7 @@ bool anybody_awaits_partner(const kernel::Scheduler& scheduler) {
 
 namespace {
 
-bool may_be_served_by_natives() { return first != nullptr && !has_host && family::has_natives(); }
+bool may_be_served_by_natives() { return head != nullptr && !has_host && family::has_natives(); }
 
 }  // namespace
 
@@ -144,13 +144,13 @@ bool anybody_awaits_stream() { return waiting_for_streams > 0; }
 bool anybody_awaits_outsiders() { return waiting_for_outsiders > 0 || may_be_served_by_natives(); }
 
 void forget_waiters() {
-  first = last = nullptr;
+  head = tail = nullptr;
   waiting_outside = waiting_for_no_descriptor = waiting_for_input = waiting_for_streams = waiting_for_outsiders = 0;
 }
 
 const pollfd* awaited_descriptors(const kernel::Task& task, nfds_t& count) {
   count = 0;
-  for (const Waiter* waiter = first; waiter != nullptr; waiter = waiter->next)
+  for (const Waiter* waiter = head; waiter != nullptr; waiter = waiter->next)
     if (waiter->task == &task) {
       count = waiter->count;
       return waiter->descriptors;
@@ -159,7 +159,7 @@ const pollfd* awaited_descriptors(const kernel::Task& task, nfds_t& count) {
 }
 
 void forget_waiter(const kernel::Task& task) {
-  for (Waiter* waiter = first; waiter != nullptr; waiter = waiter->next)
+  for (Waiter* waiter = head; waiter != nullptr; waiter = waiter->next)
     if (waiter->task == &task) return remove(*waiter);
 }
 

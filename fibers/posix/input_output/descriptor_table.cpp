@@ -21,6 +21,7 @@
 #include "fibers/posix/base/interposed.hpp"
 #include "fibers/posix/descriptors/connections.hpp"
 #include "fibers/posix/descriptors/descriptors.hpp"
+#include "fibers/posix/descriptors/epoll_watches.hpp"
 #include "fibers/posix/descriptors/owners.hpp"
 #include "fibers/posix/descriptors/partners.hpp"
 #include "fibers/posix/descriptors/signal_descriptors.hpp"
@@ -54,6 +55,7 @@ void forget(int closed) {
   close_stream_over_link(closed);
   forget_watched(closed);
   forget_connection(closed);
+  forget_watches_of(closed);
   note_inside(closed, false);
 }
 
