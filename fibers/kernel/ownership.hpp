@@ -7,6 +7,11 @@
 
 namespace waitpoint::kernel {
 
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC diagnostic push
+// The list may name a local object of the caller: one that ends while it is owned stops the run.
+#pragma GCC diagnostic ignored "-Wdangling-pointer"
+#endif
 /// Makes `task` the owner of `object`, which must have none.
 inline void own(Object& object, Task& task) {
   object.owner = &task;
@@ -14,6 +19,9 @@ inline void own(Object& object, Task& task) {
   if (__builtin_expect(object.next_held != task.held, 0)) object.next_held = task.held;
   task.held = &object;
 }
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC diagnostic pop
+#endif
 
 /// Takes `object` from `owner`, which must own it.
 inline void disown(Object& object, Task& owner) {
