@@ -1,10 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Copies the tree, with subprojects that need no network: wraps.py FOLDER.
 
-The wraps name upstream's archives. If only Debian's packages are available, its source packages contain the same releases:
-some archives bit by bit the same, others repacked without files that Debian may not ship. This script downloads them with
-the system's apt, copies the tree to FOLDER/tree and fills the wraps' package cache there; in the copy, wraps of repacked
-archives have new hashes. Another call updates the copy with changes of the tree.
+The wraps name upstream's archives, of the releases that Debian 13 has. If only Debian's packages are available, its source
+packages contain releases of the same libraries: some archives bit by bit the same, others repacked without files that Debian
+may not ship, or, on another Debian, of another version, for which the definitions in packagefiles/ serve too. This script
+downloads them with the system's apt, copies the tree to FOLDER/tree and fills the wraps' package cache there; in the copy,
+wraps of other archives have new hashes, and their definitions the version of the archive. Another call updates the copy with
+changes of the tree.
 """
 
 import hashlib
@@ -18,9 +20,9 @@ import tarfile
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 
-# Debian's source packages of the same releases, by wrap.
+# Debian's source packages of the same libraries, by wrap; Boost's has the version in its name.
 SOURCE_PACKAGES = {
-    "boost": "boost1.74",
+    "boost": "boost",
     "ccd": "libccd",
     "cli11": "cli11",
     "eigen3": "eigen3",
@@ -37,8 +39,21 @@ SOURCE_PACKAGES = {
 
 def find_archive(folder, package):
     """The upstream archive of a source package in `folder`, or None."""
-    archives = (path for path in folder.glob(f"{package}_*") if re.search(r"\.orig\.tar\.(gz|bz2|xz)$", path.name))
-    return next(archives, None)
+    name = re.compile(re.escape(package) + r"[\d.]*_.*\.orig\.tar\.(gz|bz2|xz)$")
+    return next((path for path in folder.iterdir() if name.match(path.name)), None)
+
+
+def upstream_version(archive):
+    """The version in a source archive's name, without what Debian adds to it: 1.3.1 of 1.3.dfsg+really1.3.1."""
+    version = archive.name.split("_")[1].split(".orig.")[0].split("really")[-1]
+    return re.match(r"[\d.]*\d", version).group()
+
+
+def with_boosts_version(packages):
+    """The source packages, with the version of Boost that Debian's default package depends on."""
+    depended = subprocess.run(["apt-cache", "depends", "libboost-context-dev"], check=True, capture_output=True, text=True)
+    boost = "boost" + re.search(r"libboost-context([\d.]+)-dev", depended.stdout).group(1)
+    return [boost if package == "boost" else package for package in packages]
 
 
 def apt(state, *arguments):
@@ -61,7 +76,7 @@ def download(packages, folder):
     suites = {line for line in targets.splitlines(keepends=True) if "-" not in line.split()[2]}
     (folder / "sources.list").write_text("".join(sorted(suites)))
     apt(folder, "update")
-    apt(folder, "source", "--download-only", *packages)
+    apt(folder, "source", "--download-only", *with_boosts_version(packages))
 
 
 def files_of_tree(folder):
@@ -122,6 +137,11 @@ def main():
         fitted = fit(text, archive)
         same += fitted == text
         write_if_new(tree / f"subprojects/{wrap}.wrap", fitted.encode())
+        definition = tree / f"subprojects/packagefiles/{wrap}/meson.build"
+        if definition.exists():
+            own = (ROOT / definition.relative_to(tree)).read_text()
+            version = upstream_version(archive)
+            write_if_new(definition, re.sub(r"(?<!_)version: '[\d.]+'", f"version: '{version}'", own, count=1).encode())
         cached = cache / re.search(r"^source_filename = (.*)$", fitted, re.MULTILINE).group(1)
         if not cached.exists():
             shutil.copyfile(archive, cached)
