@@ -6,6 +6,7 @@
 
 #include <map>
 #include <string>
+#include <string_view>
 
 #include "core/error.hpp"
 #include "modules/description/parser.hpp"
@@ -38,8 +39,8 @@ inline std::string module_with(const std::string& members, const std::string& re
          " } DEMO_STR;\n" + rest;
 }
 
-inline const Type& member(const Description& description, const std::string& name) {
-  const Field* field = find_field(*description.data, name);
+inline const Type& member(const Description& description, std::string_view name) {
+  const Field* field = find_field(*description.data, std::string(name));
   EXPECT_NE(field, nullptr) << name;
   return *field->type;
 }
