@@ -56,6 +56,11 @@ template <class T, std::size_t Capacity>
 class Bounded {
  public:
   Bounded() {}
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC diagnostic push
+// g++ 14 takes elements beyond the size for copied ones.
+#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
+#endif
   Bounded(const Bounded& other) : size_(other.size_) { std::copy(other.begin(), other.end(), begin()); }
   Bounded& operator=(const Bounded& other) {
     if (this == &other) return *this;
@@ -63,6 +68,9 @@ class Bounded {
     std::copy(other.begin(), other.end(), begin());
     return *this;
   }
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC diagnostic pop
+#endif
   ~Bounded() = default;
 
   static constexpr std::size_t capacity() { return Capacity; }
