@@ -3,7 +3,8 @@
 
 Each block of a command in README.md, CONTRIBUTING.md and docs/ is run, or a comment before it says why not: blocks.py. The
 blocks of a page share a folder with `scenarios`, the sources of tests/programs and nothing else; $ROOT is the tree,
-`waitpoint` the built program, and pkg-config finds its installation. Pictures that commands of a page write must be those in
+`waitpoint` the built program, and pkg-config finds its installation; with a prefix such as /usr for BUILD both are those
+that are installed there, as are the scenarios. Pictures that commands of a page write must be those in
 docs/, byte for byte. --long runs the blocks that take long, too; --table lists all blocks.
 """
 
@@ -18,7 +19,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT / "tests/programs"), str(ROOT / "tests/docs")]
 import blocks  # noqa: E402
 import sessions  # noqa: E402
-from installed import BUILD, Installed, main  # noqa: E402
+from installed import BUILD, IS_PREFIX, Installed, PROGRAM, SCENARIOS, main  # noqa: E402
 
 LONG = "--long" in sys.argv
 # Pages that need what not every build has: files of the build folder, programs of the system.
@@ -48,11 +49,11 @@ class Pages(Installed):
         folder = self.folder / page.replace("/", "-")
         tools = folder / ".bin"
         tools.mkdir(parents=True)
-        (folder / "scenarios").symlink_to(ROOT / "scenarios")
+        (folder / "scenarios").symlink_to(SCENARIOS)
         for source in (ROOT / "tests/programs").glob("*/*"):
             if source.suffix in (".c", ".cpp", ".ctl", ".hpp", ".yaml"):
                 (folder / source.name).write_text(source.read_text().replace("../../../scenarios/", "scenarios/"))
-        (tools / "waitpoint").symlink_to(BUILD / "tools/waitpoint")
+        (tools / "waitpoint").symlink_to(PROGRAM)
         configure = tools / "pkg-config"
         configure.write_text(f'#!/bin/sh\nexec {shutil.which("pkg-config")} --define-variable=prefix={self.prefix} "$@"\n')
         configure.chmod(0o755)
@@ -82,7 +83,7 @@ class Pages(Installed):
             self.assertEqual(status, int(step.marks.get("status", 0)), f"{step}:\n{step.text}says:\n{output}")
 
     def try_page(self, page):
-        missing = [name for name in NEEDS.get(page, ()) if not (BUILD / name).exists()]
+        missing = [name for name in NEEDS.get(page, ()) if not IS_PREFIX and not (BUILD / name).exists()]
         if missing:
             self.skipTest(f"not in this build: {', '.join(missing)}")
         steps = blocks.chosen(page, LONG)

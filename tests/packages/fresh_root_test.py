@@ -40,12 +40,12 @@ class FreshRoot(unittest.TestCase):
         for package in PACKAGES.glob("*.deb"):
             if "-dbgsym_" not in package.name:
                 shutil.copy2(package, cls.root / "packages")
-        for part in ("README.md", "debian/tests", "docs", "scenarios", "tests/golden", "tests/programs"):
+        for part in ("README.md", "CONTRIBUTING.md", "debian/tests", "docs", "scenarios", "tests/docs", "tests/golden", "tests/programs"):
             of_tree, copy = TREE / part, cls.root / "tree" / part
             copy.parent.mkdir(parents=True, exist_ok=True)
             (shutil.copytree if of_tree.is_dir() else shutil.copy2)(of_tree, copy)
         cls.inside("apt-get update -q")
-        cls.before = cls.files()
+        cls.before, cls.others = cls.files(), []
 
     @classmethod
     def inside(cls, command, status=0):
@@ -69,10 +69,11 @@ class FreshRoot(unittest.TestCase):
 
     @classmethod
     def install(cls, *names, more=""):
-        """Installs packages of the folder by name; returns the names of all that came with them."""
+        """Installs packages of the folder by name, and MORE of Debian's; returns the names of all that came with them."""
         earlier = set(cls.inside("dpkg-query -W -f '${Package}\\n'").split())
         debs = " ".join(f"/packages/{name}_*.deb" for name in names)
         cls.inside(f"apt-get install -y -q --no-install-recommends {debs} {more}")
+        cls.others += more.split()
         return set(cls.inside("dpkg-query -W -f '${Package}\\n'").split()) - earlier
 
     def digest(self, command):
@@ -123,9 +124,19 @@ class FreshRoot(unittest.TestCase):
         self.assertEqual([name for name in came if re.search(r"eigen|ros-|-dev$", name)], ["libwaitpoint-robots-dev"])
         self.inside("sh /tree/debian/tests/blinker")
 
-    def test_6_nothing_is_left(self):
+    def try_pages(self, *names):
+        """The commands of pages, with what is installed in the place of a build."""
+        for name in names:
+            with self.subTest(page=name):
+                self.inside(f"cd /tree && python3 -B tests/docs/pages_test.py /usr Pages.test_{name}")
+
+    def test_6_commands_of_the_tutorials(self):
+        self.install("waitpoint", more="python3")
+        self.try_pages("README", "threads", "robots", "programs")
+
+    def test_7_nothing_is_left(self):
         ours = [name for name in self.inside("dpkg-query -W -f '${Package}\\n'").split() if "waitpoint" in name]
-        self.inside(f"apt-get purge -y -q {' '.join(ours)} g++ libgtest-dev pkg-config && apt-get autoremove --purge -y -q")
+        self.inside(f"apt-get purge -y -q {' '.join(ours + self.others)} && apt-get autoremove --purge -y -q")
         left = self.files() - self.before
         self.assertEqual(sorted(path for path in left if "waitpoint" in path), [])
         self.assertEqual(self.inside("dpkg-query -W -f '${Package} ${db:Status-Status}\\n' '*waitpoint*' 2>/dev/null || true"), "")

@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""An installation of a build folder, and programs compiled against it with only the flags of pkg-config."""
+"""An installation of a build folder, and programs compiled against it with only the flags of pkg-config.
+
+In the place of a build folder the command line may name a prefix, such as /usr, in which waitpoint is installed already.
+"""
 
 import os
 import pathlib
@@ -10,6 +13,9 @@ import unittest
 
 HERE = pathlib.Path(__file__).resolve().parent
 BUILD = pathlib.Path(sys.argv.pop(1)).resolve()
+IS_PREFIX = not (BUILD / "build.ninja").exists() and (BUILD / "bin/waitpoint").exists()
+PROGRAM = BUILD / ("bin/waitpoint" if IS_PREFIX else "tools/waitpoint")
+SCENARIOS = BUILD / "share/waitpoint/scenarios" if IS_PREFIX else HERE.parents[1] / "scenarios"
 
 
 def run(*command, **options):
@@ -37,6 +43,9 @@ class Installed(unittest.TestCase):
         folder = tempfile.TemporaryDirectory()
         unittest.addModuleCleanup(folder.cleanup)
         Installed.folder = pathlib.Path(folder.name)
+        if IS_PREFIX:
+            Installed.prefix = BUILD
+            return
         run("meson", "install", "-C", BUILD, "--no-rebuild", "--destdir", cls.folder / "root")
         Installed.prefix = next((cls.folder / "root").rglob("include/waitpoint")).parents[1]
         # In the place of ldconfig.

@@ -27,7 +27,7 @@ declare -A debian=(
            libode-dev libcgal-dev'
   [docs]='python3-sphinx python3-myst-parser furo doxygen'
   [package]='git dpkg-dev debhelper xz-utils'
-  [packages]='debootstrap'
+  [packages]='debootstrap lintian'
   [check]='clang-format clang-tidy'
   [format]='clang-format'
 )
@@ -54,7 +54,7 @@ declare -A upstream=(
            ODE 0.16, CGAL 5.5 (each is left out where it is missing)'
   [docs]='Sphinx 5.3 with MyST and furo, Doxygen 1.9'
   [package]='Debian 12, git'
-  [packages]='debootstrap'
+  [packages]='debootstrap, lintian'
   [check]='clang-format and clang-tidy 14'
   [format]='clang-format 14'
 )
@@ -64,7 +64,7 @@ declare -A tools=(
   [run]='meson ninja c++ pkg-config python3' [test]='' [ros]='rosmaster' [ros2]='idlc' [view]='chromium node npm'
   [builds]='clang++ apt-get' [wraps]='apt-get' [valgrind]='valgrind'
   [arm64]='aarch64-linux-gnu-g++ qemu-aarch64 mmdebstrap ccache'
-  [bench]='' [peers]='' [docs]='sphinx-build doxygen' [package]='git dpkg-buildpackage' [packages]='debootstrap' [check]='' [format]='clang-format'
+  [bench]='' [peers]='' [docs]='sphinx-build doxygen' [package]='git dpkg-buildpackage' [packages]='debootstrap lintian' [check]='' [format]='clang-format'
 )
 
 # Parts of the program that need a library of their own, and the option and the trace of each in the build.
