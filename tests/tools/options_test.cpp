@@ -207,6 +207,8 @@ TEST_F(CommandLine, standard_output_as_a_file_is_noticed) {
 TEST_F(CommandLine, a_replay_line_is_read_back_by_a_shell) {
   EXPECT_EQ(replay_line(run({"run", "a.yaml", "--set", "x=1", "--replay-journal", "j"}), 3),
             "waitpoint run a.yaml --seed 3 --replay-journal j --set 'x=1'");
+  EXPECT_EQ(replay_line(run({"run", "a.yaml", "--order", "seeded", "--until", "2.5", "--brief"}), 3),
+            "waitpoint run a.yaml --seed 3 --order seeded --until 2.500000000 --brief");
   RunOptions options;
   options.program = "./my robots";
   options.scenario = "an office.yaml";

@@ -79,6 +79,8 @@ std::string replay_line(const RunOptions& options, std::uint64_t seed) {
   std::string line =
       quoted(options.program) + " run " + quoted(options.scenario.string()) + " --seed " + std::to_string(seed);
   if (options.order == kernel::Order::seeded) line += " --order seeded";
+  if (options.until) line += " --until " + to_string(Time() + *options.until);
+  if (options.is_brief) line += " --brief";
   if (options.replay_durations) line += " --replay-durations " + quoted(options.replay_durations->string());
   // A replay has to read the journal that this run writes.
   if (const auto& journal = options.journal ? options.journal : options.replay_journal)
