@@ -3,6 +3,7 @@
 
 import json
 import pathlib
+import signal
 import subprocess
 import sys
 import tempfile
@@ -75,7 +76,11 @@ class Documents(unittest.TestCase):
         """The document of a command, which is as its schema says, and its exit status."""
         done = self.call(command, "--json", *words)
         self.assertEqual(done.returncode, status, done.stderr)
-        document = json.loads(done.stdout)
+        return self.checked(command, done.stdout, status)
+
+    def checked(self, command, text, status):
+        """The result in the text of a document, which is as the command's schema says."""
+        document = json.loads(text)
         schema = schema_of(command.strip("-") + ".schema.json")
         jsonschema.Draft202012Validator.check_schema(schema)
         jsonschema.Draft202012Validator(schema).validate(document)
@@ -104,6 +109,39 @@ class Documents(unittest.TestCase):
 
     def test_self_check(self):
         self.assertTrue(self.document("run", OFFICE, "--until", "0.5", "--check")["same"])
+
+    def signalled(self, expected, number, *options):
+        """The output and status of a run to which a signal is sent when it has said what is expected."""
+        run = subprocess.Popen([PROGRAM, "run", OFFICE, "--json", *options], cwd=self.folder, text=True, stdout=subprocess.PIPE,
+                               stderr=subprocess.PIPE)
+        while expected not in (line := run.stderr.readline()):
+            self.assertTrue(line, f"the run ended without '{expected}'")
+        run.send_signal(number)
+        return run.communicate(timeout=60)[0], run.returncode
+
+    def test_a_run_that_dies(self):
+        output, status = self.signalled("60 s of", signal.SIGSEGV, "--speed", "200")
+        self.assertEqual(status, -signal.SIGSEGV)
+        result = self.checked("run", output, None)
+        self.assertEqual(result["outcome"], "crashed")
+        self.assertIn("dies of SIGSEGV", result["crash"])
+        self.assertGreaterEqual(result["simulated_s"], 59)
+
+    def test_a_run_that_is_shown(self):
+        output, status = self.signalled("the run is over", signal.SIGINT, "--serve", "--until", "1")
+        self.assertEqual((status, self.checked("run", output, 1)["outcome"]), (1, "time limit"))
+
+    @unittest.skipUnless((BUILD / "libwaitpoint-mpi.so").exists(), "the program has no ranks")
+    def test_a_run_of_several_ranks(self):
+        result = self.document("run", OFFICE.with_name("office-10.yaml"), "--until", "0.1", "--ranks", "2", status=1)
+        alone = self.document("run", OFFICE.with_name("office-10.yaml"), "--until", "0.1", status=1)
+        self.assertEqual((len(result["ranks"]), result["digest"]), (2, alone["digest"]))
+
+    @unittest.skipUnless((BUILD / "libwaitpoint-nodes.so").exists() and (BUILD / "scenarios/nodes/driver").exists(),
+                         "no nodes of ROS were built")
+    def test_a_run_with_nodes(self):
+        result = self.document("run", OFFICE.with_name("office-ros-modules.yaml"), "--until", "0.5", status=1)
+        self.assertEqual(result["outcome"], "time limit")
 
     def test_text_goes_to_standard_error(self):
         words = ["run", OFFICE, "--until", "2"]
