@@ -4,6 +4,7 @@
 #include <dlfcn.h>
 
 #include "core/error.hpp"
+#include "core/missing_part.hpp"
 #include "tools/command/data_folder.hpp"
 
 namespace waitpoint::tools {
@@ -25,7 +26,7 @@ std::filesystem::path find_part(const std::string& name) {
   const std::filesystem::path installed = std::filesystem::path(library_folder) / name;
   for (const std::filesystem::path& place : {own_folder() / "waitpoint" / name, folder / ".." / name, installed})
     if (std::filesystem::exists(place)) return std::filesystem::canonical(place);
-  throw BadInput("programs", "the library they need is not installed: expected " + installed.string());
+  throw BadInput("programs", name + ", which they need, is not installed: " + missing_part::programs);
 }
 
 std::filesystem::path find_scenario(const std::string& name) {
