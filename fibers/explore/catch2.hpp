@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Catches failing assertions of Catch2 (2.x) within an explored body: they make its schedule fail, and are shown once,
-// with the report. Included by explore.hpp if Catch2 was included before.
+// Catches failing assertions of Catch2 (2.x, 3.4 to 3.7) within an explored body: they make its schedule fail, and are
+// shown once, with the report. Included by explore.hpp if Catch2 was included before.
 #pragma once
 
 #include <sstream>
@@ -8,16 +8,16 @@
 #include <utility>
 
 #include "fibers/explore/body.hpp"
+#include "fibers/explore/catch2_passed_on.hpp"
 
-// Nothing without the framework's header, which this one cannot include: how is the user's choice.
-#if defined(CATCH_VERSION_MAJOR) && CATCH_VERSION_MAJOR == 2
+#if defined(WAITPOINT_CATCH2)
 
 namespace waitpoint::exploration {
 
 /// Stands in for the framework's own capture of results; passes on all that is no assertion.
-class CatchCapture final : public Catch::IResultCapture {
+class CatchCapture final : public CatchPassedOn {
  public:
-  explicit CatchCapture(Catch::IResultCapture& test) : test_(test) {}
+  using CatchPassedOn::CatchPassedOn;
 
   /// The failures since the last call.
   std::string take_failures() { return std::exchange(failures_, {}); }
@@ -32,17 +32,16 @@ class CatchCapture final : public Catch::IResultCapture {
     if (is_false_test) text << ")";
     fail(info, text.str(), reaction);
   }
-  void handleMessage(const Catch::AssertionInfo& info, Catch::ResultWas::OfType type, const Catch::StringRef& message,
+  void handleMessage(const Catch::AssertionInfo& info, Catch::ResultWas::OfType type, CatchMessage message,
                      Catch::AssertionReaction& reaction) override {
-    if (Catch::isOk(type) || type == Catch::ResultWas::Info || type == Catch::ResultWas::Warning)
-      return assertionPassed();
+    if (is_passed(type)) return assertionPassed();
     fail(info, std::string(message), reaction);
   }
   void handleUnexpectedExceptionNotThrown(const Catch::AssertionInfo& info,
                                           Catch::AssertionReaction& reaction) override {
     fail(info, "no exception was thrown", reaction);
   }
-  void handleUnexpectedInflightException(const Catch::AssertionInfo& info, const std::string& message,
+  void handleUnexpectedInflightException(const Catch::AssertionInfo& info, CatchException message,
                                          Catch::AssertionReaction& reaction) override {
     fail(info, "exception: " + message, reaction);
   }
@@ -55,28 +54,6 @@ class CatchCapture final : public Catch::IResultCapture {
   bool lastAssertionPassed() override { return last_passed_; }
   void assertionPassed() override { last_passed_ = true; }
 
-  bool sectionStarted(const Catch::SectionInfo& info, Catch::Counts& counts) override {
-    return test_.sectionStarted(info, counts);
-  }
-  void sectionEnded(const Catch::SectionEndInfo& info) override { test_.sectionEnded(info); }
-  void sectionEndedEarly(const Catch::SectionEndInfo& info) override { test_.sectionEndedEarly(info); }
-  Catch::IGeneratorTracker& acquireGeneratorTracker(Catch::StringRef name, const Catch::SourceLineInfo& line) override {
-    return test_.acquireGeneratorTracker(name, line);
-  }
-#ifdef CATCH_CONFIG_ENABLE_BENCHMARKING
-  void benchmarkPreparing(const std::string& name) override { test_.benchmarkPreparing(name); }
-  void benchmarkStarting(const Catch::BenchmarkInfo& info) override { test_.benchmarkStarting(info); }
-  void benchmarkEnded(const Catch::BenchmarkStats<>& stats) override { test_.benchmarkEnded(stats); }
-  void benchmarkFailed(const std::string& error) override { test_.benchmarkFailed(error); }
-#endif
-  void pushScopedMessage(const Catch::MessageInfo& message) override { test_.pushScopedMessage(message); }
-  void popScopedMessage(const Catch::MessageInfo& message) override { test_.popScopedMessage(message); }
-  void emplaceUnscopedMessage(const Catch::MessageBuilder& builder) override { test_.emplaceUnscopedMessage(builder); }
-  void handleFatalErrorCondition(Catch::StringRef message) override { test_.handleFatalErrorCondition(message); }
-  std::string getCurrentTestName() const override { return test_.getCurrentTestName(); }
-  const Catch::AssertionResult* getLastResult() const override { return test_.getLastResult(); }
-  void exceptionEarlyReported() override { test_.exceptionEarlyReported(); }
-
  private:
   void fail(const Catch::AssertionInfo& info, const std::string& found, Catch::AssertionReaction& reaction) {
     last_passed_ = Catch::shouldSuppressFailure(info.resultDisposition);
@@ -85,10 +62,9 @@ class CatchCapture final : public Catch::IResultCapture {
     text << (failures_.empty() ? "" : "\n") << "expectation at " << info.lineInfo.file << ":" << info.lineInfo.line
          << ": " << info.macroName << "( " << info.capturedExpression << " ): " << found;
     failures_ += text.str();
-    reaction.shouldThrow = !Catch::shouldContinueOnFailure(info.resultDisposition);
+    reaction.shouldThrow = (info.resultDisposition & Catch::ResultDisposition::ContinueOnFailure) == 0;
   }
 
-  Catch::IResultCapture& test_;
   std::string failures_;
   bool last_passed_ = true;
 };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Runs a test body under many schedules in one process, until one fails.
 //
-//   #include <gtest/gtest.h>            // or Catch2 2.x, or doctest; before this one: then its expectations are caught
+//   #include <gtest/gtest.h>            // or Catch2, or doctest; before this one: then its expectations are caught
 //   #include <waitpoint/fibers/explore/explore.hpp>
 //
 //   TEST(Mailbox, NeverLosesALetter) {
@@ -26,7 +26,7 @@
 #include "fibers/explore/explore_report.hpp"
 #if defined(GTEST_TEST)
 #include "fibers/explore/googletest.hpp"
-#elif defined(CATCH_VERSION_MAJOR) && CATCH_VERSION_MAJOR == 2
+#elif defined(CATCH_VERSION_MAJOR) || defined(CATCH_TEST_MACROS_HPP_INCLUDED)
 #include "fibers/explore/catch2.hpp"
 #elif defined(DOCTEST_LIBRARY_INCLUDED)
 #include "fibers/explore/doctest.hpp"
@@ -46,7 +46,7 @@ static inline ExploreReport explore(std::function<void()> body, const ExploreOpt
 #if defined(GTEST_TEST)
   exploration::GoogleTestChecks checks;
   return explore_with(&checks, std::move(body), options);
-#elif defined(CATCH_VERSION_MAJOR) && CATCH_VERSION_MAJOR == 2
+#elif defined(WAITPOINT_CATCH2)
   exploration::CatchChecks checks;
   return explore_with(&checks, std::move(body), options);
 #elif defined(DOCTEST_LIBRARY_INCLUDED)
