@@ -14,7 +14,8 @@ profiles=()
 git -C "$root" rev-parse HEAD >/dev/null || { say 'packages are built from a clone of the repository'; exit 2; }
 version=$(dpkg-parsechangelog -l "$root/debian/changelog" -S Version)
 upstream=${version%-*}
-tree=$(git -C "$root" stash create)  # with changes that are not committed; empty if there are none
+# With changes that are not committed; empty if there are none. A fresh machine has no name for the commit's author.
+tree=$(git -C "$root" -c user.name=waitpoint -c user.email=waitpoint@localhost stash create)
 rm -rf "$folder"
 mkdir -p "$folder"
 cd "$folder"
