@@ -6,31 +6,12 @@ minute; they have a folder core/ of their own.
 import os
 import pathlib
 import shutil
-import subprocess
 import tempfile
 import unittest
 
+from consumer import run, write_consumer
+
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-OWN_HEADER = """
-#pragma once
-namespace own { constexpr int hours = 24; }
-"""
-MAIN = """
-#include "core/time.hpp"
-#include <waitpoint/core/time.hpp>
-#include <waitpoint/fibers/explore/explore.hpp>
-#include <waitpoint/fibers/sync/threads.hpp>
-int main() {
-  int written = 0;
-  const auto report = waitpoint::explore([&] {
-    written = 0;
-    waitpoint::thread writer({.name = "writer"}, [&] { written = own::hours; });
-    writer.join();
-    waitpoint::check(written == own::hours);
-  });
-  return report.passed && written == own::hours ? 0 : 1;
-}
-"""
 FETCH_CONTENT = """
 cmake_minimum_required(VERSION 3.18)
 project(consumer CXX)
@@ -56,20 +37,12 @@ executable('consumer', 'main.cpp', dependencies: dependency('waitpoint'))
 """
 
 
-def run(*command, **options):
-    done = subprocess.run([str(word) for word in command], capture_output=True, text=True, timeout=1200, **options)
-    if done.returncode != 0:
-        raise AssertionError(f"{' '.join(map(str, command))}\nended with {done.returncode}:\n{done.stdout}{done.stderr}")
-
-
 class FromSources(unittest.TestCase):
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
         self.folder = pathlib.Path(folder.name)
-        (self.folder / "core").mkdir()
-        (self.folder / "core/time.hpp").write_text(OWN_HEADER)
-        (self.folder / "main.cpp").write_text(MAIN)
+        write_consumer(self.folder)
 
     def with_cmake(self, project):
         (self.folder / "CMakeLists.txt").write_text(project.format(root=ROOT))
