@@ -23,6 +23,14 @@ lacks() {
   echo "$said"
 }
 
+names_what_is_missing() {
+  if [[ $1 != *'`./dev '*'`'* ]] || [[ $1 == *$'\n'* ]]; then
+    say "expected one line that names what is missing, and a command of ./dev, found: $1"
+    exit 1
+  fi
+  echo "$1"
+}
+
 options=("${option_of_part[@]/%/=disabled}")
 (
   build=$root/build-minimal
@@ -30,6 +38,18 @@ options=("${option_of_part[@]/%/=disabled}")
   compile program tests/test-core tests/test-fibers tests/test-world tests/test-modules
 )
 python3 "$root/tools/dev/run_tests.py" "$root/build-minimal" --programs core,fibers,world,modules "$@"
+# Each scenario runs, or names what it lacks in one line, as do commands for programs.
+for scenario in "$root"/scenarios/*.yaml; do
+  status=0
+  said=$("$root/build-minimal/tools/waitpoint" run "$scenario" --until 0.1 2>&1) || status=$?
+  ((status == 2)) || continue
+  case $(basename "$scenario") in
+    office-floor.yaml | rackham.yaml) ;;  # parts of other scenarios
+    fidelity.yaml | office-map.yaml) ;;  # other runs make what they read
+    *) names_what_is_missing "$said" ;;
+  esac
+done
+said=$("$root/build-minimal/tools/waitpoint" exec -- true 2>&1) || names_what_is_missing "$said"
 lacks bags --record "$root/build-minimal/x.bag"
 lacks bullet --set world.engine=bullet
 lacks ranks --ranks 2
