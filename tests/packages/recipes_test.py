@@ -2,7 +2,7 @@
 """The port of vcpkg, the recipe of Conan and the Dockerfile in packaging/: recipes_test.py [--long].
 
 With --long the first two build the library for threads by stand-ins of the tools, for a minute each, and a project uses
-it. The Dockerfile's steps are those of docker_test.py.
+it. The Dockerfile is read only.
 """
 
 import json
