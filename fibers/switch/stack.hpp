@@ -23,6 +23,7 @@ struct Stack {
   std::uint32_t slot = 0;
   StackSize size = StackSize::medium;
   Guard guard = Guard::page;
+  std::uint16_t guard_kib = 4;  ///< the size of the guard below `low`
 };
 
 }  // namespace waitpoint::kernel

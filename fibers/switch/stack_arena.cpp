@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fibers/switch/stack_arena.hpp"
 
+#include <sys/auxv.h>
 #include <sys/mman.h>
 #include <sys/resource.h>
 
@@ -13,7 +14,8 @@
 namespace waitpoint::kernel {
 namespace {
 
-constexpr std::size_t page = 4096;
+// The least size of a page. Where the system's are too large for guards, this much below the stack is not used.
+constexpr std::size_t least_page = 4096;
 // The number of different cache lines of a page at which tops of stacks begin: a prime, and small enough that a parked
 // task's record and frames are usually in one page.
 constexpr std::uint32_t shifts = 53;
@@ -33,6 +35,18 @@ std::size_t bytes_max() {
   return limit.rlim_cur / 8;
 }
 
+// An emulator of system calls may accept any advice as a hint, and do nothing: qemu's user mode does.
+bool heeds_advice() {
+  constexpr int unknown_advice = 0x7FFF'FFFF;
+  static const bool heeds = madvise(nullptr, 0, unknown_advice) != 0;
+  return heeds;
+}
+
+// A guard that needs no mapping of its own.
+bool install_light_guard(char* at, std::size_t size) {
+  return heeds_advice() && madvise(at, size, madv_guard_install) == 0;
+}
+
 // Of each size, of pages that are kept: the first slots have their guards from guard_ahead() on.
 struct GuardedAhead {
   const char* base;
@@ -42,7 +56,9 @@ constinit GuardedAhead guarded_ahead[stack_sizes] = {};
 
 }  // namespace
 
-StackArena::StackArena() {
+std::size_t StackArena::system_page_bytes() { return getauxval(AT_PAGESZ); }
+
+StackArena::StackArena(std::size_t page_bytes) : page_bytes_(static_cast<std::uint32_t>(page_bytes)) {
   sanitizer::look();
   for (const StackSize size : {StackSize::small, StackSize::medium, StackSize::large}) reserve(range_of(size), size);
 }
@@ -56,7 +72,7 @@ void StackArena::guard_ahead(std::uint32_t slots) {
     guarded_ahead[i] = {ranges_[i].base, 0};
     std::uint32_t& guarded = guarded_ahead[i].slots;
     while (guarded < std::min(slots, ranges_[i].slots) &&
-           madvise(ranges_[i].base + guarded * bytes(static_cast<StackSize>(i)), page, madv_guard_install) == 0)
+           install_light_guard(ranges_[i].base + guarded * bytes(static_cast<StackSize>(i)), page_bytes_))
       ++guarded;
   }
 }
@@ -81,8 +97,8 @@ StackArena::~StackArena() {
 }
 
 bool StackArena::install_guard(char* at) {
-  if (madvise(at, page, madv_guard_install) == 0) return true;
-  if (protected_pages_ >= protected_pages_max || mprotect(at, page, PROT_NONE) != 0) return false;
+  if (install_light_guard(at, page_bytes_)) return true;
+  if (protected_pages_ >= protected_pages_max || mprotect(at, page_bytes_, PROT_NONE) != 0) return false;
   ++protected_pages_;
   return true;
 }
@@ -90,11 +106,13 @@ bool StackArena::install_guard(char* at) {
 Stack StackArena::describe(const Range& range, StackSize size, std::uint32_t slot) const {
   Stack stack;
   char* base = range.base + slot * bytes(size);
-  stack.low = base + page;
+  const std::size_t guard_bytes = is_guarded_by_page(size) ? page_bytes_ : least_page;
+  stack.low = base + guard_bytes;
   stack.high = base + bytes(size) - (slot % shifts) * std::size_t{64};
   stack.slot = slot;
   stack.size = size;
   stack.guard = slot < range.unguarded_from ? Guard::page : Guard::canary;
+  stack.guard_kib = static_cast<std::uint16_t>(guard_bytes / 1024);
   return stack;
 }
 
@@ -109,7 +127,8 @@ bool StackArena::take(StackSize size, Stack& stack) {
     const std::uint32_t slot = range.opened++;
     const GuardedAhead& ahead = guarded_ahead[static_cast<int>(size)];
     const bool is_guarded = range.base == ahead.base && slot < ahead.slots;
-    if (!is_guarded && slot < range.unguarded_from && !install_guard(range.base + slot * bytes(size)))
+    if (!is_guarded && slot < range.unguarded_from &&
+        !(is_guarded_by_page(size) && install_guard(range.base + slot * bytes(size))))
       range.unguarded_from = slot;
     stack = describe(range, size, slot);
   }
@@ -119,7 +138,7 @@ bool StackArena::take(StackSize size, Stack& stack) {
 }
 
 bool StackArena::guards(const Stack& stack, const char* address) {
-  return stack.guard == Guard::page && address < stack.low && address >= stack.low - page;
+  return stack.guard == Guard::page && address < stack.low && address >= stack.low - stack.guard_kib * 1024;
 }
 
 void StackArena::give_back(const Stack& stack) {

@@ -12,7 +12,8 @@
 //
 // The guard page is installed by MADV_GUARD_INSTALL (Linux 6.13), which needs no mapping of its own; else by mprotect,
 // up to the number of mappings a process may have; else there is none, and a canary word at the low end is checked at
-// every switch.
+// every switch. So it is, too, if the page is more than a quarter of the slot: processors of ARM have pages of 16 or
+// 64 KiB in some systems.
 #pragma once
 
 #include <cstddef>
@@ -24,7 +25,8 @@ namespace waitpoint::kernel {
 
 class StackArena {
  public:
-  StackArena();
+  /// `page_bytes`: the system's size of a page, or a multiple.
+  explicit StackArena(std::size_t page_bytes = system_page_bytes());
   ~StackArena();
   StackArena(const StackArena&) = delete;
   StackArena& operator=(const StackArena&) = delete;
@@ -33,7 +35,7 @@ class StackArena {
   void reserve_all();
   /// Installs the guards of the first stacks of each size, which stay for later arenas on the same pages (PagesKept).
   void guard_ahead(std::uint32_t slots);
-  /// Takes a stack of bytes(size), minus the guard page and the shift, which is less than a page. False if all slots
+  /// Takes a stack of bytes(size), minus the guard page and the shift, which is less than 4 KiB. False if all slots
   /// are in use.
   bool take(StackSize size, Stack& stack);
   void give_back(const Stack& stack);
@@ -46,6 +48,7 @@ class StackArena {
   static bool guards(const Stack& stack, const char* address);
 
  private:
+  static std::size_t system_page_bytes();
   static constexpr std::uint64_t canary_word = 0x57A1707E57ACC0DEu;
   static std::uint64_t& canary(const Stack& stack) { return *reinterpret_cast<std::uint64_t*>(stack.low); }
 
@@ -61,10 +64,12 @@ class StackArena {
   Range& range_of(StackSize size) { return ranges_[static_cast<int>(size)]; }
   void reserve(Range& range, StackSize size);
   Stack describe(const Range& range, StackSize size, std::uint32_t slot) const;
-  bool install_guard(char* page);
+  bool is_guarded_by_page(StackSize size) const { return page_bytes_ <= bytes(size) / 4; }
+  bool install_guard(char* at);
 
   Range ranges_[stack_sizes];
   std::uint32_t protected_pages_ = 0;
+  std::uint32_t page_bytes_;
 };
 
 }  // namespace waitpoint::kernel

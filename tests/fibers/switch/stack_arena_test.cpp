@@ -64,6 +64,28 @@ TEST(StackArenaDeathTest, WhatRunsOverTheLowEndCrashes) {
   }
 }
 
+// As on processors of ARM whose system has pages of 16 or 64 KiB.
+TEST(StackArenaDeathTest, LargerPagesGuardTheStacksOfFourPagesAndMore) {
+  for (const std::size_t larger_page : {std::size_t{16} << 10, std::size_t{64} << 10}) {
+    for (const StackSize size : sizes) {
+      StackArena arena(larger_page);
+      Stack first, second;
+      ASSERT_TRUE(arena.take(size, first) && arena.take(size, second));
+      const Guard expected = bytes(size) >= 4 * larger_page ? Guard::page : Guard::canary;
+      ASSERT_EQ(first.guard, expected);
+      ASSERT_EQ(second.guard, expected);
+      EXPECT_GE(static_cast<std::size_t>(second.high - second.low), bytes(size) / 2);
+      std::memset(first.low + sizeof(std::uint64_t), 1, static_cast<std::size_t>(first.high - first.low) - 16);
+      EXPECT_TRUE(StackArena::intact(first));
+      if (expected == Guard::canary) continue;
+      EXPECT_TRUE(StackArena::guards(second, second.low - larger_page));
+      EXPECT_FALSE(StackArena::guards(second, second.low - larger_page - 1));
+      EXPECT_EXIT(*static_cast<volatile char*>(second.low - 1) = 1, testing::KilledBySignal(SIGSEGV), "");
+      EXPECT_EXIT(*static_cast<volatile char*>(second.low - larger_page) = 1, testing::KilledBySignal(SIGSEGV), "");
+    }
+  }
+}
+
 TEST(StackArenaDeathTest, ACanaryTellsWherePagesCannotBeGuarded) {
   StackArena arena;
   Stack stack;
