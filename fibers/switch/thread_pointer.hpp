@@ -13,15 +13,6 @@
 
 namespace waitpoint::kernel {
 
-/// True if fibers can have their own on this processor.
-constexpr bool has_thread_pointers() {
-#if WAITPOINT_X86_64
-  return true;
-#else
-  return false;
-#endif
-}
-
 #if WAITPOINT_X86_64
 
 inline void* thread_pointer() {
