@@ -223,6 +223,8 @@ def jobs_of(build, arguments):
         environment = {**os.environ, **test["env"]}
         if arguments.program:
             environment["WAITPOINT_PROGRAM"] = str(arguments.program.resolve())
+        if arguments.under:
+            environment["WAITPOINT_UNDER"] = shlex.join(arguments.under)
         if arguments.programs and test["name"] not in arguments.programs:
             continue
         timeout_s = test["timeout"] * arguments.patience or None

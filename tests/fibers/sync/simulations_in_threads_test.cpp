@@ -4,6 +4,7 @@
 
 #include <barrier>
 #include <csignal>
+#include <cstdlib>
 #include <functional>
 #include <stdexcept>
 #include <string>
@@ -86,8 +87,14 @@ TEST(SimulationsInThreads, AreMadeInOneAndRunInAnother) {
   EXPECT_EQ(to_string(simulation.digest()), to_string(here.digest()));
 }
 
+// The program anew, before there are threads in it. Where it runs under another program (run_tests.py names it), as
+// under qemu, the system cannot start it: a copy, then.
+void start_anew_for_a_death() {
+  if (std::getenv("WAITPOINT_UNDER") == nullptr) GTEST_FLAG_SET(death_test_style, "threadsafe");
+}
+
 TEST(SimulationsInThreadsDeathTest, StayOnTheThreadThatBeganToRunThem) {
-  GTEST_FLAG_SET(death_test_style, "threadsafe");
+  start_anew_for_a_death();
   const auto change_thread = [] {
     Simulation simulation;
     simulation.spawn(simulation.environment(), {.name = "main"}, [] { this_thread::sleep_for(2s); });
@@ -100,7 +107,7 @@ TEST(SimulationsInThreadsDeathTest, StayOnTheThreadThatBeganToRunThem) {
 
 TEST(SimulationsInThreadsDeathTest, ADeathIsReportedWithTheTaskOfItsThread) {
   if (kernel::sanitizer::present) GTEST_SKIP() << "a sanitizer reports deaths itself";
-  GTEST_FLAG_SET(death_test_style, "threadsafe");
+  start_anew_for_a_death();
   const auto die_in_one = [] {
     at_once(4, [](std::size_t i) {
       (void)simulate([i] {
