@@ -117,16 +117,19 @@ def heed_signals():
 
 def run(command, timeout_s, environment=None, folder=None):
     """Runs a command in a process group of its own; returns (exit status, None past the timeout; output)."""
-    process = subprocess.Popen(
-        command,
-        stdin=subprocess.DEVNULL,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.STDOUT,
-        env=environment,
-        cwd=folder,
-        start_new_session=True,
-        preexec_fn=heed_signals,
-    )
+    try:
+        process = subprocess.Popen(
+            command,
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            env=environment,
+            cwd=folder,
+            start_new_session=True,
+            preexec_fn=heed_signals,
+        )
+    except OSError as error:  # a program that was not built
+        return 127, f"{error}\n"
     running_groups.add(process.pid)
     try:
         output, _ = process.communicate(timeout=timeout_s)

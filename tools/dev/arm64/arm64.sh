@@ -13,7 +13,7 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../../.." && pwd)
 source "$root/tools/dev/packages.sh"
 source "$root/tools/dev/build.sh"
 
-names=core,world
+names=core,fibers,world
 if [[ ${1-} == --programs ]]; then
   names=$2
   shift 2
@@ -45,6 +45,8 @@ compile tools/waitpoint $(printf 'tests/test-%s ' ${names//,/ })
 in_qemu=$build/waitpoint-in-qemu
 printf '#!/bin/sh\nexec qemu-aarch64 -L "%s" "%s" "$@"\n' "$libraries" "$build/tools/waitpoint" >"$in_qemu"
 chmod +x "$in_qemu"
+# qemu keeps tables for all pages that a process ever reserved, and stacks reserve a part of this.
+ulimit -v $((60 << 20))
 status=0
 python3 "$root/tools/dev/run_tests.py" "$build" --programs "$names" --under "qemu-aarch64 -L $libraries" \
   --program "$in_qemu" --patience 20 "$@" || status=1
