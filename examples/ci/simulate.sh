@@ -8,6 +8,7 @@
 set -u
 scenario=${1:?simulate.sh SCENARIO [OPTIONS of waitpoint explore]}
 shift
+command -v jq > /dev/null || { echo 'simulate.sh: jq is needed, and is not there' >&2; exit 2; }
 
 # A command of waitpoint, whose document is FILE: begin FILE COMMAND...
 begin() {

@@ -4,7 +4,7 @@
 # Builds and tests for 64-bit ARM, by Debian's cross compiler and qemu: arm64.sh [--programs NAME,...] [OPTIONS]
 #
 # The libraries are Debian's packages of arm64, unpacked in build-arm64-root/ and not installed: nothing of them runs here
-# but what the program links. Builds in build-arm64/; runs the tests of core and world, or those named, each program by
+# but what the program links. Builds in build-arm64/; runs the tests of core, fibers and world, or those named, each program by
 # qemu; then simulates office and office-10 there and on this machine: the digests must be equal. OPTIONS go to
 # run_tests.py.
 set -euo pipefail
