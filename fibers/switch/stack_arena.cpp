@@ -6,6 +6,7 @@
 #include <sys/resource.h>
 
 #include <algorithm>
+#include <atomic>
 
 #include "core/error.hpp"
 #include "fibers/switch/reserved_pages.hpp"
@@ -36,10 +37,13 @@ std::size_t bytes_max() {
 }
 
 // An emulator of system calls may accept any advice as a hint, and do nothing: qemu's user mode does.
+enum class Advice : std::uint8_t { not_asked, ignored, heeded };
+constinit std::atomic<Advice> heeds = Advice::not_asked;
 bool heeds_advice() {
   constexpr int unknown_advice = 0x7FFF'FFFF;
-  static const bool heeds = madvise(nullptr, 0, unknown_advice) != 0;
-  return heeds;
+  if (heeds.load(std::memory_order_relaxed) == Advice::not_asked)
+    heeds.store(madvise(nullptr, 0, unknown_advice) != 0 ? Advice::heeded : Advice::ignored, std::memory_order_relaxed);
+  return heeds.load(std::memory_order_relaxed) == Advice::heeded;
 }
 
 // A guard that needs no mapping of its own.
