@@ -8,21 +8,15 @@ byte for byte. Nothing is installed.
 import pathlib
 import re
 import shutil
-import subprocess
 import sys
 import tempfile
 import unittest
 
+from consumer import run
+
 TREE = pathlib.Path(__file__).resolve().parents[2]
 PACKAGES = pathlib.Path(sys.argv[1]).resolve() if len(sys.argv) > 1 else pathlib.Path()
 OTHER = pathlib.Path(sys.argv[2]).resolve() if len(sys.argv) > 2 else None
-
-
-def output(*command):
-    done = subprocess.run([str(word) for word in command], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
-    if done.returncode != 0:
-        raise AssertionError(f"{' '.join(map(str, command))}\nended with {done.returncode}:\n{done.stdout}")
-    return done.stdout
 
 
 def changes():
@@ -48,7 +42,7 @@ class Built(unittest.TestCase):
 
     def test_have_no_errors_or_warnings_of_lintian(self):
         # --allow-root: it reads packages that were built here.
-        output("lintian", "--allow-root", "--fail-on", "error,warning", next(PACKAGES.glob("waitpoint_*.changes")))
+        run("lintian", "--allow-root", "--fail-on", "error,warning", next(PACKAGES.glob("waitpoint_*.changes")))
 
     def test_symbols_files_are_those_of_the_libraries(self):
         version = re.search(r"^Version: (\S+?)(-\d+)?$", changes(), re.MULTILINE)[1]
@@ -56,8 +50,8 @@ class Built(unittest.TestCase):
             folder = pathlib.Path(name)
             for file in (TREE / "debian").glob("*.symbols"):
                 shutil.copy2(file, folder)
-                output("dpkg-deb", "-x", next(PACKAGES.glob(f"{file.stem}_*.deb")), folder / "root")
-            output(sys.executable, TREE / "tools/dev/symbols.py", folder / "root", version, folder)
+                run("dpkg-deb", "-x", next(PACKAGES.glob(f"{file.stem}_*.deb")), folder / "root")
+            run(sys.executable, TREE / "tools/dev/symbols.py", folder / "root", version, folder)
             for file in (TREE / "debian").glob("*.symbols"):
                 self.assertTrue(file.read_text() == (folder / file.name).read_text(),
                                 f"{file.name} is not that of the library: tools/dev/symbols.py brings it up to date")

@@ -67,7 +67,7 @@ class Vcpkg(Recipe):
 
     def test_the_portfile_sets_options_that_exist(self):
         named = set(re.findall(r"^ +-D(\w+)=", (PORT / "portfile.cmake").read_text(), re.MULTILINE))
-        self.assertLessEqual(named, OPTIONS | {"werror"})
+        self.assertLessEqual(named, OPTIONS | {"auto_features", "werror"})
         self.assertIn("robots", named)
 
     @unittest.skipUnless(LONG and shutil.which("cmake"), "only with --long, and CMake")

@@ -12,23 +12,24 @@ source "$root/tools/dev/build.sh"
 
 outcome() { "$root/tools/dev/builds.sh" --outcome "$1"; }
 
-# What `waitpoint run` says must end with the command that adds PART: lacks PART [OPTION...]
-lacks() {
-  local said status=0
-  said=$("$root/build-minimal/tools/waitpoint" run "$root/scenarios/office.yaml" --until 0.1 "${@:2}" 2>&1) || status=$?
-  if ((status != 2)) || [[ $said != *"\`./dev add $1\`"* ]] || [[ $said == *$'\n'* ]]; then
-    say "expected one line that names './dev add $1' and status 2, found status $status: $said"
-    exit 1
-  fi
-  echo "$said"
-}
-
-names_what_is_missing() {
-  if [[ $1 != *'`./dev '*'`'* ]] || [[ $1 == *$'\n'* ]]; then
-    say "expected one line that names what is missing, and a command of ./dev, found: $1"
+# What was said must be one line that names a command of ./dev: names_command SAID [COMMAND]
+names_command() {
+  if [[ $1 != *'`./dev '${2-*}'`'* ]] || [[ $1 == *$'\n'* ]]; then
+    say "expected one line that names './dev ${2-...}', found: $1"
     exit 1
   fi
   echo "$1"
+}
+
+# `waitpoint run` must be refused, and name the command that adds PART: lacks PART [OPTION...]
+lacks() {
+  local said status=0
+  said=$("$root/build-minimal/tools/waitpoint" run "$root/scenarios/office.yaml" --until 0.1 "${@:2}" 2>&1) || status=$?
+  names_command "$said" "add $1"
+  if ((status != 2)); then
+    say "expected status 2, found $status"
+    exit 1
+  fi
 }
 
 options=("${option_of_part[@]/%/=disabled}")
@@ -46,10 +47,10 @@ for scenario in "$root"/scenarios/*.yaml; do
   case $(basename "$scenario") in
     office-floor.yaml | rackham.yaml) ;;  # parts of other scenarios
     fidelity.yaml | office-map.yaml) ;;  # other runs make what they read
-    *) names_what_is_missing "$said" ;;
+    *) names_command "$said" ;;
   esac
 done
-said=$("$root/build-minimal/tools/waitpoint" exec -- true 2>&1) || names_what_is_missing "$said"
+said=$("$root/build-minimal/tools/waitpoint" exec -- true 2>&1) || names_command "$said"
 lacks bags --record "$root/build-minimal/x.bag"
 lacks bullet --set world.engine=bullet
 lacks ranks --ranks 2

@@ -20,18 +20,8 @@ vcpkg_configure_meson(
   SOURCE_PATH "${SOURCE_PATH}"
   OPTIONS
     -Drobots=${robots}
-    -Dassimp=disabled
-    -Dbullet=disabled
-    -Ddisassembler=disabled
-    -Dexec=disabled
-    -Dnative=disabled
-    -Draces=disabled
-    -Dranks=disabled
-    -Dros=disabled
-    -Drosbag=disabled
+    -Dauto_features=disabled
     -Dsplit_debug=false
-    -Dtcl=disabled
-    -Dtests=disabled
     -Dwerror=false
   ADDITIONAL_PROPERTIES
     "boost_root = '${CURRENT_INSTALLED_DIR}'"
