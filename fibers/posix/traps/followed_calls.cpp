@@ -70,8 +70,10 @@ bool can_map(const CallWords& words) {
 bool can_advise(const CallWords& words) {
   constexpr int guard_install = 102;
   const int advice = words.word<int>(2);
-  return advice == MADV_DONTNEED || advice == guard_install ||
-         is_mapped_since(words.word<std::uintptr_t>(0), words.word<std::size_t>(1));
+  const auto bytes = words.word<std::size_t>(1);
+  // For no bytes it changes nothing: so the arena of stacks asks whether advice is heeded.
+  return bytes == 0 || advice == MADV_DONTNEED || advice == guard_install ||
+         is_mapped_since(words.word<std::uintptr_t>(0), bytes);
 }
 
 bool discards(long number, const CallWords& words) {
