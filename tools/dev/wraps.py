@@ -38,8 +38,8 @@ SOURCE_PACKAGES = {
 
 
 def find_archive(folder, package):
-    """The upstream archive of a source package in `folder`, or None."""
-    name = re.compile(re.escape(package) + r"[\d.]*_.*\.orig\.tar\.(gz|bz2|xz)$")
+    """The upstream archive of a source package in `folder`, or None. Boost's package has its version in the name."""
+    name = re.compile(re.escape(package) + r"(\d+\.\d+)?_.*\.orig\.tar\.(gz|bz2|xz)$")
     return next((path for path in folder.iterdir() if name.match(path.name)), None)
 
 
