@@ -310,6 +310,17 @@ foreach(kind threads races)
 endforeach()
 add_executable(robots robots.cpp)
 target_link_libraries(robots PRIVATE waitpoint::robots)
+if(TARGET waitpoint::robots_native)
+  add_executable(robots_native robots.cpp)
+  target_link_libraries(robots_native PRIVATE waitpoint::robots_native)
+endif()
+"""
+CMAKE_PROJECT_IN_C = """
+cmake_minimum_required(VERSION 3.18)
+project(consumer C)
+find_package(waitpoint 1 REQUIRED)
+add_executable(crane crane.c)
+target_link_libraries(crane PRIVATE waitpoint::pocolibs)
 """
 MESON_PROJECT = """
 project('consumer', 'cpp', default_options: 'cpp_std=c++20')
@@ -341,14 +352,26 @@ class Consumers(Installed):
             run("g++", "-std=c++20", "-I.", f"{source}.cpp", "-o", program, *flags(self.prefix, "--cflags", "--libs", package), cwd=folder)
         self.check(folder)
 
+    def build_with_cmake(self, folder):
+        run("cmake", "-S", folder, "-B", folder / "build", f"-DCMAKE_PREFIX_PATH={self.prefix}")
+        run("cmake", "--build", folder / "build")
+
     @unittest.skipUnless(shutil.which("cmake"), "cmake is not installed")
     def test_cmake(self):
         folder = self.project("with-cmake", "CMakeLists.txt", CMAKE_PROJECT)
-        run("cmake", "-S", folder, "-B", folder / "build", f"-DCMAKE_PREFIX_PATH={self.prefix}")
-        run("cmake", "--build", folder / "build")
+        self.build_with_cmake(folder)
         self.check(folder / "build")
         if list(self.prefix.rglob("libwaitpoint-races.a")):
             run(folder / "build/races", timeout=20)
+        if list(self.prefix.rglob("libwaitpoint-robots-native.*")):
+            self.assertIn("on real threads", run(folder / "build/robots_native", "run", HERE / "blinker/blinker.yaml", timeout=60))
+
+    @unittest.skipUnless(shutil.which("cmake"), "cmake is not installed")
+    def test_cmake_of_a_project_in_c(self):
+        folder = self.project("with-cmake-in-c", "CMakeLists.txt", CMAKE_PROJECT_IN_C)
+        shutil.copy(HERE / "crane/crane.c", folder)
+        self.build_with_cmake(folder)
+        self.assertEqual(run(folder / "build/crane", timeout=20), (HERE / "crane/crane.out").read_text())
 
     def test_meson(self):
         folder = self.project("with-meson", "meson.build", MESON_PROJECT)
