@@ -134,7 +134,15 @@ class FreshRoot(unittest.TestCase):
         self.install("waitpoint", more="python3")
         self.try_pages("README", "threads", "robots", "programs")
 
-    def test_7_nothing_is_left(self):
+    def test_7_nodes_of_ros(self):
+        if not next(PACKAGES.glob("waitpoint-ros_*.deb"), None):
+            self.skipTest("waitpoint-ros was not built")
+        self.install("waitpoint-ros", more="python3-rospy python3-nav-msgs python3-sensor-msgs ros-robot-state-publisher "
+                                           "libnodeletlib-tools")
+        self.inside("sh /tree/debian/tests/nodes")
+        self.try_pages("ros")
+
+    def test_8_nothing_is_left(self):
         ours = [name for name in self.inside("dpkg-query -W -f '${Package}\\n'").split() if "waitpoint" in name]
         self.inside(f"apt-get purge -y -q {' '.join(ours + self.others)} && apt-get autoremove --purge -y -q")
         left = self.files() - self.before
