@@ -2,6 +2,7 @@
 """Shared parts of the tests of programs under waitpoint. The first argument of a test program is the build folder."""
 
 import hashlib
+import os
 import pathlib
 import re
 import shlex
@@ -66,6 +67,11 @@ class ExecCase(unittest.TestCase):
             folder = tempfile.TemporaryDirectory()
             unittest.addModuleCleanup(folder.cleanup)
             ExecCase.folder = pathlib.Path(folder.name)
+            # A run's input is its working directory, too, if the program lists it, as Python does: nobody else changes this one.
+            working = ExecCase.folder / "working"
+            working.mkdir()
+            os.chdir(working)
+            unittest.addModuleCleanup(os.chdir, "/")
 
     def require_trapped_counter(self):
         """Skips the test on machines whose system does not trap the processor's counter, as some virtual ones."""
