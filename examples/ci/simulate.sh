@@ -3,6 +3,7 @@
 #
 # Runs a scenario and explores its schedules; prints a summary in Markdown, with the command that repeats a failure:
 #   simulate.sh SCENARIO [OPTIONS of waitpoint explore]
+# Those that waitpoint run has, too, are for both: --until, --seed, --set, --confined, --allow.
 # Exit status 0 if both passed, 1 if not, 2 if one could not begin. Leaves run.json and explore.json in the current folder.
 # Needs waitpoint and jq.
 set -u
@@ -21,12 +22,32 @@ begin() {
   exit 2
 }
 
+# The run of the scenario, with the options that are for both.
+begin_run() {
+  left=$#
+  while [ "$left" -gt 0 ]; do
+    case $1 in
+      --until | --seed | --set | --allow)
+        set -- "$@" "$1"
+        shift
+        left=$((left - 1))
+        [ "$left" -gt 0 ] || break
+        set -- "$@" "$1" ;;
+      --until=* | --seed=* | --set=* | --allow=* | --confined) set -- "$@" "$1" ;;
+    esac
+    shift
+    left=$((left - 1))
+  done
+  begin run.json run "$scenario" "$@"
+}
+
 failed=0
 printf '## %s\n\n' "$scenario"
 
-begin run.json run "$scenario"
-jq -r '.result | "| goals | collisions | greatest position error | digest |\n|---|---|---|---|\n" +
-  "| \(.goals_reached) of \(.goals) | \(.collisions) | \(.position_error_max_m) m | `\(.digest)` |\n"' run.json
+begin_run "$@"
+jq -r 'def metres: if . == null then "-" else "\(. * 1000 | round / 1000) m" end;
+  .result | "| goals | collisions | greatest position error | digest |\n|---|---|---|---|\n" +
+  "| \(.goals_reached) of \(.goals) | \(.collisions // "-") | \(.position_error_max_m | metres) | `\(.digest)` |\n"' run.json
 if [ "$status" -ne 0 ]; then
   failed=1
   jq -r '.result | "**The run failed:** \((.unmet // []) | join("; ")) (\(.outcome)). It is repeated by\n\n    \(.replay)\n"' run.json

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The templates for continuous integration, examples/ci: ci_test.py BUILD."""
 
+import json
 import os
 import pathlib
 import re
@@ -32,9 +33,16 @@ class Templates(unittest.TestCase):
         return done.stdout
 
     def test_a_summary_of_what_passes(self):
-        summary = self.shell(SCRIPT, OFFICE, "--until", "10", "--iterations", "3")
-        self.assertRegex(summary, r"\| 9 of 9 \| 0 \| .* m \| `wp1:[0-9a-f]{16}` \|")
-        self.assertIn("3 schedules passed.", summary)
+        summary = self.shell(SCRIPT, OFFICE, "--until", "60", "--iterations", "2", "--set", "expect.goals_reached=1")
+        self.assertRegex(summary, r"\| 1 of 9 \| 0 \| 0\.\d{1,3} m \| `wp1:[0-9a-f]{16}` \|")
+        self.assertIn("2 schedules passed.", summary)
+
+    def test_options_of_a_run_are_for_the_run_and_the_exploration(self):
+        shorter = ["--until=5", "--seed", "7", "--set", "expect.goals_reached=0"]
+        summary = self.shell(SCRIPT, OFFICE, "--iterations", "1", *shorter, "--confined")
+        run = json.loads((self.folder / "run.json").read_text())["result"]
+        self.assertEqual((run["seed"], run["simulated_s"], run["unmet"]), (7, 5, []))
+        self.assertIn("1 schedules passed.", summary)
 
     def test_a_failed_schedule_is_repeated_by_the_line_of_the_summary(self):
         summary = self.shell(SCRIPT, OFFICE, "--until", "5", "--iterations", "3", "--property", "position_error_max_m=0.0001",
