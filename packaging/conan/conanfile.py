@@ -17,15 +17,18 @@ from conan.tools.meson import Meson, MesonToolchain
 NEEDED = {
     "threads": {"boost": "1.83.0"},
     "robots": {
+        "bzip2": "1.0.8",
         "cli11": "2.3.2",
         "eigen": "3.4.0",
         "fcl": "0.7.0",
         "fmt": "10.2.1",
         "libpng": "1.6.40",
+        "lz4": "1.9.4",
         "nlohmann_json": "3.11.3",
         "tinyxml2": "10.0.0",
         "yaml-cpp": "0.8.0",
         "zlib": "1.3.1",
+        "zstd": "1.5.5",
     },
 }
 LEFT_OUT = ("assimp", "bullet", "disassembler", "exec", "native", "races", "ranks", "ros", "rosbag", "tcl", "tests")

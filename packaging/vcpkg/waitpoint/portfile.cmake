@@ -5,8 +5,6 @@
 
 # The shared libraries contain what they use of others, and export the names of this project alone.
 vcpkg_check_linkage(ONLY_DYNAMIC_LIBRARY)
-# Projects that are built for debugging link these, too: the kernel always has its debugging information.
-set(VCPKG_BUILD_TYPE release)
 
 get_filename_component(SOURCE_PATH "${CMAKE_CURRENT_LIST_DIR}/../../.." ABSOLUTE)
 
@@ -37,8 +35,20 @@ endforeach()
 vcpkg_replace_string("${CURRENT_PACKAGES_DIR}/share/${PORT}/waitpoint-config.cmake"
   [[${CMAKE_CURRENT_LIST_DIR}/../..]] [[${CMAKE_CURRENT_LIST_DIR}/../../lib]]
 )
+# A triplet may ask for a release alone, which projects that are built for debugging link, too.
+if(NOT DEFINED VCPKG_BUILD_TYPE)
+  vcpkg_replace_string("${CURRENT_PACKAGES_DIR}/share/${PORT}/waitpoint-config.cmake"
+    [["${waitpoint_libraries}/${library};]]
+    [["${waitpoint_libraries}/$<$<CONFIG:Debug>:../debug/lib/>${library};]]
+  )
+endif()
 file(REMOVE_RECURSE
   "${CURRENT_PACKAGES_DIR}/bin"
+  "${CURRENT_PACKAGES_DIR}/debug/bin"
+  "${CURRENT_PACKAGES_DIR}/debug/include"
+  "${CURRENT_PACKAGES_DIR}/debug/lib/cmake"
+  "${CURRENT_PACKAGES_DIR}/debug/lib/waitpoint"
+  "${CURRENT_PACKAGES_DIR}/debug/share"
   "${CURRENT_PACKAGES_DIR}/lib/cmake"
   "${CURRENT_PACKAGES_DIR}/lib/waitpoint"
   "${CURRENT_PACKAGES_DIR}/share/bash-completion"
