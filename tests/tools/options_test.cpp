@@ -149,6 +149,15 @@ TEST_F(CommandLine, an_empty_word_is_no_default) {
   EXPECT_EQ(message({"explore", "a", "--iterations", ""}), "--iterations: expected a value, found ''");
 }
 
+TEST_F(CommandLine, a_flag_takes_no_value) {
+  EXPECT_EQ(message({"run", "a", "--json=1"}), "--json: expected no value, found '1'");
+  EXPECT_EQ(message({"check", "a", "--json=true"}), "--json: expected no value, found 'true'");
+  EXPECT_EQ(message({"--version", "--json=yes"}), "--json: expected no value, found 'yes'");
+  EXPECT_EQ(message({"run", "--help="}), "--help: expected no value, found ''");
+  EXPECT_EQ(message({"exec", "--quiet=2", "--", "a", "--quiet=2"}), "--quiet: expected no value, found '2'");
+  EXPECT_EQ(run({"run", "a", "--set", "name=--json=1"}).assignments.front(), "name=--json=1");
+}
+
 TEST(Version, tells_compiler_flags_and_math) {
   const std::string text = version_text();
   for (const char* part : {"waitpoint ", "\ncompiler  ", "\nflags     ", "\nmath      "}) {

@@ -51,6 +51,22 @@ void refuse_empty_words(const CLI::App& command) {
       if (word.empty()) throw BadInput(option->get_name(), "expected a value, found ''");
 }
 
+/// A flag followed by "=" and a value, which CLI11 takes for true, or for none of its words.
+void refuse_values_of_flags(const CLI::App& program, int argc, const char* const* argv) {
+  const CLI::App* of = &program;
+  for (int i = 1; i < argc; ++i) {
+    const std::string_view word = argv[i];
+    const std::size_t equals = word.find('=');
+    for (const CLI::App* command : program.get_subcommands([](const CLI::App*) { return true; }))
+      if (of == &program && command->get_name() == word) of = command;
+    if (!word.starts_with("--") || equals == word.npos) continue;
+    const std::string name(word.substr(0, equals));
+    const CLI::Option* const option = of->get_option_no_throw(name);
+    if (option != nullptr && option->get_items_expected_max() == 0)
+      throw BadInput(name, "expected no value, found '" + std::string(word.substr(equals + 1)) + "'");
+  }
+}
+
 DescribedOption described_option(const CLI::Option& option) {
   DescribedOption described;
   if (option.get_positional()) described.names.push_back(option.get_name(true));
@@ -143,6 +159,7 @@ void CommandLine::version(const std::string& text, const char* description, std:
 void CommandLine::footer(const std::string& text) { app_->footer(text); }
 
 std::optional<std::string> CommandLine::parse(int argc, const char* const* argv) {
+  refuse_values_of_flags(*app_, argc, argv);
   try {
     app_->parse(argc, argv);
   } catch (const CLI::CallForHelp&) {

@@ -67,7 +67,7 @@ class CommandLine {
   void footer(const std::string& text);
 
   /// Parses the arguments. Returns the text to show for --help or --version. Throws BadInput, one line, for an unknown
-  /// or missing word or an empty value.
+  /// or missing word, an empty value, or the value of a flag.
   std::optional<std::string> parse(int argc, const char* const* argv);
 
  private:
