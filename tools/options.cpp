@@ -91,7 +91,8 @@ std::string name_in_replay_lines(const std::string& program) {
 Options read_options(int argc, const char* const* argv, const std::string& version) {
   CommandLine line("waitpoint",
                    "Simulates robots whose software runs as simulated threads: one seed, one run, bit for bit.");
-  line.version(version, "print version, compiler, flags and the fingerprint of the exact math", version_json);
+  line.version(version, "print version, format of digests, compiler, flags and fingerprint of the exact math",
+               version_json);
   RunArguments run(line);
   Command check = line.add_command("check", "Validates a scenario without running it.");
   ScenarioArguments checked;

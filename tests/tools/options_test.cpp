@@ -160,9 +160,10 @@ TEST_F(CommandLine, a_flag_takes_no_value) {
 
 TEST(Version, tells_compiler_flags_and_math) {
   const std::string text = version_text();
-  for (const char* part : {"waitpoint ", "\ncompiler  ", "\nflags     ", "\nmath      "}) {
+  for (const char* part : {"waitpoint ", "\ndigests   wp1\n", "\ncompiler  ", "\nflags     ", "\nmath      "}) {
     EXPECT_NE(text.find(part), std::string::npos) << part;
   }
+  EXPECT_EQ(text.find(" \n"), std::string::npos);
 }
 
 TEST_F(CommandLine, two_files_of_one_name_are_refused) {

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
+#include <string_view>
 
 #include "core/digest.hpp"
 #include "core/exact_math.hpp"
@@ -24,11 +25,23 @@ constexpr const char* compiler = __VERSION__;
 constexpr const char* compiler = "g++ " __VERSION__;
 #endif
 
+/// The build leaves a blank behind them where it has none of its user's.
+std::string_view flags() {
+  constexpr std::string_view all = WAITPOINT_FLAGS;
+  return all.substr(0, all.find_last_not_of(' ') + 1);
+}
+
+/// With which texts of digests begin.
+std::string format_of_digests() {
+  const std::string digest = to_string(Digest());
+  return digest.substr(0, digest.find(':'));
+}
+
 }  // namespace
 
 std::string version_text() {
-  return fmt::format("waitpoint {}\ncompiler  {}\nflags     {}\nmath      {:016x}", WAITPOINT_VERSION, compiler,
-                     WAITPOINT_FLAGS, exact::fingerprint());
+  return fmt::format("waitpoint {}\ndigests   {}\ncompiler  {}\nflags     {}\nmath      {:016x}", WAITPOINT_VERSION,
+                     format_of_digests(), compiler, flags(), exact::fingerprint());
 }
 
 std::string version_line() {
@@ -37,11 +50,10 @@ std::string version_line() {
 }
 
 std::string version_json() {
-  const std::string digest = to_string(Digest());
   const nlohmann::ordered_json result = {{"version", WAITPOINT_VERSION},
-                                         {"digests", digest.substr(0, digest.find(':'))},
+                                         {"digests", format_of_digests()},
                                          {"compiler", compiler},
-                                         {"flags", WAITPOINT_FLAGS},
+                                         {"flags", flags()},
                                          {"math", fmt::format("{:016x}", exact::fingerprint())}};
   const nlohmann::ordered_json document = {{"format", 1}, {"command", "--version"}, {"status", 0}, {"result", result}};
   return document.dump(2);

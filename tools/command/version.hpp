@@ -6,14 +6,14 @@
 
 namespace waitpoint::tools {
 
-/// Version, compiler, flags (WAITPOINT_VERSION and WAITPOINT_FLAGS, set by the build) and the fingerprint of the exact
-/// math, one per line. No trailing newline.
+/// Version, format of digests, compiler, flags (WAITPOINT_VERSION and WAITPOINT_FLAGS, set by the build) and the
+/// fingerprint of the exact math, one per line. No trailing newline.
 std::string version_text();
 
 /// Its first line, the version.
 std::string version_line();
 
-/// What version_text() has, and the format of digests, as a document of JSON (docs/json.md). No trailing newline.
+/// The same as a document of JSON (docs/json.md). No trailing newline.
 std::string version_json();
 
 }  // namespace waitpoint::tools
