@@ -200,3 +200,10 @@ class Documents(unittest.TestCase):
 
 if __name__ == "__main__":
     unittest.main()
+    def test_exec_of_a_program_that_a_signal_ends(self):
+        for name, number in (("SIGKILL", 9), ("SIGTERM", 15), ("SIGSEGV", 11)):
+            done = self.call("exec", "--json", "--", sys.executable, "-c", f"import os; os.kill(os.getpid(), {number})")
+            self.assertEqual(done.returncode, -number)
+            result = self.checked("exec", done.stdout, 128 + number)
+            self.assertEqual((result["signal"], result.get("exit_status")), (name, None))
+

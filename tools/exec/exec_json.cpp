@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "tools/command/signal_words.hpp"
 #include "tools/exec/family_report.hpp"
 #include "tools/exec/misuse_report.hpp"
 #include "tools/exec/race_report.hpp"
@@ -53,7 +54,7 @@ int status_of(const ProgramRun& run) { return run.signal() != 0 ? 128 + run.sign
 std::string exec_json(const NamedRun& named, const ProgramRun& run, const posix::Record& record) {
   Json json{{"program", named.program}, {"seed", named.seed}};
   if (run.signal() != 0)
-    json["signal"] = run.signal();
+    json["signal"] = signal_name(run.signal());
   else
     json["exit_status"] = run.exit_status();
   if (record.began) put_run(record, json);
