@@ -9,6 +9,7 @@
 #include "core/error.hpp"
 #include "tools/command/command_line.hpp"
 #include "tools/command/completion.hpp"
+#include "tools/command/distinct_files.hpp"
 #include "tools/command/installed_part.hpp"
 #include "tools/command/manual_page.hpp"
 #include "tools/command/shell_words.hpp"
@@ -143,7 +144,10 @@ Options read_options(int argc, const char* const* argv, const std::string& versi
   }
   if (explore.parsed()) return explore.options(program);
   if (exec.parsed()) return exec.options(program);
-  if (plan.parsed()) return PlanOptions{plan_file, plan_picture, is_plan_json};
+  if (plan.parsed()) {
+    if (is_plan_json) check_beside_json({{"--svg", plan_picture}});
+    return PlanOptions{plan_file, plan_picture, is_plan_json};
+  }
   if (genom->parsed()) return generated;
   if (replay.parsed()) {
     ReplayOptions options = replay.options();

@@ -103,9 +103,26 @@ class Documents(unittest.TestCase):
         for words in (["run", "no.yaml"], ["check", "no.yaml"], ["explore", "no.yaml"], ["replay", "no.log"]):
             done = self.call(*words, "--json")
             self.assertEqual((done.returncode, done.stdout, done.stderr.count("\n")), (2, "", 1), words)
-        done = self.call("run", OFFICE, "--json", "--summary", "-")
-        self.assertEqual((done.returncode, done.stdout), (2, ""))
-        self.assertIn("--json: expected no other file on standard output", done.stderr)
+
+    def test_no_file_goes_to_where_the_document_goes(self):
+        plan = ROOT / "scenarios/plans/guide.yaml"
+        for words in (["run", OFFICE, "--summary"], ["run", OFFICE, "--events"], ["plan", plan, "--svg"],
+                      ["explore", OFFICE, "--page"], ["replay", "run.log", "--map"], ["fit", "run.log", "--out"],
+                      ["compare", "run.log", "other.log", "--picture"]):
+            for file in ("-", "/dev/stdout", "/proc/self/fd/1"):
+                done = self.call(*words, file, "--json")
+                expected = f"--json: expected no other file on standard output, found '{words[-1]} {file}'"
+                self.assertEqual((done.returncode, done.stdout, done.stderr), (2, "", f"waitpoint: {expected}\n"))
+        done = self.call("exec", "--json", "--trace", "-", "--", "true")
+        self.assertEqual((done.returncode, done.stdout), (125, ""))
+
+    def test_no_file_replaces_that_of_the_document(self):
+        plan, out = ROOT / "scenarios/plans/guide.yaml", self.folder / "out"
+        with out.open("w") as file:
+            done = subprocess.run([PROGRAM, "plan", plan, "--json", "--svg", out], stdout=file, stderr=subprocess.PIPE, text=True)
+        self.assertEqual((done.returncode, out.read_text()), (2, ""))
+        with open("/dev/null", "w", encoding="utf-8") as file:
+            subprocess.run([PROGRAM, "plan", plan, "--json", "--svg", "/dev/null"], stdout=file, stderr=file, check=True)
 
     def test_self_check(self):
         self.assertTrue(self.document("run", OFFICE, "--until", "0.5", "--check")["same"])
@@ -197,9 +214,6 @@ class Documents(unittest.TestCase):
         self.assertEqual(self.document("exec", "--", self.program, "one lock")["threads"], 3)
         self.assertNotIn("failed", self.document("exec", "--seeds", "1..3", "--", self.program, "one lock"))
 
-
-if __name__ == "__main__":
-    unittest.main()
     def test_exec_of_a_program_that_a_signal_ends(self):
         for name, number in (("SIGKILL", 9), ("SIGTERM", 15), ("SIGSEGV", 11)):
             done = self.call("exec", "--json", "--", sys.executable, "-c", f"import os; os.kill(os.getpid(), {number})")
@@ -207,3 +221,6 @@ if __name__ == "__main__":
             result = self.checked("exec", done.stdout, 128 + number)
             self.assertEqual((result["signal"], result.get("exit_status")), (name, None))
 
+
+if __name__ == "__main__":
+    unittest.main()

@@ -4,6 +4,7 @@
 #include <cstdlib>
 
 #include "core/error.hpp"
+#include "tools/command/distinct_files.hpp"
 
 namespace waitpoint::tools {
 
@@ -54,6 +55,7 @@ ExecOptions ExecArguments::options(const std::vector<std::string>& words) const 
   if (!trace_.empty()) {
     if (options.seeds) throw BadInput("--trace", "cannot be used together with --seeds");
     options.trace = trace_;
+    if (json_) check_beside_json({{"--trace", trace_}});
   }
   if (strategy_ == "fifo")
     options.order = kernel::Order::fifo;

@@ -44,17 +44,17 @@ CompareArguments::CompareArguments(CommandLine& line)
 
 CompareOptions CompareArguments::options() const {
   CompareOptions options{source_.options(), source_.options(), {}, {}, json_};
-  if (json_ && (is_standard_output(picture_) || is_standard_output(summary_)))
-    refuse("--json", "no other file on standard output", "-");
   options.second.log = other_;
   options.second.choice = {other_scan_, other_odometry_, other_robot_};
   if (!picture_.empty()) options.picture = picture_;
   if (!summary_.empty()) options.summary = summary_;
-  check_distinct({{"--picture", picture_},
-                  {"--summary", summary_},
-                  {"--scenario", source_.scenario(), NamedFile::Use::read},
-                  {"LOG", source_.log(), NamedFile::Use::read},
-                  {"OTHER", other_, NamedFile::Use::read}});
+  const std::vector<NamedFile> files = {{"--picture", picture_},
+                                        {"--summary", summary_},
+                                        {"--scenario", source_.scenario(), NamedFile::Use::read},
+                                        {"LOG", source_.log(), NamedFile::Use::read},
+                                        {"OTHER", other_, NamedFile::Use::read}};
+  check_distinct(files);
+  if (json_) check_beside_json(files);
   return options;
 }
 

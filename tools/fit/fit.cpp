@@ -96,10 +96,11 @@ FitOptions FitArguments::options() const {
     refuse("--name", "a name that begins with no '-', and is not the key 'include' of robot_types", options.name);
   if (!out_.empty()) options.out = out_;
   options.json = json_;
-  if (json_ && is_standard_output(out_)) refuse("--json", "no other file on standard output", "-");
-  check_distinct({{"--out", out_},
-                  {"--scenario", source_.scenario(), NamedFile::Use::read},
-                  {"LOG", source_.log(), NamedFile::Use::read}});
+  const std::vector<NamedFile> files = {{"--out", out_},
+                                        {"--scenario", source_.scenario(), NamedFile::Use::read},
+                                        {"LOG", source_.log(), NamedFile::Use::read}};
+  check_distinct(files);
+  if (json_) check_beside_json(files);
   return options;
 }
 

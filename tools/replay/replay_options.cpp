@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/replay/replay_options.hpp"
 
-#include <algorithm>
+#include <vector>
 
 #include "core/error.hpp"
 #include "tools/command/distinct_files.hpp"
 #include "tools/command/option_values.hpp"
-#include "tools/output/output_file.hpp"
 #include "tools/replay/log_map.hpp"
 
 namespace waitpoint::tools {
@@ -70,16 +69,18 @@ ReplayOptions ReplayArguments::options() const {
   const auto file = [](const std::string& name) {
     return name.empty() ? std::nullopt : std::optional<std::filesystem::path>(name);
   };
-  check_distinct({{"--trajectory", trajectory_},
-                  {"--summary", summary_},
-                  {"--picture", picture_},
-                  {"--map", map_},
-                  {"--map", map_.empty() ? "" : image_of(map_).string()},
-                  {"--digests", digests_},
-                  {"--events", events_},
-                  {"--relations", relations_, NamedFile::Use::read},
-                  {"--scenario", source_.scenario(), NamedFile::Use::read},
-                  {"LOG", source_.log(), NamedFile::Use::read}});
+  const std::vector<NamedFile> files = {{"--trajectory", trajectory_},
+                                        {"--summary", summary_},
+                                        {"--picture", picture_},
+                                        {"--map", map_},
+                                        {"--map", map_.empty() ? "" : image_of(map_).string()},
+                                        {"--digests", digests_},
+                                        {"--events", events_},
+                                        {"--relations", relations_, NamedFile::Use::read},
+                                        {"--scenario", source_.scenario(), NamedFile::Use::read},
+                                        {"LOG", source_.log(), NamedFile::Use::read}};
+  check_distinct(files);
+  if (json_) check_beside_json(files);
   play.trajectory = file(trajectory_);
   play.relations = file(relations_);
   play.summary = file(summary_);
@@ -89,9 +90,6 @@ ReplayOptions ReplayArguments::options() const {
   play.digests = file(digests_);
   play.events = file(events_);
   play.json = json_;
-  const std::string* const files[] = {&trajectory_, &summary_, &picture_, &map_, &digests_, &events_};
-  if (json_ && std::ranges::any_of(files, [](const std::string* name) { return is_standard_output(*name); }))
-    refuse("--json", "no other file on standard output", "-");
   return options;
 }
 

@@ -46,17 +46,7 @@ bool is_origin(const std::string& text) {
          std::ranges::all_of(text, [](char c) { return c > ' ' && c <= '~'; });
 }
 
-}  // namespace
-
-bool RunOptions::writes_standard_output() const {
-  if (json) return true;
-  for (const auto* file :
-       {&summary, &picture, &page, &record, &digests, &events, &decisions, &record_durations, &journal})
-    if (*file && is_standard_output(**file)) return true;
-  return false;
-}
-
-void check_files(const RunOptions& options, std::span<const std::string> robots) {
+std::vector<NamedFile> files_of(const RunOptions& options, std::span<const std::string> robots) {
   const auto name = [](const std::optional<std::filesystem::path>& file) { return file ? file->string() : ""; };
   std::vector<NamedFile> files = {
       {"--summary", name(options.summary)}, {"--picture", name(options.picture)}, {"--page", name(options.page)}};
@@ -72,7 +62,21 @@ void check_files(const RunOptions& options, std::span<const std::string> robots)
                              {"SCENARIO", options.scenario.string(), NamedFile::Use::read},
                              {"--replay-journal", name(options.replay_journal), NamedFile::Use::read},
                              {"--replay-durations", name(options.replay_durations), NamedFile::Use::read}});
-  check_distinct(files);
+  return files;
+}
+
+}  // namespace
+
+bool RunOptions::writes_standard_output() const {
+  if (json) return true;
+  for (const auto* file :
+       {&summary, &picture, &page, &record, &digests, &events, &decisions, &record_durations, &journal})
+    if (*file && is_standard_output(**file)) return true;
+  return false;
+}
+
+void check_files(const RunOptions& options, std::span<const std::string> robots) {
+  check_distinct(files_of(options, robots));
 }
 
 std::string replay_line(const RunOptions& options, std::uint64_t seed) {
@@ -263,7 +267,7 @@ void RunArguments::check_outputs(RunOptions& options) const {
   if (!json_) return;
   if (interactive_) throw BadInput("--json", "cannot be used together with --interactive");
   if (tcl_) throw BadInput("--json", "cannot be used together with --tcl");
-  if (options.writes_standard_output()) refuse("--json", "no other file on standard output", "-");
+  check_beside_json(files_of(options, {}));
   options.json = true;
 }
 

@@ -15,7 +15,6 @@
 #include "tools/command/distinct_files.hpp"
 #include "tools/command/installed_part.hpp"
 #include "tools/command/option_values.hpp"
-#include "tools/output/output_file.hpp"
 
 namespace waitpoint::tools {
 namespace {
@@ -243,12 +242,11 @@ void ExploreArguments::take_program_options(ExploreOptions& options) const {
 
 void ExploreArguments::take_outputs(ExploreOptions& options) const {
   const bool is_file = !replay_.empty() && !exploration::is_token(replay_);
-  check_distinct({{"--results", results_},
-                  {"--schedule", schedule_},
-                  {"--trace", trace_},
-                  {"--page", page_},
-                  {"--finding", finding_},
-                  {"--replay", is_file ? replay_ : "", NamedFile::Use::read}});
+  const std::vector<NamedFile> files = {
+      {"--results", results_}, {"--schedule", schedule_}, {"--trace", trace_},
+      {"--page", page_},       {"--finding", finding_},   {"--replay", is_file ? replay_ : "", NamedFile::Use::read}};
+  check_distinct(files);
+  if (json_) check_beside_json(files);
   options.results = file(results_);
   options.trace = file(trace_);
   options.page = file(page_);
@@ -256,9 +254,6 @@ void ExploreArguments::take_outputs(ExploreOptions& options) const {
   if (!serve_.empty()) options.serve = serve_ == free_port ? "" : serve_;
   options.schedule = file(schedule_);
   options.json = json_;
-  const std::string* const files[] = {&results_, &schedule_, &trace_, &page_, &finding_};
-  if (json_ && std::ranges::any_of(files, [](const std::string* name) { return is_standard_output(*name); }))
-    refuse("--json", "no other file on standard output", "-");
 }
 
 ExploreOptions ExploreArguments::options(const std::vector<std::string>& words) const {
