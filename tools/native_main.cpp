@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // waitpoint::main() of the build on system threads: the same scenarios and modules, at the wall clock's speed.
-#include <CLI/CLI.hpp>
 #include <atomic>
 #include <cstdio>
 #include <memory>
@@ -9,7 +8,10 @@
 #include "modules/run/expectation.hpp"
 #include "modules/run/threaded_experiment.hpp"
 #include "modules/scenario/scenario_reader.hpp"
+#include "tools/command/command_line.hpp"
 #include "tools/command/interruption.hpp"
+#include "tools/command/manual_page.hpp"
+#include "tools/command/option_values.hpp"
 #include "tools/main.hpp"
 #include "tools/output/output_file.hpp"
 #include "tools/papers_modules.hpp"
@@ -21,8 +23,8 @@ namespace {
 struct Arguments {
   std::string scenario;
   std::vector<std::string> assignments;
-  std::uint64_t seed = 1;
-  double until_s = 0;
+  std::string seed = "1";
+  std::string until;
   std::string world;
 };
 
@@ -61,12 +63,13 @@ void print(const bridge::RunResult& result) {
 }
 
 int run(const Arguments& arguments, std::span<const genom::ModuleType> types) {
+  const std::uint64_t seed = seed_of("--seed", arguments.seed);
+  const std::optional<Duration> until = positive_seconds("--until", arguments.until);
   const scenario::Scenario scenario = scenario::read_scenario(arguments.scenario, arguments.assignments);
   std::atomic<bool> world_ended = false;
-  run::ThreadedExperiment experiment(scenario, types, arguments.seed, world_at(arguments.world, scenario, world_ended));
+  run::ThreadedExperiment experiment(scenario, types, seed, world_at(arguments.world, scenario, world_ended));
   heed_signals();
-  experiment.run_for(arguments.until_s > 0 ? Duration::from_seconds(arguments.until_s) : scenario.until,
-                     [&] { return interruption() != 0 || world_ended; });
+  experiment.run_for(until.value_or(scenario.until), [&] { return interruption() != 0 || world_ended; });
   const bridge::RunResult result = experiment.result();
   print(result);
   flush_standard_output();
@@ -78,32 +81,29 @@ int run(const Arguments& arguments, std::span<const genom::ModuleType> types) {
 }
 
 int read_and_run(int argc, const char* const* argv, std::span<const genom::ModuleType> types) {
-  CLI::App app("Runs robots' software on system threads, against a simulated world.", "waitpoint");
+  CommandLine line("waitpoint-native", "Runs robots' software on system threads, against a simulated world.");
   Arguments arguments;
-  CLI::App* command = app.add_subcommand("run", "Runs a scenario at the wall clock's speed.");
-  command->add_option("SCENARIO", arguments.scenario, "the scenario file")->required()->type_name(" ");
-  command->add_option("--seed", arguments.seed, "seed of the world's noise, from 0 to 2^64 - 1 (default: 1)")
-      ->type_name("N");
-  command->add_option("--until", arguments.until_s, "end after S seconds (default: the scenario's until_s)")
-      ->type_name("S")
-      ->check(CLI::Range(0.001, 1e9));
-  command->add_option("--set", arguments.assignments, "override a value of the scenario; may be repeated")
-      ->type_name("KEY=VALUE")
-      ->allow_extra_args(false);
-  command
-      ->add_option("--world", arguments.world,
-                   "drive the robots in the world of another process, which serves it there\n"
-                   "(waitpoint run --speed 1 --serve-world; docs/external.md)")
-      ->type_name("unix:PATH|tcp:PORT");
-  app.require_subcommand(1, 1);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::CallForHelp&) {
-    write_standard_output(app.help());
+  Command command = line.add_command("run", "Runs a scenario at the wall clock's speed.");
+  command.argument("SCENARIO", arguments.scenario, "the scenario file", Command::Presence::required);
+  command.option("--seed", arguments.seed, "N", "seed of the world's noise, from 0 to 2^64 - 1 (default: 1)");
+  command.option("--until", arguments.until, "S", "end after S seconds (default: the scenario's until_s)");
+  command.repeated("--set", arguments.assignments, "KEY=VALUE", "override a value of the scenario; may be repeated");
+  command.option("--world", arguments.world, "unix:PATH|tcp:PORT",
+                 "drive the robots in the world of another process, which serves it there\n"
+                 "(waitpoint run --speed 1 --serve-world; docs/external.md)");
+  Command manual = line.add_command("manual", "Prints the man page of a command, or of the program, in roff.");
+  std::string page;
+  manual.argument("COMMAND", page, "the command (default: the program)", Command::Presence::optional);
+  if (const std::optional<std::string> text = line.parse(argc, argv)) {
+    write_standard_output(*text);
     return 0;
-  } catch (const CLI::ParseError& error) {
-    throw BadInput("command line", error.what());
   }
+  if (manual.parsed()) {
+    write_standard_output(manual_page(line.described(), page));
+    return 0;
+  }
+  if (!command.parsed())
+    throw BadInput("command line", "expected a command: run or manual; see waitpoint-native --help");
   return run(arguments, types);
 }
 

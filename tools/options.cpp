@@ -53,6 +53,27 @@ void add_genom(CommandLine& line, GenomOptions& options, std::optional<Command>&
   command->json(options.json);
 }
 
+class PlanArguments {
+ public:
+  explicit PlanArguments(CommandLine& line)
+      : command_(line.add_command("plan", "Checks a temporal plan, and prints the windows of its actions.")) {
+    command_.argument("PLAN", file_, "YAML file (docs/laas-plans.md)", Command::Presence::required);
+    command_.option("--svg", picture_, "FILE", "writes a picture of the plan");
+    command_.json(json_);
+  }
+
+  bool parsed() const { return command_.parsed(); }
+  PlanOptions options() const {
+    if (json_) check_beside_json({{"--svg", picture_}});
+    return {file_, picture_, json_};
+  }
+
+ private:
+  Command command_;
+  std::string file_, picture_;
+  bool json_ = false;
+};
+
 /// The commands that describe the others, to man and to shells.
 class TextArguments {
  public:
@@ -99,13 +120,9 @@ Options read_options(int argc, const char* const* argv, const std::string& versi
   ScenarioArguments checked;
   checked.add_file(check);
   checked.add_set(check);
-  bool is_check_json = false, is_plan_json = false;
+  bool is_check_json = false;
   check.json(is_check_json);
-  Command plan = line.add_command("plan", "Checks a temporal plan, and prints the windows of its actions.");
-  std::string plan_file, plan_picture;
-  plan.argument("PLAN", plan_file, "YAML file (docs/laas-plans.md)", Command::Presence::required);
-  plan.option("--svg", plan_picture, "FILE", "writes a picture of the plan");
-  plan.json(is_plan_json);
+  PlanArguments plan(line);
   line.add_command("gdb",
                    "Starts gdb with commands for simulated threads (docs/gdb.md):\n"
                    "  waitpoint gdb [OPTIONS OF GDB] -- run SCENARIO ...\n"
@@ -144,10 +161,7 @@ Options read_options(int argc, const char* const* argv, const std::string& versi
   }
   if (explore.parsed()) return explore.options(program);
   if (exec.parsed()) return exec.options(program);
-  if (plan.parsed()) {
-    if (is_plan_json) check_beside_json({{"--svg", plan_picture}});
-    return PlanOptions{plan_file, plan_picture, is_plan_json};
-  }
+  if (plan.parsed()) return plan.options();
   if (genom->parsed()) return generated;
   if (replay.parsed()) {
     ReplayOptions options = replay.options();

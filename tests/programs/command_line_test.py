@@ -15,35 +15,46 @@ BUILD = pathlib.Path(sys.argv.pop(1)).resolve()
 PROGRAM = BUILD / "tools/waitpoint"
 
 
+def output_of(program, *words):
+    return subprocess.run([BUILD / "tools" / program, *words], capture_output=True, text=True, check=True).stdout
+
+
 def waitpoint(*words):
-    return subprocess.run([PROGRAM, *words], capture_output=True, text=True, check=True).stdout
+    return output_of("waitpoint", *words)
 
 
 def names(text, pattern):
     return re.findall(pattern, text, re.MULTILINE)
 
 
-COMMANDS = names(waitpoint("--help").split("Subcommands:")[1], r"^  (\w+)  ")
+def commands_of(program):
+    return names(output_of(program, "--help").split("Subcommands:")[1], r"^  (\w+)  ")
+
+
+# waitpoint-native may be left out of a build.
+COMMANDS = {name: commands_of(name) for name in ("waitpoint", "waitpoint-native") if (BUILD / "tools" / name).exists()}
 
 
 class ManualPages(unittest.TestCase):
     def test_have_every_option_of_the_help(self):
-        self.assertIn("explore", COMMANDS)
-        for command in COMMANDS:
-            page = waitpoint("manual", command).replace("\\-", "-")
-            self.assertIn(f".TH WAITPOINT-{command.upper()} 1", page)
-            options = names(waitpoint(command, "--help"), r"^  (?:-h,)?(--[\w-]+)")
+        self.assertIn("explore", COMMANDS["waitpoint"])
+        for program, command in ((program, command) for program in COMMANDS for command in COMMANDS[program]):
+            page = output_of(program, "manual", command).replace("\\-", "-")
+            self.assertIn(f".TH {program.upper()}-{command.upper()} 1", page)
+            options = names(output_of(program, command, "--help"), r"^  (?:-h,)?(--[\w-]+)")
             self.assertIn("--help", options)
             self.assertEqual(names(page, r"^(?:\\fB-h\\fR, )?\\fB(--[\w-]+)\\fR"), options, command)
 
-    def test_of_the_program_has_its_commands(self):
-        self.assertEqual(names(waitpoint("manual"), r"^\\fBwaitpoint\\-(\w+)\\fR\(1\)"), COMMANDS)
+    def test_of_a_program_has_its_commands(self):
+        for program, commands in COMMANDS.items():
+            page = output_of(program, "manual").replace("\\-", "-")
+            self.assertEqual(names(page, rf"^\\fB{program}-(\w+)\\fR\(1\)"), commands)
 
     @unittest.skipUnless(shutil.which("groff"), "without groff")
     def test_are_roff_without_warnings(self):
-        for command in ["", *COMMANDS]:
-            done = subprocess.run(["groff", "-man", "-ww", "-Tutf8", "-P-c"], input=waitpoint("manual", *command.split()),
-                                  capture_output=True, text=True, check=True)
+        for program, command in ((program, command) for program in COMMANDS for command in ["", *COMMANDS[program]]):
+            done = subprocess.run(["groff", "-man", "-ww", "-Tutf8", "-P-c"], text=True, check=True, capture_output=True,
+                                  input=output_of(program, "manual", *command.split()))
             self.assertEqual(done.stderr, "", command)
             self.assertIn("SYNOPSIS", re.sub(".\x08", "", done.stdout))
 
@@ -56,7 +67,7 @@ class ManualPages(unittest.TestCase):
 # What a shell is to offer for the last word of a line, in a folder with a scenario, a text and a folder; one scenario is
 # installed.
 OFFERED = {
-    "": COMMANDS,
+    "": COMMANDS["waitpoint"],
     "manual co": ["compare", "completion"],
     "completion ": ["bash", "fish", "zsh"],
     "--v": ["--version"],
@@ -174,7 +185,8 @@ class Installation(unittest.TestCase):
         pages = {pathlib.Path(path).name for path in installed if "/man/man1/" in path}
         if not pages:
             self.skipTest("this build does not run its own program")
-        self.assertEqual(pages, {"waitpoint.1", *(f"waitpoint-{command}.1" for command in COMMANDS)})
+        expected = {f"{program}{command and '-'}{command}.1" for program in COMMANDS for command in ["", *COMMANDS[program]]}
+        self.assertEqual(pages, expected)
         for end in ("bash-completion/completions/waitpoint.bash", "zsh/site-functions/_waitpoint",
                     "fish/vendor_completions.d/waitpoint.fish"):
             self.assertTrue(any(path.endswith("/share/" + end) for path in installed), end)
