@@ -49,6 +49,8 @@ std::uint64_t heap_on_large_pages_kib() {
 bool system_collapses_pages() {
   constexpr std::size_t size = std::size_t{4} << 20;
   constexpr int collapse = 25;  // MADV_COLLAPSE
+  constexpr int unknown_advice = 0x7FFF'FFFF;
+  if (madvise(nullptr, 0, unknown_advice) == 0) return false;  // an emulator that heeds no advice
   std::string words;
   std::getline(std::ifstream("/sys/kernel/mm/transparent_hugepage/enabled"), words);
   if (words.empty() || words.find("[never]") != std::string::npos) return false;

@@ -4,8 +4,8 @@
 # Builds and tests for 64-bit ARM, by Debian's cross compiler and qemu: arm64.sh [--programs NAME,...] [OPTIONS]
 #
 # The libraries are Debian's packages of arm64, unpacked in build-arm64-root/ and not installed: nothing of them runs here
-# but what the program links. Builds in build-arm64/; runs the tests of core, fibers and world, or those named, each program by
-# qemu; then simulates office and office-10 there and on this machine: the digests must be equal. OPTIONS go to
+# but what the program links. Builds in build-arm64/; runs the tests of the libraries and of the program's commands, or those
+# named, each program by qemu; then simulates office and office-10 there and on this machine: the digests must be equal. OPTIONS go to
 # run_tests.py.
 set -euo pipefail
 
@@ -13,7 +13,7 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../../.." && pwd)
 source "$root/tools/dev/packages.sh"
 source "$root/tools/dev/build.sh"
 
-names=core,fibers,world
+names=core,fibers,world,modules,control,plan,outside,tools,replay,runs
 if [[ ${1-} == --programs ]]; then
   names=$2
   shift 2
