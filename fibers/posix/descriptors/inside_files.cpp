@@ -26,6 +26,7 @@ struct Known {
   short events;       // of an end of a counted pipe: POLLIN or POLLOUT
   bool is_asked_for;  // the file
   bool waited_in_vain;
+  bool is_passed_on;  // to programs that are started
 };
 Known known[known_max];
 
@@ -122,8 +123,8 @@ void note_pipe(const int (&ends)[2], int flags) {
   if ((flags & (O_DIRECT | O_NONBLOCK)) != 0) return;
   file->is_counted = true;
   file->pages_max = WAITPOINT_NEXT(fcntl)(ends[0], F_GETPIPE_SZ) / page;
-  known[ends[0]] = {file, POLLIN, true, false};
-  known[ends[1]] = {file, POLLOUT, true, false};
+  known[ends[0]] = {file, POLLIN, true, false, false};
+  known[ends[1]] = {file, POLLOUT, true, false, false};
 }
 
 void note_duplicate(int from, int made) {
@@ -205,11 +206,16 @@ bool has_unnoticed_output() {
   return any;
 }
 
+void note_passed_on(int descriptor) {
+  if (is_inside(descriptor)) known[descriptor].is_passed_on = true;
+}
+
 void note_start(bool is_native) {
   const ErrorNumberKept kept;
   for_each_inside([&](int descriptor) {
     if (!is_native) return void(file_of(descriptor));
-    if ((WAITPOINT_NEXT(fcntl)(descriptor, F_GETFD) & FD_CLOEXEC) != 0) return;
+    const bool is_kept = (WAITPOINT_NEXT(fcntl)(descriptor, F_GETFD) & FD_CLOEXEC) == 0;
+    if (!is_kept && !known[descriptor].is_passed_on) return;
     end_counting(descriptor);
     note_inside(descriptor, false);
   });
@@ -223,7 +229,7 @@ void note_received(int descriptor) {
   note_inside(descriptor, true);
   if (descriptor >= known_max) return;
   const int mode = WAITPOINT_NEXT(fcntl)(descriptor, F_GETFL) & O_ACCMODE;
-  known[descriptor] = {file, static_cast<short>(mode == O_RDONLY ? POLLIN : POLLOUT), true, false};
+  known[descriptor] = {file, static_cast<short>(mode == O_RDONLY ? POLLIN : POLLOUT), true, false, false};
 }
 
 void inherit_inside() {

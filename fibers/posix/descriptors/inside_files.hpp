@@ -68,6 +68,8 @@ void end_counting_of_inode(ino_t inode);
 /// Of all, as duplicates may be passed to another process, which can find them by note_received().
 void end_counting_of_all();
 
+/// A program that is to be started gets a duplicate, though the descriptor itself is closed as it starts.
+void note_passed_on(int descriptor);
 /// Before a program is started. A simulated one finds the pipes and sockets inside that were inside here; a native one
 /// makes those outside that it gets.
 void note_start(bool is_native);

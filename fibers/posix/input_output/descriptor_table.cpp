@@ -6,6 +6,7 @@
 
 #include <fcntl.h>
 #include <linux/close_range.h>
+#include <spawn.h>
 #include <sys/epoll.h>
 #include <sys/eventfd.h>
 #include <sys/ioctl.h>
@@ -159,6 +160,12 @@ WAITPOINT_INTERPOSED int dup2(int from, int to) noexcept {
 WAITPOINT_INTERPOSED int dup3(int from, int to, int flags) noexcept {
   note_closing(to);
   return replaced(from, to, WAITPOINT_NEXT(dup3)(from, to, flags));
+}
+// Duplicates in a program that posix_spawn() starts: the record of its actions is the C library's own.
+WAITPOINT_INTERPOSED int posix_spawn_file_actions_adddup2(posix_spawn_file_actions_t* actions, int from,
+                                                          int to) noexcept {
+  if (is_simulated()) note_passed_on(from);
+  return WAITPOINT_NEXT(posix_spawn_file_actions_adddup2)(actions, from, to);
 }
 
 extern "C" {
