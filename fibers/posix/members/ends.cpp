@@ -3,6 +3,7 @@
 // Calls that end a process. If it is several programs, they end only the calling one. Until the last of its threads'
 // code was called, the other threads may come first: the calls, and the handlers of the exit, are switch points.
 #include <assert.h>
+#include <gnu/libc-version.h>
 #include <signal.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -10,6 +11,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 
 #include "fibers/posix/base/interposed.hpp"
 #include "fibers/posix/family/turn.hpp"
@@ -38,6 +40,9 @@ bool add_handler(void (*function)(void*), void* argument) {
 void pass_exit() {
   if (is_simulated()) pass(kernel::Operation::exit, nullptr);
 }
+
+/// The C library calls a handler of SIGABRT although it is blocked, up to its release 2.40.
+bool abort_unblocks() { return strverscmp(gnu_get_libc_version(), "2.41") < 0; }
 
 /// A handler of the process's exit: most are destructors of static variables.
 struct HandlerOfProcess {
@@ -86,11 +91,11 @@ WAITPOINT_INTERPOSED void _exit(int status) {
 }
 WAITPOINT_INTERPOSED void _Exit(int status) noexcept { _exit(status); }
 
-// SIGABRT cannot be blocked or ignored here, and a handler can only leave by a jump.
+// SIGABRT ends the program though it is blocked or ignored, and a handler can only leave by a jump.
 WAITPOINT_INTERPOSED void abort() noexcept {
   pass_exit();
   if (is_simulated()) {
-    this_thread().blocked &= ~only(SIGABRT);
+    if (abort_unblocks()) this_thread().blocked &= ~only(SIGABRT);
     const struct sigaction& action = this_program().signals.actions[SIGABRT];
     if ((action.sa_flags & SA_SIGINFO) != 0 || (action.sa_handler != SIG_IGN && action.sa_handler != SIG_DFL))
       raise(SIGABRT);

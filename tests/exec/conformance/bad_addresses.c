@@ -74,9 +74,12 @@ CASE(of_clocks) {
   EXPECT_FAILS(syscall(SYS_time, nowhere), EFAULT);
 }
 CASE(of_random_bytes) {
+  EXPECT_FAILS(syscall(SYS_getrandom, nowhere, 8, 0), EFAULT);
+  EXPECT_FAILS(syscall(SYS_getrandom, nowhere, 1, 0), EFAULT);
+#if !__GLIBC_PREREQ(2, 41)  // which fills the bytes within the process, where that is possible: there it crashes
   EXPECT_FAILS(getrandom(nowhere, 8, 0), EFAULT);
-  EXPECT_FAILS(getrandom(nowhere, 1, 0), EFAULT);
   EXPECT_FAILS(getentropy(nowhere, 8), EFAULT);
+#endif
   char bytes[4] = {0, 0, 0, 1};
   EXPECT_IS(getrandom(bytes, 3, 0), 3);
   EXPECT_IS(bytes[3], 1);

@@ -29,7 +29,8 @@ CASE(getrandom_gives_other_bytes_each_time) {
 }
 CASE(getrandom_refuses_what_is_no_flag) { EXPECT_FAILS(getrandom(buffer, 8, 0x4000), EINVAL); }
 CASE(getrandom_refuses_flags_that_exclude_each_other) {
-  EXPECT_FAILS(getrandom(buffer, 8, GRND_RANDOM | GRND_INSECURE), EINVAL);
+  // In glibc 2.41, getrandom() itself does not look, where the system has it as a function of the process's.
+  EXPECT_FAILS(syscall(SYS_getrandom, buffer, 8, GRND_RANDOM | GRND_INSECURE), EINVAL);
 }
 CASE(getrandom_fills_sizes_that_are_no_multiples) {
   for (size_t size = 1; size < 20; ++size) {
