@@ -23,7 +23,8 @@ ROOT = HERE.parents[1]
 WAITPOINT = BUILD / "tools/waitpoint"
 MPIRUN = shutil.which("mpirun")
 # As `waitpoint run --ranks` starts it.
-AS_RANKS = [MPIRUN, "--quiet", "--oversubscribe", "--bind-to", "none", *(["--allow-run-as-root"] if os.geteuid() == 0 else [])]
+AS_RANKS = [MPIRUN, "--mca", "orte_execute_quiet", "1", "--map-by", ":oversubscribe", "--bind-to", "none",
+            *(["--allow-run-as-root"] if os.geteuid() == 0 else [])]
 
 Run = collections.namedtuple("Run", "status output errors files")
 
@@ -123,7 +124,7 @@ class EqualRuns(unittest.TestCase):
             self.assertEqual(digest(run(3, ROOT / "scenarios/office-10.yaml", "--until", "6", *places)), expected, places)
 
     def test_over_tcp(self):
-        launcher = [*AS_RANKS, "--mca", "btl", "tcp,self", "-n", "2"]
+        launcher = [*AS_RANKS, "--mca", "btl", "tcp,self", "--mca", "btl_tcp_if_include", "lo", "-n", "2"]
         self.assert_equal(ROOT / "scenarios/office-10.yaml", (2,), "--until", "5", launcher=launcher)
 
     def test_two_hosts_a_millisecond_apart(self):

@@ -14,6 +14,7 @@
 #include <cstring>
 #include <filesystem>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "core/error.hpp"
@@ -25,6 +26,17 @@ namespace {
 
 constexpr const char* door_variable = "WAITPOINT_LAUNCHER";  // the pipe, as a file of the launcher's
 constexpr int not_yet = -1;
+
+// What Open MPI 4 and 5 have different options for, or none: a release passes over the parameters that it does not
+// know.
+constexpr std::pair<const char*, const char*> mpi_parameters[] = {
+    {"btl", "^tcp"},                              // within this host, whatever its network
+    {"btl_vader_single_copy_mechanism", "none"},  // shared memory, without a right to read another process's
+    {"odls_base_sigkill_timeout", "2"},           // seconds to end in order, after an interruption
+    {"orte_abort_on_non_zero_status", "0"},       // Open MPI 4
+    {"state_base_error_non_zero_exit", "0"},      // Open MPI 5
+    {"orte_execute_quiet", "1"},
+};
 
 /// What a rank tells the launcher, in a single write.
 struct Told {
@@ -43,13 +55,9 @@ int own_rank() {
 }
 
 std::vector<std::string> command_of(const std::string& mpirun, int ranks, std::span<const std::string> arguments) {
-  // Messages by copies within shared memory, without a right to read another process's; after an interruption, two
-  // seconds to end in order.
-  std::vector<std::string> words{mpirun, "--quiet", "-n", std::to_string(ranks)};
-  words.insert(words.end(), {"--mca", "btl_vader_single_copy_mechanism", "none"});
-  words.insert(words.end(), {"--mca", "odls_base_sigkill_timeout", "2"});
-  words.insert(words.end(), {"--enable-recovery", "--mca", "orte_abort_on_non_zero_status", "0"});
-  if (ranks > processors()) words.insert(words.end(), {"--oversubscribe", "--bind-to", "none"});
+  std::vector<std::string> words{mpirun, "-n", std::to_string(ranks), "--enable-recovery"};
+  for (const auto& [parameter, value] : mpi_parameters) words.insert(words.end(), {"--mca", parameter, value});
+  if (ranks > processors()) words.insert(words.end(), {"--map-by", ":oversubscribe", "--bind-to", "none"});
   // The processes have this user's rights as the present one has.
   if (geteuid() == 0) words.emplace_back("--allow-run-as-root");
   words.push_back(std::filesystem::read_symlink("/proc/self/exe").string());
