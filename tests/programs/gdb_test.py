@@ -301,7 +301,8 @@ class Processes(unittest.TestCase):
     SCRIPT = "for i in 1 2 3; do echo $i; sleep 1; done | while read n; do echo $n; done | cat"
 
     def of_pipeline(self, *commands):
-        return self.of_program(["sh", "-c", self.SCRIPT], *commands)
+        # Some releases of sleep add a nanosecond.
+        return [re.sub(r"(?<=\d\.00000005)\d", "0", part) for part in self.of_program(["sh", "-c", self.SCRIPT], *commands)]
 
     def of_program(self, words, *commands):
         if not (BUILD / "libwaitpoint-exec.so").exists():
@@ -339,7 +340,7 @@ class Processes(unittest.TestCase):
                                 "process 1000", "virtual-time", "continue")
         self.assertIn("process 1003, cat#1003", told[2])
         self.assertIn("Fiber 1, main of cat#1003, at 2.000000050 s, blocked: receive descriptor #1", told[3])
-        self.assertRegex(told[4], r"#\d+ (.* in )?read\(int")
+        self.assertRegex(told[4], r"#\d+ (.* in )?read ?\((int|descriptor=)")
         self.assertEqual([row[0] for row in self.rows(told[5])[1:]], ["1000", "1002", "1003"])
         self.assertIn("there is no process '7'", told[6])
         self.assertIn("process 1000, sh", told[8])

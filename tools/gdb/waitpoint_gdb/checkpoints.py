@@ -71,10 +71,28 @@ def listed():
     return found, current
 
 
+def checkpoint():
+    """gdb's command, without its output. When a breakpoint decides whether to stop, gdb 16 waits for ever for a function of
+    the process that was called by way of gdb.execute(), as fork() is here."""
+    if not hasattr(gdb, "execute_mi"):  # before gdb 14
+        gdb.execute("checkpoint", to_string=True)
+        return
+    gdb.flush(gdb.STDOUT)
+    output, nowhere = os.dup(1), os.open(os.devnull, os.O_WRONLY)
+    os.dup2(nowhere, 1)
+    try:
+        gdb.execute_mi("-interpreter-exec", "console", "with pagination off -- checkpoint")
+    finally:
+        gdb.flush(gdb.STDOUT)
+        os.dup2(output, 1)
+        os.close(output)
+        os.close(nowhere)
+
+
 def fork():
     """Makes a checkpoint of the process in its present state: (number, process)."""
     before = set(listed()[0])
-    gdb.execute("checkpoint", to_string=True)
+    checkpoint()
     processes = listed()[0]
     new = set(processes) - before - {0}
     if not new:
