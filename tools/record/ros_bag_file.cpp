@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/record/ros_bag_file.hpp"
 
+#include <console_bridge/console.h>
 #include <geometry_msgs/PoseArray.h>
 #include <geometry_msgs/PoseStamped.h>
 #include <geometry_msgs/PoseWithCovarianceStamped.h>
@@ -62,7 +63,7 @@ boost::array<double, 36> of(const RosBagFile::Covariance& covariance) {
 }
 
 // A bag that could not be written or closed is leaked: its destructor would write again, to a file that may be closed
-// already, and throw.
+// already, and throw. At the end of the process, ROS's loader of plugins would warn of an object that the bag holds.
 struct Bag {
   rosbag::Bag* bag = new rosbag::Bag;
 
@@ -87,6 +88,7 @@ struct Bag {
       make_call(*called);
     } catch (const std::exception& failure) {
       const int reason = errno;
+      console_bridge::setLogLevel(console_bridge::CONSOLE_BRIDGE_LOG_NONE);
       throw std::runtime_error(reason != 0 ? std::strerror(reason) : failure.what());
     }
     bag = called;
