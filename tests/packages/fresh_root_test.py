@@ -51,7 +51,8 @@ class FreshRoot(unittest.TestCase):
     def inside(cls, command, status=0):
         """The output of a shell's command in the root, in a name space of its own: nothing stays mounted, no process is left."""
         words = ["unshare", "--mount", "--pid", "--fork", "--kill-child", "chroot", cls.root, "sh", "-c",
-                 "mount -t proc proc /proc && cd /root && { " + command + "\n}"]
+                 "mount -t proc proc /proc && mount -t devpts -o newinstance,ptmxmode=0666 devpts /dev/pts && "
+                 "mount --bind /dev/pts/ptmx /dev/ptmx && cd /root && { " + command + "\n}"]
         environment = {"PATH": "/usr/sbin:/usr/bin:/sbin:/bin", "HOME": "/root", "LC_ALL": "C.UTF-8",
                        "DEBIAN_FRONTEND": "noninteractive"}
         done = subprocess.run(words, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, env=environment, timeout=1800)
