@@ -67,6 +67,15 @@ class Ends(ExecCase):
         self.assertEqual(text.count("waits for"), 2)
 
 
+    def test_a_signal_ends_runs_of_many_seeds_however_short_they_are(self):
+        for signal_number in (signal.SIGINT, signal.SIGTERM):
+            words = [WAITPOINT, "exec", "--seeds", "1..1000000000", "--", "true"]
+            with subprocess.Popen([str(word) for word in words], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE) as process:
+                time.sleep(1)
+                process.send_signal(signal_number)
+                self.assertEqual(process.wait(timeout=60), -signal_number)
+
+
 class Traces(ExecCase):
     def test_hold_what_happened_up_to_a_crash(self):
         for way, status in (("crash", -11), ("deadlock", 124)):

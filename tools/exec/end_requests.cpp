@@ -81,6 +81,8 @@ bool EndRequests::look() {
   return ended_by_ != 0;
 }
 
+int EndRequests::too_late() { return come.exchange(0); }
+
 void EndRequests::end(int signal) {
   ended_by_ = signal;
   end_at_once(record_, program_, "ended by " + signal_in_words(signal));

@@ -30,6 +30,9 @@ class EndRequests {
   /// The signal that ended the run; 0: none did.
   int ended_by() const { return ended_by_; }
 
+  /// A signal that came when the last run had ended already, and is for those that follow; 0: none. Forgets it.
+  static int too_late();
+
  private:
   void end(int signal);
 

@@ -14,6 +14,7 @@
 #include "fibers/sync/simulation.hpp"
 #include "tools/command/shell_words.hpp"
 #include "tools/command/signal_words.hpp"
+#include "tools/exec/end_requests.hpp"
 #include "tools/exec/exec_json.hpp"
 #include "tools/exec/family_report.hpp"
 #include "tools/exec/last_calls_report.hpp"
@@ -79,6 +80,7 @@ int run_seeds(const ExecOptions& options, const ProgramFiles& files) {
     const RunMemory memory(settings_of(options, seed));
     const ProgramRun run(files, memory, output.descriptor());
     if (run.is_interrupted()) end_by(run.signal());  // not a failure of the program
+    if (const int signal = EndRequests::too_late(); signal != 0) end_by(signal);
     ++runs;
     if (memory.record().began) digests.insert(digest_of(memory.record()).value());
     if (run.exit_status() != 0) {
