@@ -12,6 +12,7 @@
 #include "tools/command/interruption.hpp"
 #include "tools/command/manual_page.hpp"
 #include "tools/command/option_values.hpp"
+#include "tools/command/version.hpp"
 #include "tools/main.hpp"
 #include "tools/output/output_file.hpp"
 #include "tools/papers_modules.hpp"
@@ -82,6 +83,8 @@ int run(const Arguments& arguments, std::span<const genom::ModuleType> types) {
 
 int read_and_run(int argc, const char* const* argv, std::span<const genom::ModuleType> types) {
   CommandLine line("waitpoint-native", "Runs robots' software on system threads, against a simulated world.");
+  line.version(version_text(), "print version, format of digests, compiler, flags and fingerprint of the exact math",
+               version_json);
   Arguments arguments;
   Command command = line.add_command("run", "Runs a scenario at the wall clock's speed.");
   command.argument("SCENARIO", arguments.scenario, "the scenario file", Command::Presence::required);

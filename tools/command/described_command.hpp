@@ -28,6 +28,9 @@ struct OfferedValues {
 /// ("pct:D" is offered as "pct:"); FILE and FOLDER, with or without an ending, are files.
 OfferedValues offered_values(const DescribedOption& option);
 
+/// A description in one line: up to what is indented, without the point or colon that ends it.
+std::string summary_of(const std::string& description);
+
 struct DescribedCommand {
   std::string name;         ///< empty: the program's own options
   std::string description;  ///< the first line is a sentence; what is indented keeps its line breaks

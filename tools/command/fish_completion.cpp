@@ -8,7 +8,7 @@ namespace {
 
 std::string fish_quoted(std::string_view text) {
   std::string result = "'";
-  for (const char c : text.substr(0, text.find('\n'))) {
+  for (const char c : text) {
     if (c == '\'' || c == '\\') result += '\\';
     result += c;
   }
@@ -41,7 +41,7 @@ std::string fish_lines(const std::string& beginning, const DescribedCommand& com
       const bool is_file = offered_values(option).files == OfferedValues::Files::all;
       text += (option.may_lack_value ? "" : is_file ? " -r" : " -x") + fish_values(option);
     }
-    text += " -d " + fish_quoted(option.description) + "\n";
+    text += " -d " + fish_quoted(summary_of(option.description)) + "\n";
   }
   for (const DescribedOption& argument : command.arguments)
     if (const std::string values = fish_values(argument); !values.empty()) text += beginning + values + "\n";
@@ -91,7 +91,7 @@ complete -c waitpoint -n __waitpoint_has_program -a '(__waitpoint_program)'
   text += fish_lines("complete -c waitpoint -n __fish_use_subcommand", program.own);
   for (const DescribedCommand& command : program.commands) {
     text += "complete -c waitpoint -n __fish_use_subcommand -a " + command.name + " -d " +
-            fish_quoted(command.description) + "\n";
+            fish_quoted(summary_of(command.description)) + "\n";
     text += fish_lines("complete -c waitpoint -n '__waitpoint_has " + command.name + "'", command);
   }
   return text;

@@ -24,7 +24,11 @@ std::filesystem::path own_folder() {
 std::filesystem::path find_part(const std::string& name) {
   const std::filesystem::path folder = std::filesystem::read_symlink("/proc/self/exe").parent_path();
   const std::filesystem::path installed = std::filesystem::path(library_folder) / name;
-  for (const std::filesystem::path& place : {own_folder() / "waitpoint" / name, folder / ".." / name, installed})
+  // A tree that was moved since it was installed: its folders lie to each other as they did.
+  const std::filesystem::path prefix = std::filesystem::path(data_folder).parent_path().parent_path();
+  const std::filesystem::path moved =
+      folder.parent_path() / std::filesystem::path(library_folder).lexically_relative(prefix) / name;
+  for (const std::filesystem::path& place : {own_folder() / "waitpoint" / name, folder / ".." / name, moved, installed})
     if (std::filesystem::exists(place)) return std::filesystem::canonical(place);
   throw BadInput("programs", name + ", which they need, is not installed: " + missing_part::programs);
 }

@@ -64,13 +64,6 @@ std::string synopsis(const DescribedProgram& program, const DescribedCommand& co
   return text + "\n";
 }
 
-/// The description's first line, without what ends it.
-std::string summary_of(const DescribedCommand& command) {
-  std::string summary = command.description.substr(0, command.description.find('\n'));
-  if (summary.ends_with('.') || summary.ends_with(':')) summary.pop_back();
-  return summary;
-}
-
 const DescribedCommand& described(const DescribedProgram& program, const std::string& name) {
   if (name.empty()) return program.own;
   const auto found = std::ranges::find(program.commands, name, &DescribedCommand::name);
@@ -82,7 +75,8 @@ const DescribedCommand& described(const DescribedProgram& program, const std::st
 std::string commands_text(const DescribedProgram& program) {
   std::string text = ".SH COMMANDS\n";
   for (const DescribedCommand& command : program.commands)
-    text += ".TP\n" + bold(program.name + "-" + command.name) + "(1)\n" + escaped(summary_of(command)) + "\n";
+    text +=
+        ".TP\n" + bold(program.name + "-" + command.name) + "(1)\n" + escaped(summary_of(command.description)) + "\n";
   return text;
 }
 
@@ -95,7 +89,7 @@ std::string manual_page(const DescribedProgram& program, const std::string& comm
   for (char& c : title) c = c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
   // Without a date: the same program gives the same page.
   std::string text = ".TH " + escaped(title) + " 1 \"\" \"" + escaped(program.version) + "\" \"\"\n.SH NAME\n" +
-                     escaped(name) + " \\- " + escaped(summary_of(page)) + "\n.SH SYNOPSIS\n" +
+                     escaped(name) + " \\- " + escaped(summary_of(page.description)) + "\n.SH SYNOPSIS\n" +
                      synopsis(program, page) + ".SH DESCRIPTION\n" + paragraphs(page.description);
   if (command.empty()) text += commands_text(program);
   if (!page.arguments.empty()) text += ".SH ARGUMENTS\n";

@@ -10,7 +10,7 @@ namespace {
 /// Text inside of a specification of _arguments or _describe.
 std::string zsh_text(std::string_view text) {
   std::string result;
-  for (const char c : text.substr(0, text.find('\n'))) {
+  for (const char c : text) {
     if (c == '[' || c == ']' || c == ':' || c == '\\') result += '\\';
     result += c;
   }
@@ -38,7 +38,7 @@ std::string specifications(const DescribedCommand& command) {
     for (const std::string& name : option.names) {
       std::string word = (option.repeated ? "*" : "") + name;
       if (!option.type.empty()) word += "=";
-      word += "[" + zsh_text(option.description) + "]";
+      word += "[" + zsh_text(summary_of(option.description)) + "]";
       if (!option.type.empty())
         word += (option.may_lack_value ? "::" : ":") + zsh_text(option.type) + ":" + zsh_action(option);
       text += " \\\n        " + in_quotation_marks(word);
@@ -55,7 +55,7 @@ std::string zsh_completion(const DescribedProgram& program) {
   std::string text = "#compdef " + program.name + "\n# Written by `" + program.name +
                      " completion zsh`.\n\n_waitpoint_commands() {\n  local -a commands=(\n";
   for (const DescribedCommand& command : program.commands)
-    text += "    " + in_quotation_marks(command.name + ":" + zsh_text(command.description)) + "\n";
+    text += "    " + in_quotation_marks(command.name + ":" + zsh_text(summary_of(command.description))) + "\n";
   text += R"(  )
   _describe command commands
 }

@@ -33,4 +33,11 @@ OfferedValues offered_values(const DescribedOption& option) {
   return offered;
 }
 
+std::string summary_of(const std::string& description) {
+  std::string summary = description.substr(0, description.find("\n "));
+  std::ranges::replace(summary, '\n', ' ');
+  if (summary.ends_with('.') || summary.ends_with(':')) summary.pop_back();
+  return summary;
+}
+
 }  // namespace waitpoint::tools
