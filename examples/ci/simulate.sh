@@ -56,6 +56,9 @@ fi
 begin explore.json explore "$scenario" "$@"
 if [ "$status" -eq 0 ]; then
   jq -r '"\(.result.search.schedules) schedules passed."' explore.json
+elif [ "$(jq '.result.failure == null' explore.json)" = true ]; then
+  failed=1
+  jq -r '"**Exploring ended early:** \(.result.outcome), after \(.result.search.schedules) schedules."' explore.json
 else
   failed=1
   jq -r '.result.failure | "**\(.schedule) fails:** \(.message | split("\n")[0]). It is repeated by\n\n    \(.replay)\n"' explore.json

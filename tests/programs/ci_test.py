@@ -61,6 +61,16 @@ class Templates(unittest.TestCase):
         replay = re.search(r"^    (waitpoint run .*)$", summary, re.MULTILINE)[1]
         self.assertIn("0 of 9", self.shell(*shlex.split(replay), status=1))
 
+    def test_an_exploration_that_is_interrupted_is_told(self):
+        stand_in = self.folder / "bin/waitpoint"
+        stand_in.parent.mkdir()
+        stand_in.write_text(f"#!/bin/sh\n[ $1 = explore ] && set -- timeout 2 {BUILD}/tools/waitpoint \"$@\" || "
+                            f"set -- {BUILD}/tools/waitpoint \"$@\"\nexec \"$@\"\n")
+        stand_in.chmod(0o755)
+        self.environment["PATH"] = f"{stand_in.parent}{os.pathsep}{self.environment['PATH']}"
+        summary = self.shell(SCRIPT, OFFICE, "--until", "5", "--set", "expect.goals_reached=0", "--iterations", "1000000", status=1)
+        self.assertRegex(summary, r"\*\*Exploring ended early:\*\* interrupted, after \d+ schedules\.")
+
     def test_bad_input_is_told(self):
         (self.folder / "bad.yaml").write_text("nonsense: 1\n")
         self.assertIn("bad.yaml:1: expected key 'format: 1'", self.shell(SCRIPT, "bad.yaml", status=2))
