@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where the project lies, and the real data that are no part of it: tests that use them skip where there are none.
+// Where the project lies, the real data that are no part of it, and what runs the tests: some skip without them.
 #pragma once
 
 #include <cstdlib>
@@ -31,5 +31,9 @@ inline std::optional<std::string> data_folder() {
   if (!std::filesystem::is_directory(folder, none)) return std::nullopt;
   return folder.string();
 }
+
+/// True where another program runs this one, as qemu does (run_tests.py names it): the system cannot start a program of
+/// that processor by itself, and gdb cannot read it.
+inline bool is_emulated() { return std::getenv("WAITPOINT_UNDER") != nullptr; }
 
 }  // namespace waitpoint::test

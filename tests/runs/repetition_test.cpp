@@ -7,6 +7,7 @@
 
 #include "core/random.hpp"
 #include "fibers/kernel/scheduler.hpp"
+#include "tests/project.hpp"
 #include "tests/runs/shipped.hpp"
 #include "tools/papers_modules.hpp"
 
@@ -41,6 +42,7 @@ TEST(Repetition, the_seeded_order_repeats_too_and_is_another) {
 }
 
 TEST(Repetition, runs_in_several_threads_are_the_runs_that_they_are_alone) {
+  if (test::is_emulated()) GTEST_SKIP() << "eight runs at once need more address space than qemu has";
   const scenario::Scenario scenario = shipped("office.yaml");
   const auto digest = [&](std::size_t seed) { return to_string(run(scenario, 5s, seed).digest); };
   for (const std::size_t threads : {2, 8}) {

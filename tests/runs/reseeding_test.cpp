@@ -9,6 +9,7 @@
 #include "modules/run/experiment.hpp"
 #include "tests/runs/shipped.hpp"
 #include "tools/papers_modules.hpp"
+#include "world/bullet/bullet_world.hpp"
 
 namespace waitpoint::runs {
 namespace {
@@ -58,8 +59,9 @@ TEST(Reseeding, the_present_seed_once_more_leaves_the_robots_as_they_are) {
 // Nothing has been drawn before the first step but the drift of the receiver in the yard, so that no stream may be left
 // out.
 TEST(Reseeding, from_the_first_step_on_the_robots_are_those_of_the_other_seed) {
-  for (const char* name : {"office.yaml", "office-air.yaml", "office-dynamic.yaml", "yard.yaml"}) {
-    const bool is_yard = std::string(name) == "yard.yaml";
+  for (const std::string name : {"office.yaml", "office-air.yaml", "office-dynamic.yaml", "yard.yaml"}) {
+    if (name == "office-dynamic.yaml" && world::make_bullet_world({}, 1) == nullptr) continue;  // built without Bullet
+    const bool is_yard = name == "yard.yaml";
     const scenario::Scenario scenario = shipped(
         name, is_yard ? std::vector<std::string>{"robot_types.rackham.gps.drift_m=0"} : std::vector<std::string>());
     const Digests changed = digests(scenario, 1, 2, Time() + scenario.step);

@@ -3,9 +3,10 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <set>
 #include <thread>
+
+#include "tests/project.hpp"
 
 namespace waitpoint::nodes {
 namespace {
@@ -117,7 +118,7 @@ TEST(NodeProcesses, AreMissedIfTheyDoNotRegister) {
 
 TEST(NodeProcesses, ThatAreNotThereAreFaults) {
   // qemu's vfork() is a fork(): the parent does not learn what exec() answers, but the status 127.
-  if (std::getenv("WAITPOINT_UNDER") != nullptr) GTEST_SKIP() << "posix_spawn() of an emulator does not report errors";
+  if (test::is_emulated()) GTEST_SKIP() << "posix_spawn() of an emulator does not report errors";
   FakeMaster master;
   NodeCommand command = node("missing", "");
   command.words = {"/nowhere/node"};
