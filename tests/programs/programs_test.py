@@ -315,6 +315,11 @@ if(TARGET waitpoint::robots_native)
   target_link_libraries(robots_native PRIVATE waitpoint::robots_native)
 endif()
 """
+CMAKE_COMPONENTS = """
+cmake_minimum_required(VERSION 3.18)
+project(consumer CXX)
+find_package(waitpoint 1 REQUIRED COMPONENTS threads {})
+"""
 CMAKE_PROJECT_IN_C = """
 cmake_minimum_required(VERSION 3.18)
 project(consumer C)
@@ -327,6 +332,16 @@ project('consumer', 'cpp', default_options: 'cpp_std=c++20')
 executable('threads', 'main.cpp', dependencies: dependency('waitpoint'))
 executable('robots', 'robots.cpp', dependencies: dependency('waitpoint-robots'))
 """
+
+
+class Moved(Installed):
+    """A tree that is not where it was to be installed; here by --destdir."""
+
+    def test_finds_its_libraries_and_scenarios(self):
+        if not list(self.prefix.rglob("libwaitpoint-exec.so")):
+            self.skipTest("this build has no library for programs")
+        self.assertEqual(run(self.prefix / "bin/waitpoint", "exec", "--", "echo", "heard"), "heard\n")
+        run(self.prefix / "bin/waitpoint", "check", "office.yaml", cwd=self.folder)
 
 
 class Consumers(Installed):
@@ -365,6 +380,14 @@ class Consumers(Installed):
             run(folder / "build/races", timeout=20)
         if list(self.prefix.rglob("libwaitpoint-robots-native.*")):
             self.assertIn("on real threads", run(folder / "build/robots_native", "run", HERE / "blinker/blinker.yaml", timeout=60))
+
+    @unittest.skipUnless(shutil.which("cmake"), "cmake is not installed")
+    def test_cmake_refuses_what_the_build_lacks(self):
+        for component, words in {"pocolibs": "Build files have been written", "ghosts": "this build of waitpoint has no library 'ghosts'"}.items():
+            folder = self.project(f"with-{component}", "CMakeLists.txt", CMAKE_COMPONENTS.format(component))
+            done = subprocess.run(["cmake", "-S", folder, "-B", folder / "build", f"-DCMAKE_PREFIX_PATH={self.prefix}"],
+                                  stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+            self.assertIn(words, done.stdout)
 
     @unittest.skipUnless(shutil.which("cmake"), "cmake is not installed")
     def test_cmake_of_a_project_in_c(self):

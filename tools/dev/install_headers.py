@@ -13,7 +13,7 @@ import pathlib
 import re
 
 OWN = re.compile(r'^(\s*#\s*include\s*)"([^"]+)"', re.MULTILINE)
-OF_OTHERS = re.compile(r"^\s*#\s*include\s*<(fcl|ccd|boost/(asio|beast)|bt|Bullet|LinearMath|yaml-cpp|nlohmann|zlib\.h|tcl\.h|"
+OF_OTHERS = re.compile(r"^\s*#\s*include\s*<(fcl|ccd|assimp|boost/(asio|beast)|bt|Bullet|LinearMath|yaml-cpp|nlohmann|zlib\.h|tcl\.h|"
                        r"ros/|xmlrpcpp/|[a-z0-9]+_msgs/)", re.MULTILINE)
 
 
