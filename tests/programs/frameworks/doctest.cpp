@@ -3,3 +3,12 @@
 #include <doctest/doctest.h>
 
 #include "tests/programs/frameworks/tests_of_threads.hpp"
+
+TEST_CASE("passes with a warning") {
+  const auto report = waitpoint::explore([] {
+    WARN(count_by_two_threads() == 2);
+    WARN_MESSAGE(count_by_two_threads() == 2, "one is lost");
+  });
+  INFO(report);
+  CHECK(report.passed);
+}
