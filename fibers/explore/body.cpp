@@ -59,9 +59,11 @@ void Body::start(Strategy& strategy, const Played& played) {
 Outcome Body::run(Strategy& strategy, const Played& played) {
   start(strategy, played);
   Outcome outcome;
+  bool ended_by_checks = false;
   try {
     outcome.end = simulation_.run_before(until_);
   } catch (...) {  // reported by trouble()
+    ended_by_checks = checks_ != nullptr && checks_->is_own(std::current_exception());
   }
   outcome.failure = simulation_.trouble();
   outcome.was_cut = explorer_.was_cut();
@@ -76,9 +78,8 @@ Outcome Body::run(Strategy& strategy, const Played& played) {
   simulation_.unwind();
   outcome.abandoned = simulation_.abandoned();
   if (checks_ != nullptr)
-    // An assertion that throws leaves its text here, and an exception that only its framework knows.
     if (std::string failures = checks_->end(); !failures.empty())
-      outcome.failure = outcome.failure.empty() ? failures : failures + "\n" + outcome.failure;
+      outcome.failure = outcome.failure.empty() || ended_by_checks ? failures : failures + "\n" + outcome.failure;
   outcome.only_raced = fails_on_races_ && outcome.failure.empty() && races::any_found();
   if (outcome.only_raced) outcome.failure = describe_races(places_);
   return outcome;

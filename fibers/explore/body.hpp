@@ -2,6 +2,7 @@
 // The body of a test, run repeatedly under different schedules, at a fixed place in memory.
 #pragma once
 
+#include <exception>
 #include <functional>
 #include <string>
 
@@ -20,9 +21,23 @@ class ExternalChecks {
   virtual void begin() = 0;
   /// Called at the end of the run: the failures since begin(), as text; empty if none.
   virtual std::string end() = 0;
+  /// True for the exception that only ends a test after a failure that end() tells: it is not shown itself.
+  virtual bool is_own(const std::exception_ptr&) const { return false; }
   /// The name of the running test, and the program's option that runs it alone; empty if there is none.
   virtual std::string name() const = 0;
   virtual std::string option_for(const std::string& name) const = 0;
+
+ protected:
+  template <class Exception>
+  static bool is(const std::exception_ptr& exception) {
+    try {
+      std::rethrow_exception(exception);
+    } catch (const Exception&) {
+      return true;
+    } catch (...) {
+      return false;
+    }
+  }
 };
 
 /// Called by a test framework after the last test, before it prints the result. If the run of WAITPOINT_REPLAY was

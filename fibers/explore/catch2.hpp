@@ -3,6 +3,7 @@
 // shown once, with the report. Included by explore.hpp if Catch2 was included before.
 #pragma once
 
+#include <exception>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -76,6 +77,7 @@ class CatchChecks final : public ExternalChecks {
     Catch::getCurrentMutableContext().setResultCapture(&test_);
     return capture_.take_failures();
   }
+  bool is_own(const std::exception_ptr& exception) const override { return is<Catch::TestFailureException>(exception); }
   std::string name() const override { return test_.getCurrentTestName(); }
   // Catch2 takes tests by name, and some characters for wildcards.
   std::string option_for(const std::string& name) const override {

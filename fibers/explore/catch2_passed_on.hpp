@@ -18,6 +18,10 @@
     (CATCH_VERSION_MAJOR == 2 || (CATCH_VERSION_MAJOR == 3 && CATCH_VERSION_MINOR >= 4 && CATCH_VERSION_MINOR <= 7))
 #define WAITPOINT_CATCH2
 
+#if CATCH_VERSION_MAJOR == 3
+#include <catch2/internal/catch_test_failure_exception.hpp>
+#endif
+
 #include <string>
 #include <utility>
 

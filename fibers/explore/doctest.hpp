@@ -3,6 +3,7 @@
 // the report. Included by explore.hpp if doctest was included before.
 #pragma once
 
+#include <exception>
 #include <ostream>
 #include <sstream>
 #include <string>
@@ -85,6 +86,9 @@ class DoctestChecks final : public ExternalChecks {
     if (DoctestListener::current != nullptr) DoctestListener::current->begin();
   }
   std::string end() override { return DoctestListener::current != nullptr ? DoctestListener::current->end() : ""; }
+  bool is_own(const std::exception_ptr& exception) const override {
+    return is<doctest::detail::TestFailureException>(exception);
+  }
   std::string name() const override {
     return DoctestListener::current != nullptr ? DoctestListener::current->test() : "";
   }

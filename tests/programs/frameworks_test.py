@@ -26,14 +26,15 @@ class Frameworks(Installed):
         return program
 
     def check(self, framework, only, *options, end=""):
-        """Failures within the body are shown once, in the report of the test, whose line repeats the schedule; the framework
-        adds `end` to a report."""
+        """Failures within the body are shown once, in the report of the test, without the exception that REQUIRE ends the body
+        with; the report's line repeats the schedule; the framework adds `end` to a report."""
         program = self.program(framework)
         done = subprocess.run([program, *options], capture_output=True, text=True, timeout=120, cwd=self.folder)
         self.assertNotEqual(done.returncode, 0)
         for expectation in (r"REQUIRE\( count_by_two_threads\(\) == 2 \): 1 == 2",
                             r"CHECK_FALSE\( count_by_two_threads\(\) < 2 \): .*1 <  ?2"):
             self.assertEqual(len(re.findall(r"seed 1 failed: expectation at .*" + expectation, done.stdout)), 1, done.stdout)
+        self.assertNotIn("an exception escaped", done.stdout)
         replays = re.findall(r"replay: (WAITPOINT_REPLAY=\S+) (.*)" + end, done.stdout)
         self.assertEqual(len(replays), 2, done.stdout)
         for token, command in replays:
