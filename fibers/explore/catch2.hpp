@@ -6,6 +6,7 @@
 #include <exception>
 #include <sstream>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "fibers/explore/body.hpp"
@@ -79,12 +80,15 @@ class CatchChecks final : public ExternalChecks {
   }
   bool is_own(const std::exception_ptr& exception) const override { return is<Catch::TestFailureException>(exception); }
   std::string name() const override { return test_.getCurrentTestName(); }
-  // Catch2 takes tests by name, and some characters for wildcards.
+  // Catch2 takes tests by name. Some characters are its syntax, others only at the beginning without a quotation mark:
+  // "-" begins an option, and "~" means all other tests.
   std::string option_for(const std::string& name) const override {
     std::string pattern;
-    for (const char letter : name)
-      pattern += letter == ',' || letter == '[' || letter == '\\' ? std::string("\\") + letter : std::string(1, letter);
-    return pattern;
+    for (const char letter : name) {
+      if (std::string_view(",[\"\\").find(letter) != std::string_view::npos) pattern += '\\';
+      pattern += letter;
+    }
+    return name.starts_with('-') || name.starts_with('~') ? '"' + pattern + '"' : pattern;
   }
 
  private:

@@ -31,13 +31,14 @@ int count_by_two_threads() {
 
 }  // namespace
 
-TEST_CASE("required within the body, under \"every\" order") {
+// The names are such as a command line must quote.
+TEST_CASE("-required within the body, under \"every\" order") {
   const auto report = waitpoint::explore([] { REQUIRE(count_by_two_threads() == 2); });
   INFO(report);
   CHECK(report.passed);
 }
 
-TEST_CASE("checked within the body") {
+TEST_CASE("~checked within the body") {
   const auto report = waitpoint::explore([] {
     CHECK(count_by_two_threads() > 0);
     CHECK_FALSE(count_by_two_threads() < 2);
