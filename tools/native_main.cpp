@@ -94,9 +94,8 @@ int read_and_run(int argc, const char* const* argv, std::span<const genom::Modul
   command.option("--world", arguments.world, "unix:PATH|tcp:PORT",
                  "drive the robots in the world of another process, which serves it there\n"
                  "(waitpoint run --speed 1 --serve-world; docs/external.md)");
-  Command manual = line.add_command("manual", "Prints the man page of a command, or of the program, in roff.");
   std::string page;
-  manual.argument("COMMAND", page, "the command (default: the program)", Command::Presence::optional);
+  const Command manual = add_manual(line, page);
   if (const std::optional<std::string> text = line.parse(argc, argv)) {
     write_standard_output(*text);
     return 0;

@@ -78,9 +78,8 @@ class PlanArguments {
 class TextArguments {
  public:
   explicit TextArguments(CommandLine& line)
-      : manual_(line.add_command("manual", "Prints the man page of a command, or of the program, in roff.")),
+      : manual_(add_manual(line, page_)),
         completion_(line.add_command("completion", "Prints the script with which a shell completes command lines.")) {
-    manual_.argument("COMMAND", page_, "the command (default: the program)", Command::Presence::optional);
     completion_.argument("bash|zsh|fish", shell_, "the shell", Command::Presence::required);
   }
 
@@ -91,8 +90,8 @@ class TextArguments {
   }
 
  private:
-  Command manual_, completion_;
   std::string page_, shell_;
+  Command manual_, completion_;
 };
 
 BadInput missing_command(const std::vector<std::string>& commands) {

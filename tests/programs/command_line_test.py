@@ -148,10 +148,12 @@ class Completion(unittest.TestCase):
 
     def check(self, shell, options, program):
         found = self.offered(shell, options, program, OFFERED)
-        # fish 4 also offers options that have the letters anywhere.
-        found = [[word for word in words if not line.split(" ")[-1].startswith("-") or word.startswith(line.split(" ")[-1])]
-                 for line, words in zip(OFFERED, found)]
-        self.assertEqual(dict(zip(OFFERED, found)), {line: sorted(words) for line, words in OFFERED.items()})
+        offered = dict(zip(OFFERED, found))
+        if shell == "fish":  # release 4 also offers options that have the letters anywhere
+            for line in offered:
+                typed = line.split(" ")[-1]
+                offered[line] = [word for word in offered[line] if word.startswith(typed) or not typed.startswith("-")]
+        self.assertEqual(offered, {line: sorted(words) for line, words in OFFERED.items()})
 
     def test_by_bash(self):
         self.check("bash", ["--norc"], BASH)

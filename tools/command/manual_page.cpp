@@ -82,6 +82,12 @@ std::string commands_text(const DescribedProgram& program) {
 
 }  // namespace
 
+Command add_manual(CommandLine& line, std::string& page) {
+  Command manual = line.add_command("manual", "Prints the man page of a command, or of the program, in roff.");
+  manual.argument("COMMAND", page, "the command (default: the program)", Command::Presence::optional);
+  return manual;
+}
+
 std::string manual_page(const DescribedProgram& program, const std::string& command) {
   const DescribedCommand& page = described(program, command);
   const std::string name = command.empty() ? program.name : program.name + "-" + command;

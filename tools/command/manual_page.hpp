@@ -4,9 +4,12 @@
 
 #include <string>
 
-#include "tools/command/described_command.hpp"
+#include "tools/command/command_line.hpp"
 
 namespace waitpoint::tools {
+
+/// Adds the command that prints pages; its argument, the command of the page, goes to `page`.
+Command add_manual(CommandLine& line, std::string& page);
 
 /// The page PROGRAM(1), or PROGRAM-COMMAND(1), in roff with the macros of man(7). Throws BadInput, one line, for an
 /// unknown command. `command` is empty for the program's own page.
