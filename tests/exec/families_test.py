@@ -324,37 +324,34 @@ class Programs(Families):
         for run in self.assertRepeats("sh", "-c", str(program), env=with_path):
             self.assertEqual((run.status, run.output), (0, "/somewhere:none\n02\n"), run.errors)
 
+    def compile_native(self, name, source):
+        """A program that nothing can be preloaded into."""
+        program = self.folder / name
+        subprocess.run(["gcc", "-static", "-x", "c", "-", "-o", program], input=source, text=True, check=True)
+        return program
+
     def test_native_programs_are_at_the_other_ends_of_pipes(self):
-        with tempfile.TemporaryDirectory() as folder:
-            source, static = pathlib.Path(folder) / "said.c", pathlib.Path(folder) / "said"
-            source.write_text('#include <stdio.h>\nint main(void) { return puts("said by it") < 0; }\n')
-            subprocess.run(["gcc", "-static", source, "-o", static], check=True)
-            for words in ("bash", "-c", "echo $($0); echo after"), ("dash", "-c", "$0 | cat; echo after"), \
-                         (PYTHON, "-c", "import subprocess, sys; print(subprocess.run(sys.argv[1], capture_output=True).stdout)"):
-                native = subprocess.run([*words, static], capture_output=True, text=True)
-                run = Run(1, *words, static)  # which does not repeat, as such a program does not
-                self.assertEqual((run.status, run.output), (native.returncode, native.stdout), run.errors)
+        static = self.compile_native("said", '#include <stdio.h>\nint main(void) { return puts("said by it") < 0; }\n')
+        for words in ("bash", "-c", "echo $($0); echo after"), ("dash", "-c", "$0 | cat; echo after"), \
+                     (PYTHON, "-c", "import subprocess, sys; print(subprocess.run(sys.argv[1], capture_output=True).stdout)"):
+            native = subprocess.run([*words, static], capture_output=True, text=True)
+            run = Run(1, *words, static)  # which does not repeat, as such a program does not
+            self.assertEqual((run.status, run.output), (native.returncode, native.stdout), run.errors)
 
     def test_native_programs_get_pipes_by_actions_of_posix_spawn(self):
-        with tempfile.TemporaryDirectory() as folder:
-            source, static = pathlib.Path(folder) / "heard.c", pathlib.Path(folder) / "heard"
-            source.write_text("#include <unistd.h>\nint main(void) { char c; while (read(0, &c, 1) == 1) write(1, &c, 1); return 7; }\n")
-            subprocess.run(["gcc", "-static", source, "-o", static], check=True)
-            code = ("import os, sys; (r, to), (fro, w) = os.pipe(), os.pipe(); dup = os.POSIX_SPAWN_DUP2\n"
-                    "p = os.posix_spawn(sys.argv[1], sys.argv[1:], {}, file_actions=[(dup, r, 0), (dup, w, 1)])\n"
-                    "os.close(r); os.close(w); os.write(to, b'twice'); print(os.read(fro, 1)); os.close(to)\n"
-                    "print(b''.join(iter(lambda: os.read(fro, 9), b'')), os.waitstatus_to_exitcode(os.waitpid(p, 0)[1]))")
-            run = Run(1, PYTHON, "-c", code, static)  # which does not repeat, as such a program does not
-            self.assertEqual((run.status, run.output), (0, "b't'\nb'wice' 7\n"), run.errors)
+        static = self.compile_native("heard", "#include <unistd.h>\nint main(void) { char c; while (read(0, &c, 1) == 1) write(1, &c, 1); return 7; }\n")
+        code = ("import os, sys; (r, to), (fro, w) = os.pipe(), os.pipe(); dup = os.POSIX_SPAWN_DUP2\n"
+                "p = os.posix_spawn(sys.argv[1], sys.argv[1:], {}, file_actions=[(dup, r, 0), (dup, w, 1)])\n"
+                "os.close(r); os.close(w); os.write(to, b'twice'); print(os.read(fro, 1)); os.close(to)\n"
+                "print(b''.join(iter(lambda: os.read(fro, 9), b'')), os.waitstatus_to_exitcode(os.waitpid(p, 0)[1]))")
+        run = Run(1, PYTHON, "-c", code, static)  # which does not repeat, as such a program does not
+        self.assertEqual((run.status, run.output), (0, "b't'\nb'wice' 7\n"), run.errors)
 
     def test_a_native_program_ends_while_another_waits_at_its_pipe(self):
-        with tempfile.TemporaryDirectory() as folder:
-            source, static = pathlib.Path(folder) / "slow.c", pathlib.Path(folder) / "slow"
-            source.write_text('#include <unistd.h>\nint main(void) { write(1, "a", 1); return usleep(10000); }\n')
-            subprocess.run(["gcc", "-static", source, "-o", static], check=True)
-            for _ in range(20):  # its parent or its reader may be the first to find its end
-                run = Run(1, "dash", "-c", "$0 | cat; echo after", static)
-                self.assertEqual((run.status, run.output), (0, "aafter\n"), run.errors)
+        static = self.compile_native("slow", '#include <unistd.h>\nint main(void) { write(1, "a", 1); return usleep(10000); }\n')
+        for _ in range(20):  # its parent or its reader may be the first to find its end
+            run = Run(1, "dash", "-c", "$0 | cat; echo after", static)
+            self.assertEqual((run.status, run.output), (0, "aafter\n"), run.errors)
 
     def test_a_killed_process_holds_up_nobody(self):
         run = Run(1, "sh", "-c", "sh -c 'kill -KILL $$'; echo $?; sleep 1; date +%S")
