@@ -75,6 +75,7 @@ OWN_CASES = {
     "mistakes": [sys.executable, str(ROOT / "tests/programs/mistakes_test.py"), BUILD],
     "recordings": [sys.executable, str(ROOT / "tests/programs/recordings_test.py"), BUILD],
     "programs": [sys.executable, str(ROOT / "tests/programs/programs_test.py"), BUILD],
+    "projects": [sys.executable, str(ROOT / "tests/programs/consumers_test.py"), BUILD],
     "templates for continuous integration": [sys.executable, str(ROOT / "tests/programs/ci_test.py"), BUILD],
     "frameworks": [sys.executable, str(ROOT / "tests/programs/frameworks_test.py"), BUILD],
     "ranks": [sys.executable, str(ROOT / "tests/programs/ranks_test.py"), BUILD],
