@@ -5,7 +5,7 @@
 
 #include "fibers/explore/races/races.hpp"
 #include "fibers/explore/strategies/fifo.hpp"
-#include "fibers/sync/system_calls.hpp"
+#include "fibers/sync/system_calls/system_calls.hpp"
 
 namespace waitpoint::exploration {
 namespace {

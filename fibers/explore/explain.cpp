@@ -10,8 +10,8 @@
 #include "fibers/explore/schedules/event_stop.hpp"
 #include "fibers/explore/strategies/fifo.hpp"
 #include "fibers/kernel/visit.hpp"
-#include "fibers/sync/object_names.hpp"
-#include "fibers/sync/source_lines.hpp"
+#include "fibers/sync/report/object_names.hpp"
+#include "fibers/sync/report/source_lines.hpp"
 
 namespace waitpoint::exploration {
 namespace {

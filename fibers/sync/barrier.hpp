@@ -12,7 +12,8 @@
 #include <utility>
 
 #include "fibers/sync/clock.hpp"
-#include "fibers/sync/misuse.hpp"
+#include "fibers/sync/object.hpp"
+#include "fibers/sync/report/misuse.hpp"
 
 namespace waitpoint {
 namespace sync {

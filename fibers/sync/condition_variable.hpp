@@ -10,6 +10,7 @@
 #include <mutex>
 
 #include "fibers/sync/mutex.hpp"
+#include "fibers/sync/object.hpp"
 
 namespace waitpoint {
 

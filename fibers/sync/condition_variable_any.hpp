@@ -10,7 +10,8 @@
 
 #include "fibers/sync/clock.hpp"
 #include "fibers/sync/ignored_accesses.hpp"
-#include "fibers/sync/misuse.hpp"
+#include "fibers/sync/object.hpp"
+#include "fibers/sync/report/misuse.hpp"
 #include "fibers/sync/stop_token.hpp"
 
 namespace waitpoint {

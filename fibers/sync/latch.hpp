@@ -8,7 +8,8 @@
 #include <cstddef>
 
 #include "fibers/sync/clock.hpp"
-#include "fibers/sync/misuse.hpp"
+#include "fibers/sync/object.hpp"
+#include "fibers/sync/report/misuse.hpp"
 
 namespace waitpoint {
 

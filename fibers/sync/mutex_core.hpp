@@ -7,7 +7,8 @@
 
 #include "fibers/kernel/ownership.hpp"
 #include "fibers/sync/blocking.hpp"
-#include "fibers/sync/misuse.hpp"
+#include "fibers/sync/object.hpp"
+#include "fibers/sync/report/misuse.hpp"
 
 namespace waitpoint::sync {
 

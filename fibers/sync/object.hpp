@@ -10,6 +10,10 @@ namespace waitpoint::sync {
 /// finished run, and destruction outside any task, are not checked.
 void check_destroyed(const kernel::Object& object);
 
+/// For the destructors of objects that may be destroyed once no task waits: gives woken tasks that have not run since a
+/// turn to leave.
+void drain_woken_waiters(const kernel::Object& object);
+
 struct Object : kernel::Object {
   using kernel::Object::Object;
   ~Object() {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fibers/sync/periodic_timer.hpp"
 
-#include "fibers/sync/misuse.hpp"
+#include "fibers/sync/report/misuse.hpp"
 
 namespace waitpoint {
 

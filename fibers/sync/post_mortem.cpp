@@ -9,8 +9,8 @@
 
 #include "core/error.hpp"
 #include "fibers/kernel/call_stack.hpp"
-#include "fibers/sync/source_lines.hpp"
-#include "fibers/sync/system_calls.hpp"
+#include "fibers/sync/report/source_lines.hpp"
+#include "fibers/sync/system_calls/system_calls.hpp"
 
 namespace waitpoint::sync {
 namespace {

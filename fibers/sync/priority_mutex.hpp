@@ -13,8 +13,9 @@
 
 #include "fibers/kernel/processor.hpp"
 #include "fibers/sync/clock.hpp"
-#include "fibers/sync/misuse.hpp"
 #include "fibers/sync/mutex_attributes.hpp"
+#include "fibers/sync/object.hpp"
+#include "fibers/sync/report/misuse.hpp"
 
 namespace waitpoint {
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fibers/sync/processor.hpp"
 
-#include "fibers/sync/misuse.hpp"
+#include "fibers/kernel/scheduler.hpp"
+#include "fibers/sync/report/misuse.hpp"
 
 namespace waitpoint {
 

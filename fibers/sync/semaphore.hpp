@@ -10,7 +10,8 @@
 
 #include "fibers/sync/blocking.hpp"
 #include "fibers/sync/clock.hpp"
-#include "fibers/sync/misuse.hpp"
+#include "fibers/sync/object.hpp"
+#include "fibers/sync/report/misuse.hpp"
 
 namespace waitpoint {
 

@@ -17,7 +17,8 @@
 
 #include <vector>
 
-#include "fibers/sync/misuse.hpp"
+#include "fibers/sync/object.hpp"
+#include "fibers/sync/report/misuse.hpp"
 #include "fibers/sync/timed.hpp"
 
 namespace waitpoint {

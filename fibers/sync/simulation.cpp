@@ -13,9 +13,9 @@
 #include "core/spin_lock.hpp"
 #include "fibers/kernel/fault_reports.hpp"
 #include "fibers/sync/blocking.hpp"
-#include "fibers/sync/object_names.hpp"
+#include "fibers/sync/report/object_names.hpp"
 #include "fibers/sync/signals.hpp"
-#include "fibers/sync/system_calls.hpp"
+#include "fibers/sync/system_calls/system_calls.hpp"
 #include "fibers/sync/thread.hpp"
 
 namespace waitpoint {

@@ -19,7 +19,7 @@
 #include "core/digest.hpp"
 #include "core/time.hpp"
 #include "fibers/kernel/scheduler.hpp"
-#include "fibers/sync/blocked_report.hpp"
+#include "fibers/sync/report/blocked_report.hpp"
 #include "fibers/sync/robot_state.hpp"
 #include "fibers/sync/run_context.hpp"
 

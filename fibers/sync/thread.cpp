@@ -5,7 +5,7 @@
 #include <ostream>
 #include <system_error>
 
-#include "fibers/sync/misuse.hpp"
+#include "fibers/sync/report/misuse.hpp"
 #include "fibers/sync/run_context.hpp"
 
 namespace waitpoint {
@@ -18,6 +18,12 @@ struct LocalsEnd {
   ~LocalsEnd() { state.locals.clear(); }
   ThreadState& state;
 };
+
+// At the end of a thread.
+void check_holds_nothing(const kernel::Task& task) {
+  WAITPOINT_REQUIRE(task.held == nullptr, about(*task.held, "a thread ends while it holds a lock"));
+  WAITPOINT_REQUIRE(task.held_shared == 0, "a thread ends while it holds a lock together with others");
+}
 
 void run_thread(void* argument) {
   // The handle may be destroyed before.

@@ -7,7 +7,7 @@
 
 #include "core/error.hpp"
 #include "fibers/kernel/fetch_ahead.hpp"
-#include "fibers/sync/blocked_report.hpp"
+#include "fibers/sync/report/blocked_report.hpp"
 #include "fibers/sync/thread.hpp"
 #include "fibers/sync/threads.hpp"
 #include "modules/run/heap_pages.hpp"

@@ -14,7 +14,7 @@
 
 #include "core/number_text.hpp"
 #include "fibers/sync/duration_record.hpp"
-#include "fibers/sync/system_calls.hpp"
+#include "fibers/sync/system_calls/system_calls.hpp"
 #include "modules/scenario/scenario_reader.hpp"
 #include "tools/check/checked_run.hpp"
 #include "tools/check/event_comparison.hpp"

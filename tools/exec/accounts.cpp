@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "fibers/posix/signals/signals.hpp"
-#include "fibers/sync/source_lines.hpp"
+#include "fibers/sync/report/source_lines.hpp"
 #include "tools/exec/family_report.hpp"
 
 namespace waitpoint::tools {

@@ -10,7 +10,7 @@
 
 #include "core/error.hpp"
 #include "core/number_text.hpp"
-#include "fibers/sync/system_calls.hpp"
+#include "fibers/sync/system_calls/system_calls.hpp"
 #include "modules/scenario/scenario_reader.hpp"
 #include "tools/command/interruption.hpp"
 #include "tools/command/program_layer.hpp"

@@ -8,7 +8,7 @@
 #include <thread>
 
 #include "core/printable_line.hpp"
-#include "fibers/sync/system_calls.hpp"
+#include "fibers/sync/system_calls/system_calls.hpp"
 #include "modules/nodes/bag_run.hpp"
 #include "modules/ros1/launch.hpp"
 #include "tools/command/interruption.hpp"

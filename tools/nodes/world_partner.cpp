@@ -3,7 +3,7 @@
 
 #include <stdexcept>
 
-#include "fibers/sync/system_calls.hpp"
+#include "fibers/sync/system_calls/system_calls.hpp"
 #include "modules/nodes/node_waits.hpp"
 #include "modules/nodes/world_node.hpp"
 #include "modules/nodes/world_topics.hpp"

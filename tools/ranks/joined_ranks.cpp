@@ -8,7 +8,7 @@
 
 #include "core/error.hpp"
 #include "core/missing_part.hpp"
-#include "fibers/sync/system_calls.hpp"
+#include "fibers/sync/system_calls/system_calls.hpp"
 #include "tools/command/installed_part.hpp"
 #include "tools/command/interruption.hpp"
 #include "tools/output/progress.hpp"

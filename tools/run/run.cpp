@@ -10,7 +10,7 @@
 #include <system_error>
 
 #include "fibers/kernel/unfinished_run.hpp"
-#include "fibers/sync/system_calls.hpp"
+#include "fibers/sync/system_calls/system_calls.hpp"
 #include "modules/run/experiment.hpp"
 #include "modules/run/journal.hpp"
 #include "modules/run/ranks/dividable.hpp"

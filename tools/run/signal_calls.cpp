@@ -9,7 +9,7 @@
 #include <csignal>
 
 #include "fibers/kernel/fault_reports.hpp"
-#include "fibers/sync/system_calls.hpp"
+#include "fibers/sync/system_calls/system_calls.hpp"
 #include "tools/run/next_definition.hpp"
 
 using waitpoint::tools::next_definition;

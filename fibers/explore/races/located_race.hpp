@@ -5,7 +5,7 @@
 #include <string>
 
 #include "fibers/explore/races/runtime.hpp"
-#include "fibers/sync/source_lines.hpp"
+#include "fibers/sync/report/source_lines.hpp"
 
 namespace waitpoint::races {
 

@@ -5,7 +5,7 @@
 
 #include "core/error.hpp"
 #include "fibers/explore/races/runtime.hpp"
-#include "fibers/sync/object_names.hpp"
+#include "fibers/sync/report/object_names.hpp"
 
 namespace waitpoint::exploration {
 namespace {

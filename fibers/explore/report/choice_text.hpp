@@ -5,7 +5,7 @@
 #include <string>
 
 #include "fibers/explore/schedules/explorer.hpp"
-#include "fibers/sync/code_place.hpp"
+#include "fibers/sync/report/code_place.hpp"
 
 namespace waitpoint::exploration {
 

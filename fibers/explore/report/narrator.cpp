@@ -6,7 +6,7 @@
 
 #include "core/number_text.hpp"
 #include "fibers/explore/report/choice_text.hpp"
-#include "fibers/sync/object_names.hpp"
+#include "fibers/sync/report/object_names.hpp"
 
 namespace waitpoint::exploration {
 namespace {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "fibers/explore/schedules/explorer.hpp"
-#include "fibers/sync/code_place.hpp"
+#include "fibers/sync/report/code_place.hpp"
 
 namespace waitpoint::exploration {
 

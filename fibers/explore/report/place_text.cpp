@@ -3,7 +3,7 @@
 
 #include <utility>
 
-#include "fibers/sync/source_lines.hpp"
+#include "fibers/sync/report/source_lines.hpp"
 
 namespace waitpoint::exploration {
 

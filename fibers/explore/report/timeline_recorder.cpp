@@ -2,7 +2,7 @@
 #include "fibers/explore/report/timeline_recorder.hpp"
 
 #include "fibers/explore/report/choice_text.hpp"
-#include "fibers/sync/object_names.hpp"
+#include "fibers/sync/report/object_names.hpp"
 
 namespace waitpoint::exploration {
 

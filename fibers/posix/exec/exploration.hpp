@@ -16,7 +16,7 @@
 #include "fibers/posix/exec/history.hpp"
 #include "fibers/posix/exec/process_choices.hpp"
 #include "fibers/posix/traps/access_instruction.hpp"
-#include "fibers/sync/source_lines.hpp"
+#include "fibers/sync/report/source_lines.hpp"
 
 namespace waitpoint::posix {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "fibers/kernel/scheduler.hpp"
-#include "fibers/sync/source_lines.hpp"
+#include "fibers/sync/report/source_lines.hpp"
 
 namespace waitpoint::posix {
 

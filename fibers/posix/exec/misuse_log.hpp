@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/time.hpp"
-#include "fibers/sync/source_lines.hpp"
+#include "fibers/sync/report/source_lines.hpp"
 
 namespace waitpoint::posix {
 

@@ -5,7 +5,7 @@
 #include <span>
 
 #include "fibers/kernel/task.hpp"
-#include "fibers/sync/source_lines.hpp"
+#include "fibers/sync/report/source_lines.hpp"
 
 namespace waitpoint::posix {
 

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The tasks of the run as fibers, numbered from 1 in the order of their making, and what each one waits for, in the words
-of the reports (fibers/sync/blocked_report.cpp)."""
+of the reports (fibers/sync/report/blocked_report.cpp)."""
 
 import gdb
 

@@ -11,7 +11,7 @@
 
 #include "fibers/kernel/call_stack.hpp"
 #include "fibers/kernel/fault_reports.hpp"
-#include "fibers/sync/source_lines.hpp"
+#include "fibers/sync/report/source_lines.hpp"
 #include "modules/run/journal.hpp"
 #include "tools/output/recorders.hpp"
 #include "tools/view/event_trace.hpp"

@@ -1,20 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "fibers/sync/misuse.hpp"
+#include "fibers/sync/object.hpp"
 
-#include "core/error.hpp"
 #include "fibers/kernel/fault_reports.hpp"
+#include "fibers/kernel/scheduler.hpp"
 #include "fibers/switch/sanitizer.hpp"
-#include "fibers/sync/object_names.hpp"
 #include "fibers/sync/post_mortem.hpp"
+#include "fibers/sync/report/misuse.hpp"
 
 namespace waitpoint::sync {
-
-const char* about(const kernel::Object& object, const char* message) {
-  static thread_local std::string text;
-  text = std::string(message) + ": " + describe(object);
-  if (const std::string holders = describe_holders(object); !holders.empty()) text += ", " + holders;
-  return text.c_str();
-}
 
 void check_destroyed(const kernel::Object& object) {
   if (kernel::running == nullptr) return;
@@ -31,13 +24,9 @@ void drain_woken_waiters(const kernel::Object& object) {
     if (!scheduler.yield()) return;
 }
 
-void check_holds_nothing(const kernel::Task& task) {
-  WAITPOINT_REQUIRE(task.held == nullptr, about(*task.held, "a thread ends while it holds a lock"));
-  WAITPOINT_REQUIRE(task.held_shared == 0, "a thread ends while it holds a lock together with others");
-}
-
 }  // namespace waitpoint::sync
 
+// Of every misuse (core/error.hpp). Here, since each program that uses a primitive links this source.
 extern "C" void waitpoint_describe_caller() {
   using namespace waitpoint;
   // A task's stack may be too small: the handler of the abort has one of its own. With a sanitizer there is no handler,

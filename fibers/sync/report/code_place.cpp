@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "fibers/sync/code_place.hpp"
+#include "fibers/sync/report/code_place.hpp"
 
 #include <cxxabi.h>
 #include <dlfcn.h>

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "fibers/sync/code_place.hpp"
+#include "fibers/sync/report/code_place.hpp"
 
 namespace waitpoint::sync {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "fibers/sync/object_names.hpp"
+#include "fibers/sync/report/object_names.hpp"
 
 namespace waitpoint::sync {
 namespace {

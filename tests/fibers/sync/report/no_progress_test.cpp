@@ -13,14 +13,13 @@
 #include "fibers/sync/thread.hpp"
 #include "fibers/sync/timer.hpp"
 #include "tests/fibers/sync/orders.hpp"
+#include "tests/fibers/sync/report/text_parts.hpp"
 
 namespace waitpoint {
 namespace {
 
 using namespace std::chrono_literals;
 using this_thread::sleep_for;
-
-bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 TEST(NoProgress, TasksThatSpinAtOneInstantAreNamed) {
   for (std::uint64_t number = 0; number <= 1; ++number) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "fibers/sync/system_calls.hpp"
+#include "fibers/sync/system_calls/system_calls.hpp"
 
 #include <dlfcn.h>
 #include <sys/types.h>
@@ -20,8 +20,8 @@
 #include "fibers/kernel/call_stack.hpp"
 #include "fibers/kernel/fault_reports.hpp"
 #include "fibers/kernel/scheduler.hpp"
-#include "fibers/sync/noted_calls.hpp"
-#include "fibers/sync/source_lines.hpp"
+#include "fibers/sync/report/source_lines.hpp"
+#include "fibers/sync/system_calls/noted_calls.hpp"
 
 namespace waitpoint::sync {
 namespace {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "fibers/sync/blocked_report.hpp"
+#include "fibers/sync/report/blocked_report.hpp"
 
 #include <algorithm>
 #include <vector>
 
 #include "core/number_text.hpp"
 #include "fibers/kernel/visit.hpp"
-#include "fibers/sync/object_names.hpp"
-#include "fibers/sync/source_lines.hpp"
+#include "fibers/sync/report/object_names.hpp"
+#include "fibers/sync/report/source_lines.hpp"
 
 namespace waitpoint::sync {
 namespace {

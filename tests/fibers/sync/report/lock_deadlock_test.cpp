@@ -14,14 +14,13 @@
 #include "fibers/sync/shared_mutex.hpp"
 #include "fibers/sync/thread.hpp"
 #include "tests/fibers/sync/orders.hpp"
+#include "tests/fibers/sync/report/text_parts.hpp"
 
 namespace waitpoint {
 namespace {
 
 using namespace std::chrono_literals;
 using this_thread::sleep_for;
-
-bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 // Two tasks that each hold one lock and request the other 1 ms later: found at once, with both names.
 template <class First, class Second>

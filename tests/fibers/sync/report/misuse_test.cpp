@@ -9,9 +9,9 @@
 #include "fibers/switch/sanitizer.hpp"
 #include "fibers/sync/condition_variable.hpp"
 #include "fibers/sync/periodic_timer.hpp"
+#include "fibers/sync/report/source_lines.hpp"
 #include "fibers/sync/semaphore.hpp"
 #include "fibers/sync/simulation.hpp"
-#include "fibers/sync/source_lines.hpp"
 #include "fibers/sync/thread.hpp"
 
 namespace waitpoint {

@@ -8,10 +8,11 @@
 
 #include "fibers/kernel/call_stack.hpp"
 #include "fibers/sync/condition_variable.hpp"
+#include "fibers/sync/report/source_lines.hpp"
 #include "fibers/sync/semaphore.hpp"
-#include "fibers/sync/source_lines.hpp"
 #include "fibers/sync/thread.hpp"
 #include "tests/fibers/sync/orders.hpp"
+#include "tests/fibers/sync/report/text_parts.hpp"
 
 namespace waitpoint {
 namespace {
@@ -24,7 +25,6 @@ int times(const std::string& text, const std::string& part) {
   for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++found;
   return found;
 }
-bool contains(const std::string& text, const std::string& part) { return times(text, part) > 0; }
 
 // True if addr2line is installed and this program has debugging information.
 bool source_lines_can_be_had() {
