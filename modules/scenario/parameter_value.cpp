@@ -44,23 +44,6 @@ nlohmann::json integer(const YamlNode& node, std::string_view digits, int base, 
   return is_negative ? -static_cast<std::int64_t>(size) : static_cast<std::int64_t>(size);
 }
 
-// Parts after the first have one or two digits, and are below 60.
-bool read_base_60(std::string_view text, std::int64_t& value) {
-  constexpr std::int64_t most = std::numeric_limits<std::int32_t>::max();
-  value = 0;
-  for (bool is_first = true;; is_first = false) {
-    const std::size_t colon = text.find(':');
-    const std::string_view part = text.substr(0, colon);
-    std::int64_t number = 0;
-    if (!are_digits(part, 10) || !parse_number(part, number) || number > most) return false;
-    if (is_first ? part.front() == '0' : part.size() > 2 || number >= 60) return false;
-    value = value * 60 + number;
-    if (colon == text.npos) return !is_first;
-    if (value > most) return false;
-    text.remove_prefix(colon + 1);
-  }
-}
-
 // [digits].[digits], with at least a digit in front of the '.' or behind it, and perhaps an exponent with a sign.
 bool is_double(std::string_view text) {
   const std::size_t point = text.find('.');
@@ -122,7 +105,6 @@ nlohmann::json plain_value(const YamlNode& node) {
     if (is_octal && !are_digits(digits, 8)) return text;
     return integer(node, digits, is_octal ? 8 : 10, is_negative);
   }
-  if (std::int64_t value = 0; read_base_60(digits, value)) return is_negative ? -value : value;
   if (is_double(digits)) return real(node, digits, is_negative);
   return text;
 }

@@ -46,7 +46,7 @@ class Reports(External):
         self.assertNotEqual(seen, re.search(r"(?m)^  rackham .* (wp1:\w+)$", alone.stdout)[1])
 
     def test_end_at_contacts(self):
-        run = self.start("--reports", "jump_m=20")
+        run = self.start(settings="jump_m=20")
         ada = self.connect(run)
         ada.report(1, 0.6, 2)
         ada.report(2, 0.3, 2)
@@ -65,7 +65,7 @@ class Reports(External):
         self.assertIn("ada: stays at (15.00, 2.00): 'bob' is in the way at the reported place (12.00, 8.00)\n", run.told())
 
     def test_of_the_unix_clock_and_of_the_runs_own_have_their_lags(self):
-        run = self.start("--reports", "late_s=0.05", "--reports", "between=stay")
+        run = self.start(settings="late_s=0.05 between=stay")
         ada = self.connect(run)
         date = float(ada.report(1, 10, 2).split()[-1])
         self.assertRegex(ada.say(f"clock run\nreport stamp_s={date - 5} x_m=10 y_m=2 heading_rad=0"), "^taken")
@@ -142,7 +142,7 @@ class Faults(External):
         self.assertIn("ada: the connection to the source ended after 2 reports\nada: a source of reports is connected\n", run.told())
 
     def test_silence_is_told_and_the_body_stays(self):
-        run = self.start("--reports", "silent_s=0.05")
+        run = self.start(settings="silent_s=0.05")
         ada = self.connect(run)
         ada.report(1, 10, 2, "v_m_s=0.5")
         run.type("pause\nrun +0.2\nstatus")
@@ -195,11 +195,10 @@ class Refusals(External):
         self.assertIn("expected each robot once, found 'ada' twice",
                       refused("--external", f"ada=unix:{self.path}", "--external", f"ada=unix:{self.folder / 'other'}"))
         self.assertIn("cannot listen at unix:/nowhere/at/all: No such file", refused("--external", "ada=unix:/nowhere/at/all"))
-        self.assertIn("--reports: expected 'between' to be move or stay, found 'fly'\n",
-                      refused("--external", f"ada=unix:{self.path}", "--reports", "between=fly"))
-        self.assertIn("--reports: unknown key 'jump', did you mean 'jump_m'?\n",
-                      refused("--external", f"ada=unix:{self.path}", "--reports", "jump=1"))
-        self.assertIn("expected --external, whose reports they concern\n", refused("--reports", "jump_m=1"))
+        self.assertIn("--external: expected 'between' to be move or stay, found 'fly'\n",
+                      refused("--external", f"ada=unix:{self.path} between=fly"))
+        self.assertIn("--external: unknown key 'jump', did you mean 'jump_m'?\n",
+                      refused("--external", f"ada=unix:{self.path} jump=1"))
         self.assertIn("expected engine fcl or slice",
                       refused("--external", f"ada=unix:{self.path}", "--set", "world.engine=bullet"))
 

@@ -99,8 +99,9 @@ class External(unittest.TestCase):
         self.folder = pathlib.Path(folder.name)
         self.path = self.folder / "ada"
 
-    def start(self, *options, robots=("ada",), **more):
-        addresses = [word for robot in robots for word in ("--external", f"{robot}=unix:{self.folder / robot}")]
+    def start(self, *options, robots=("ada",), settings="", **more):
+        addresses = [word for robot in robots
+                     for word in ("--external", f"{robot}=unix:{self.folder / robot} {settings}".strip())]
         run = Run(self.folder, *addresses, *options, **more)
         self.addCleanup(run.errors.close)
         self.addCleanup(lambda: run.process.poll() is None and run.process.kill())

@@ -114,15 +114,6 @@ class EqualRuns(unittest.TestCase):
         self.assert_equal(ROOT / "scenarios/office-dynamic.yaml", (2,), "--until", "20")
         self.assert_equal(ROOT / "scenarios/office-air.yaml", (2,), "--until", "20")
 
-    def test_random_placements(self):
-        placements = random.Random(5)
-        names = [robot["name"] for robot in json.loads(
-            run(None, ROOT / "scenarios/office-10.yaml", "--until", "1").files["s.json"])["robots"]]
-        expected = digest(run(None, ROOT / "scenarios/office-10.yaml", "--until", "6"))
-        for _ in range(8 if LONG else 2):
-            places = [word for name in names for word in ("--place", f"{name}={placements.randrange(3)}")]
-            self.assertEqual(digest(run(3, ROOT / "scenarios/office-10.yaml", "--until", "6", *places)), expected, places)
-
     def test_over_tcp(self):
         launcher = [*AS_RANKS, "--mca", "btl", "tcp,self", "--mca", "btl_tcp_if_include", "lo", "-n", "2"]
         self.assert_equal(ROOT / "scenarios/office-10.yaml", (2,), "--until", "5", launcher=launcher)
@@ -232,8 +223,6 @@ class Refusals(unittest.TestCase):
 
     def test_bad_options_are_one_line(self):
         self.assert_refused("expected a whole number from 1 to 4096, found '0'", ranks=0)
-        self.assert_refused("there is no robot 'adda', did you mean 'ada'", "--place", "adda=1")
-        self.assert_refused("expected ROBOT=RANK with a rank from 0 to 1, found 'ada=2'", "--place", "ada=2")
         self.assert_refused(r"office-programs.yaml:25: expected no program that is a shared object", scenario="office-programs.yaml")
         self.assert_refused(r"office-measured.yaml:25: expected a clock that is not measured", scenario="office-measured.yaml")
         self.assert_refused("cannot be read: No such file", scenario="nowhere.yaml")

@@ -38,7 +38,6 @@ OWN_CASES = {
     "documents": [sys.executable, str(ROOT / "tests/docs/pages_test.py"), BUILD],
     "the kernel's plain path gives this build's run": [str(ROOT / "tools/dev/builds.sh"), "build", "build-plain-path"],
     "view": [sys.executable, str(ROOT / "tests/programs/view_test.py"), BUILD],
-    "view, for Foxglove": [sys.executable, str(ROOT / "tests/programs/foxglove_test.py"), BUILD],
     "view, lines of time": [sys.executable, str(ROOT / "tests/programs/view_lines_test.py"), BUILD],
     "view, in a browser": [sys.executable, str(ROOT / "tests/view/browser_test.py"), BUILD],
     "exec": [sys.executable, str(ROOT / "tests/exec/debian_test.py"), BUILD],

@@ -15,15 +15,15 @@ constexpr std::size_t queued_max = 1 << 20;
 }  // namespace
 
 PageServer::PageServer(const ServeAddress& at, std::string page)
-    : page_(std::move(page)), server_({at.address, at.port, view::make_token(), page_}, "--serve") {
-  view::SocketService pages{.path = "/live"};
-  pages.opened = [this](view::ClientNumber client) {
-    clients_.insert(client);
-    if (!news_.empty()) server_.send(client, news_);
-  };
-  pages.closed = [this](view::ClientNumber client) { clients_.erase(client); };
-  server_.offer(std::move(pages));
-}
+    : page_(std::move(page)),
+      server_({at.address, at.port, view::make_token(), page_},
+              {.opened =
+                   [this](view::ClientNumber client) {
+                     clients_.insert(client);
+                     if (!news_.empty()) server_.send(client, news_);
+                   },
+               .closed = [this](view::ClientNumber client) { clients_.erase(client); }},
+              "--serve") {}
 
 void PageServer::replace(std::string page) {
   page_ = std::move(page);

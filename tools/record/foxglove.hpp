@@ -8,7 +8,7 @@
 
 #include "modules/bridge/run_result.hpp"
 #include "modules/posters/laser.hpp"
-#include "tools/record/topic_sink.hpp"
+#include "tools/record/mcap_file.hpp"
 
 namespace waitpoint::tools::foxglove {
 

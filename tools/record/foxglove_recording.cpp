@@ -8,20 +8,19 @@
 
 namespace waitpoint::tools {
 
-FoxgloveRecording::FoxgloveRecording(const std::filesystem::path& path, const scenario::Scenario& scenario,
-                                     std::unique_ptr<TopicSink> sink)
+FoxgloveRecording::FoxgloveRecording(const std::filesystem::path& path, const scenario::Scenario& scenario)
     : ViewerRecording(path, scenario),
-      sink_(std::move(sink)),
-      frames_(sink_->add(foxglove::frame_transform(), "/tf")),
-      world_(sink_->add(foxglove::scene_update(), "/world")),
-      clock_(sink_->add(foxglove::clock(), "/clock")) {
+      file_(path),
+      frames_(file_.add(foxglove::frame_transform(), "/tf")),
+      world_(file_.add(foxglove::scene_update(), "/world")),
+      clock_(file_.add(foxglove::clock(), "/clock")) {
   topics_.reserve(robots().size());
   for (const OfRobot& robot : robots()) add_topics(robot);
 }
 
 void FoxgloveRecording::add_topics(const OfRobot& robot) {
   const auto topic = [&](const foxglove::Schema& schema, const std::string& name) {
-    return sink_->add(schema, "/" + robot.name + "/" + name);
+    return file_.add(schema, "/" + robot.name + "/" + name);
   };
   Topics& of = topics_.emplace_back();
   of.scans.reserve(robot.lasers.size());
@@ -32,77 +31,72 @@ void FoxgloveRecording::add_topics(const OfRobot& robot) {
   of.log = topic(foxglove::log(), "modules");
 }
 
-void FoxgloveRecording::write_clock() {
-  if (sink_->wants(clock_)) sink_->write(clock_, now_, foxglove::clock(now_));
-}
+void FoxgloveRecording::write_clock() { file_.write(clock_, now_, foxglove::clock(now_)); }
 
 // Stamped with the time of the first message: equal worlds give equal texts.
 void FoxgloveRecording::write_obstacles(const std::vector<world::Shape>& shapes) {
-  if (sink_->wants(world_)) sink_->write(world_, now_, foxglove::scene_update(Time(), root, shapes));
+  file_.write(world_, now_, foxglove::scene_update(Time(), root, shapes));
 }
 
 void FoxgloveRecording::write_transform(Time date, const std::string& parent, const std::string& child,
                                         const Pose& pose, double height_m) {
-  if (sink_->wants(frames_))
-    sink_->write(frames_, now_, foxglove::frame_transform(date, parent, child, pose, height_m));
+  file_.write(frames_, now_, foxglove::frame_transform(date, parent, child, pose, height_m));
 }
 
 void FoxgloveRecording::write_truth(const OfRobot& robot, Time date, const Pose& pose, double) {
   const Topic topic = topics_[robot.number].truth;
-  if (sink_->wants(topic)) sink_->write(topic, now_, foxglove::pose_in_frame(date, root, pose));
+  file_.write(topic, now_, foxglove::pose_in_frame(date, root, pose));
 }
 
 void FoxgloveRecording::write_odometry(const OfRobot& robot, const posters::Odometry& odometry) {
   const Topic topic = topics_[robot.number].odometry;
   const posters::PositionEstimate& position = odometry.position;
-  if (sink_->wants(topic)) sink_->write(topic, now_, foxglove::pose_in_frame(position.date, root, position.pose));
+  file_.write(topic, now_, foxglove::pose_in_frame(position.date, root, position.pose));
 }
 
 void FoxgloveRecording::write_position(const OfRobot& robot, const posters::PositionEstimate& position) {
   const Topic topic = topics_[robot.number].position;
-  if (sink_->wants(topic)) sink_->write(topic, now_, foxglove::pose_in_frame(position.date, root, position.pose));
+  file_.write(topic, now_, foxglove::pose_in_frame(position.date, root, position.pose));
 }
 
 void FoxgloveRecording::write_scan(const OfRobot& robot, std::size_t laser, const std::string& frame,
                                    const posters::LaserReading& scan) {
   const Topic topic = topics_[robot.number].scans[laser];
-  if (sink_->wants(topic)) sink_->write(topic, now_, foxglove::laser_scan(scan, frame));
+  file_.write(topic, now_, foxglove::laser_scan(scan, frame));
 }
 
 void FoxgloveRecording::write_shown(const nodes::ShownMessage& message, const std::string& frame) {
   const bool is_grid = message.kind == nodes::ShownMessage::Kind::grid;
   const auto [topic, is_new] = shown_.try_emplace(message.topic, Topic());
-  if (is_new)
-    topic->second = sink_->add(is_grid ? foxglove::scene_update() : foxglove::poses_in_frame(), message.topic);
-  if (!sink_->wants(topic->second)) return;
-  sink_->write(topic->second, now_,
-               is_grid ? foxglove::scene_update(message.date, frame, occupied_shapes(message))
-                       : foxglove::poses_in_frame(message.date, frame, message.poses));
+  if (is_new) topic->second = file_.add(is_grid ? foxglove::scene_update() : foxglove::poses_in_frame(), message.topic);
+  file_.write(topic->second, now_,
+              is_grid ? foxglove::scene_update(message.date, frame, occupied_shapes(message))
+                      : foxglove::poses_in_frame(message.date, frame, message.poses));
 }
 
 void FoxgloveRecording::write_log(const OfRobot& robot, const ModuleLog::Line& line) {
   const Topic topic = topics_[robot.number].log;
-  if (sink_->wants(topic)) sink_->write(topic, now_, foxglove::log(line.date, line.module, line.text, line.is_bad));
+  file_.write(topic, now_, foxglove::log(line.date, line.module, line.text, line.is_bad));
 }
 
 void FoxgloveRecording::close(const bridge::RunResult& result) {
   for (const bridge::RobotResult& robot : result.robots) write_goals(robot);
   if (result.outcome == bridge::Outcome::crashed) {
     const Time end = Time() + result.simulated;
-    sink_->write(sink_->add(foxglove::log(), "/waitpoint"), end,
-                 foxglove::log(end, "waitpoint", "cut off: " + result.trouble, true));
+    file_.write(file_.add(foxglove::log(), "/waitpoint"), end,
+                foxglove::log(end, "waitpoint", "cut off: " + result.trouble, true));
   }
-  sink_->finish();
+  file_.finish();
 }
 
 void FoxgloveRecording::write_goals(const bridge::RobotResult& robot) {
-  const Topic goals = sink_->add(foxglove::log(), "/" + robot.name + "/goals");
+  const Topic goals = file_.add(foxglove::log(), "/" + robot.name + "/goals");
   for (const bridge::GoalResult& goal : robot.goals) {
     if (goal.report.empty()) continue;
     const std::string name = goal.name.empty() ? "goal" : goal.name;
     const std::string words =
         fmt::format("{} ({:.2f}, {:.2f}): {}", name, goal.position.x, goal.position.y, goal.report);
-    sink_->write(goals, goal.date, foxglove::log(goal.date, robot.name, words));
+    file_.write(goals, goal.date, foxglove::log(goal.date, robot.name, words));
   }
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A run for Foxglove and other viewers, as a file or live:
+// A run as an MCAP file for Foxglove and other viewers:
 //
 //   /tf               every robot's frames: world -> ROBOT (true), world -> ROBOT/position (estimated), and
 //                     ROBOT/position -> ROBOT/LASER
@@ -10,26 +10,22 @@
 //   /ROBOT/modules    requests to its modules and their outcomes, in words
 //   topics of nodes   paths and clouds as poses, grids as boxes
 //   /ROBOT/goals      outcomes of its goals, in words; when the run is over
-//
-// A message is made only if the sink wants it.
 #pragma once
 
 #include <map>
-#include <memory>
 
-#include "tools/record/topic_sink.hpp"
+#include "tools/record/mcap_file.hpp"
 #include "tools/record/viewer_recording.hpp"
 
 namespace waitpoint::tools {
 
 class FoxgloveRecording final : public ViewerRecording {
  public:
-  /// `path` is for messages.
-  FoxgloveRecording(const std::filesystem::path& path, const scenario::Scenario& scenario,
-                    std::unique_ptr<TopicSink> sink);
+  /// Throws BadInput if the file cannot be written.
+  FoxgloveRecording(const std::filesystem::path& path, const scenario::Scenario& scenario);
 
  private:
-  using Topic = TopicSink::Topic;
+  using Topic = McapFile::Topic;
   /// Of one robot.
   struct Topics {
     std::vector<Topic> scans;
@@ -52,7 +48,7 @@ class FoxgloveRecording final : public ViewerRecording {
   void close(const bridge::RunResult& result) override;
   void write_goals(const bridge::RobotResult& robot);
 
-  std::unique_ptr<TopicSink> sink_;
+  McapFile file_;
   Topic frames_, world_, clock_;
   std::vector<Topics> topics_;  // by robot
   std::map<std::string, Topic> shown_;

@@ -79,7 +79,7 @@ std::uint16_t McapFile::number_of(const foxglove::Schema& of) {
   return found->second;
 }
 
-TopicSink::Topic McapFile::add(const foxglove::Schema& of_schema, const std::string& topic) {
+McapFile::Topic McapFile::add(const foxglove::Schema& of_schema, const std::string& topic) {
   const std::uint16_t number = number_of(of_schema);
   const auto id = static_cast<Topic>(channels_.size());
   channels_.push_back(Fields().number(id).number(number).text(topic).text("json").map(Fields()).as_record(channel));

@@ -14,23 +14,34 @@
 #include <string_view>
 #include <vector>
 
+#include "core/time.hpp"
 #include "tools/output/output_file.hpp"
-#include "tools/record/topic_sink.hpp"
 
 namespace waitpoint::tools {
 
-class McapFile final : public TopicSink {
+namespace foxglove {
+
+/// A schema's name and its JSON Schema text.
+struct Schema {
+  std::string name, text;
+};
+
+}  // namespace foxglove
+
+class McapFile {
  public:
+  /// Counts the topics, which are channels of the file, from 0.
+  using Topic = std::uint16_t;
+
   /// Throws BadInput if the file cannot be written; so do write() and finish().
   explicit McapFile(const std::filesystem::path& path);
 
-  /// The topic is a channel of the file.
-  Topic add(const foxglove::Schema& schema, const std::string& topic) override;
-  bool wants(Topic) const override { return true; }
-  /// Appends a message.
-  void write(Topic topic, Time time, std::string_view message) override;
-  /// Writes the index and renames the file into place.
-  void finish() override;
+  /// Adds a topic with JSON messages of a schema. Schemas of one name have one text.
+  Topic add(const foxglove::Schema& schema, const std::string& topic);
+  /// Appends a message that was received at `time`; times need not ascend.
+  void write(Topic topic, Time time, std::string_view message);
+  /// Writes the index and renames the file into place; called last.
+  void finish();
 
  private:
   struct ChunkPlace {

@@ -19,27 +19,27 @@ std::vector<world::Shape> shapes_of(const std::vector<world::Obstacle>& obstacle
 
 }  // namespace
 
-bool Sampling::is_due(Time now) {
-  if (last_ && now - *last_ < sampling) return false;
-  last_ = now;
-  return true;
-}
-
-NewsReader::NewsReader(const scenario::Scenario& scenario, run::Experiment& experiment, Obstacles obstacles,
-                       Lines lines)
+NewsReader::NewsReader(const scenario::Scenario& scenario, run::Experiment& experiment, Obstacles obstacles)
     : experiment_(experiment), obstacles_(obstacles) {
   for (std::size_t i = 0; i < scenario.robots.size(); ++i) {
     if (!experiment.is_here(i)) continue;
     bridge::Robot& robot = *experiment.robots()[i];
     robots_.push_back(
         {static_cast<std::uint32_t>(i), RobotPosters(scenario.robots[i], robot), ModuleLog(robot.watch())});
-    if (lines == Lines::read) robot.set_watch(&robots_.back().modules);
+    robot.set_watch(&robots_.back().modules);
   }
 }
 
-StepNews NewsReader::take(Time now, bool is_sampled) {
-  StepNews news{.now = now, .is_sampled = is_sampled};
-  if (is_sampled && obstacles_ == Obstacles::read && has_new_obstacles()) news.obstacles = drawn_;
+// The first step, and each that is a tenth of a second or more after the last sample.
+bool NewsReader::is_sample(Time now) {
+  if (last_sample_ && now - *last_sample_ < sampling) return false;
+  last_sample_ = now;
+  return true;
+}
+
+StepNews NewsReader::take(Time now) {
+  StepNews news{.now = now, .is_sampled = is_sample(now)};
+  if (news.is_sampled && obstacles_ == Obstacles::read && has_new_obstacles()) news.obstacles = drawn_;
   news.robots.reserve(robots_.size());
   for (OfRobot& robot : robots_) {
     const world::BodyState& body = experiment_.world().body(world::BodyId(robot.number));

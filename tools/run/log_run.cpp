@@ -14,7 +14,6 @@ namespace {
 void check_no_world(const RunOptions& options, const scenario::LogFile& log) {
   const std::pair<const char*, bool> of_worlds[] = {
       {"--seeds", options.seeds.has_value()},
-      {"--place", !options.places.empty()},
       {"--speed", options.speed != 0},
       {"--idle", options.idle != RunOptions().idle},
       {"--interactive", options.interactive},

@@ -204,7 +204,6 @@ void check_for_nodes(const RunOptions& options) {
 // Without a world there is nothing to write but what nodes do.
 void check_for_bag(const RunOptions& options) {
   const std::pair<const char*, bool> of_worlds[] = {{"--json", options.json},
-                                                    {"--place", !options.places.empty()},
                                                     {"--order", options.order != RunOptions().order},
                                                     {"--journal", options.journal.has_value()},
                                                     {"--replay-journal", options.replay_journal.has_value()},
@@ -288,7 +287,7 @@ int run_rank(const RunOptions& options, std::span<const genom::ModuleType> types
   try {
     ranks.act_together([&] {
       if (bad != nullptr) std::rethrow_exception(bad);
-      ranks.place(run::Placement(*scenario, ranks.rank(), ranks.count(), options.places));
+      ranks.place(run::Placement(*scenario, ranks.rank(), ranks.count()));
     });
     ranks.check_same("build", options.build);
     ranks.check_same("scenario", to_string(Digest(scenario->fingerprint)));

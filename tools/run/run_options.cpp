@@ -38,14 +38,6 @@ std::string in_quotation_marks_of_yaml(const std::string& text) {
   return quoted + "'";
 }
 
-/// SCHEME://HOST:PORT without a path; of a file's page it is "file://".
-bool is_origin(const std::string& text) {
-  const std::size_t end = text.find("://");
-  constexpr std::size_t mark = 3;
-  return end != std::string::npos && end > 0 && text.find('/', end + mark) == std::string::npos &&
-         std::ranges::all_of(text, [](char c) { return c > ' ' && c <= '~'; });
-}
-
 std::vector<NamedFile> files_of(const RunOptions& options, std::span<const std::string> robots) {
   const auto name = [](const std::optional<std::filesystem::path>& file) { return file ? file->string() : ""; };
   std::vector<NamedFile> files = {
@@ -126,7 +118,6 @@ RunArguments::RunArguments(CommandLine& line)
   command_.option("--ranks", ranks_, "N",
                   "divide the robots among N processes, started by mpirun of Open MPI, also on\n"
                   "other hosts: mpirun ... waitpoint run ...; the run and its digest are the same");
-  command_.repeated("--place", places_, "ROBOT=RANK", "with ranks: the process of this robot, from 0; may be repeated");
   command_.option("--play", play_, "BAG",
                   "publish the topics of this bag to the scenario's nodes of ROS at their times, with\n"
                   "no world: play.bag of the scenario (docs/ros-bags.md)");
@@ -148,13 +139,10 @@ RunArguments::RunArguments(CommandLine& line)
                 "the speed, send requests, move robots and obstacles; help lists them");
   command_.flag("--tcl", tcl_,
                 "read commands in Tcl from standard input, for the first robot's modules\n(docs/laas-tcl.md)");
-  command_.repeated("--external", partners_.external, "ROBOT=ADDRESS",
+  command_.repeated("--external", partners_.external, "'ROBOT=ADDRESS [KEY=VALUE ...]'",
                     "move this robot's body by position reports from a process outside, which\n"
                     "connects to unix:PATH or tcp:PORT of the loopback; needs --speed 1; may be\n"
-                    "repeated (docs/external.md)");
-  command_.repeated("--reports", partners_.reports, "KEY=VALUE",
-                    "of external robots: between=move or stay, between reports (move); jump_m (0.5),\n"
-                    "silent_s (1) and late_s (0.2), from which it is told");
+                    "repeated. KEY: between, jump_m, silent_s, late_s (docs/external.md)");
   command_.option("--serve-world", partners_.serve_world, "ADDRESS",
                   "serve base and lasers of robots without modules to software in other processes\n"
                   "at unix:PATH or tcp:PORT of the loopback; needs --speed 1 (docs/external.md)");
@@ -162,11 +150,7 @@ RunArguments::RunArguments(CommandLine& line)
                 "end the run, with status 1, at the first fault of a process outside");
   command_.option_or_flag("--serve", serve_, "ADDRESS:PORT", free_port,
                           "show the run in a browser, also after its end, until Ctrl-C: at this address, or\n"
-                          "at a free port of the loopback; the addresses of the page and for Foxglove are\n"
-                          "printed (docs/view.md)");
-  command_.repeated("--serve-origin", serve_origins_, "ORIGIN",
-                    "Foxglove may connect from pages of this origin, as https://app.foxglove.dev; may be\n"
-                    "repeated");
+                          "at a free port of the loopback, which is printed (docs/view.md)");
   command_.flag("--serve-control", serve_control_,
                 "viewers may pause and pace the run, and try in branches what interventions do");
   command_.option("--journal", journal_, "FILE",
@@ -229,7 +213,6 @@ void RunArguments::check_of_many(const char* option) const {
 void RunArguments::take_served(RunOptions& options) const {
   if (serve_.empty()) {
     if (serve_control_) throw BadInput("--serve-control", "expected --serve, whose viewers it concerns");
-    if (!serve_origins_.empty()) throw BadInput("--serve-origin", "expected --serve, whose viewers it concerns");
     return;
   }
   check_not_together("--serve", {{"--seeds", seeds_},
@@ -237,14 +220,11 @@ void RunArguments::take_served(RunOptions& options) const {
                                  {"--replay-durations", replay_durations_},
                                  {"--record-durations", record_durations_}});
   if (check_) throw BadInput("--serve", "cannot be used together with --check");
-  for (const std::string& origin : serve_origins_)
-    if (!is_origin(origin)) refuse("--serve-origin", "SCHEME://HOST, as browsers send it", origin);
   if (partners_.any())
     throw BadInput("--serve", std::string("cannot be used together with ") + partners_.name() +
                                   ": what is outside has no past to go back to");
   options.serve = serve_ == free_port ? "" : serve_;
   options.serve_control = serve_control_;
-  options.serve_origins = serve_origins_;
 }
 
 /// A self-check compares runs and writes no files.
@@ -286,7 +266,6 @@ void RunArguments::check_for_ranks() const {
 /// What is outside lives in real time, and takes part once.
 void RunArguments::check_partners(double speed) const {
   if (!partners_.any()) {
-    if (!partners_.reports.empty()) throw BadInput("--reports", "expected --external, whose reports they concern");
     if (partners_.faults_end)
       throw BadInput("--outside-faults-end", "expected --external or --serve-world, whose faults they are");
     return;
@@ -329,7 +308,6 @@ RunOptions RunArguments::options() const {
   constexpr int ranks_max = 4096;
   if (!ranks_.empty() && (!parse_number(ranks_, options.ranks) || options.ranks < 1 || options.ranks > ranks_max))
     refuse("--ranks", "a whole number from 1 to 4096", ranks_);
-  options.places = places_;
   if (options.ranks > 1) check_for_ranks();
   options.until = positive_seconds("--until", until_);
   if (!speed_.empty() && (!parse_number(speed_, options.speed) || !is_speed(options.speed)))

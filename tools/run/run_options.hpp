@@ -28,7 +28,6 @@ struct RunOptions {
   std::optional<SeedRange> seeds;      ///< instead of `seed`
   std::uint32_t jobs = 1;              ///< runs of `seeds` at once
   int ranks = 1;                       ///< processes of one run
-  std::vector<std::string> places;     ///< of --place, "ROBOT=RANK" each
   std::string build;                   ///< of this program, for comparison among ranks
   std::vector<std::string> arguments;  ///< of the program, as given, to start it as ranks
   std::optional<Duration> until;       ///< instead of the scenario's
@@ -43,7 +42,6 @@ struct RunOptions {
   PartnerOptions partners;                              ///< outside
   std::optional<std::string> serve;                     ///< ADDRESS:PORT of the viewer
   bool serve_control = false;                           ///< viewers may act on the run
-  std::vector<std::string> serve_origins;               ///< of pages from elsewhere that may connect as Foxglove
   bool json = false;                                    ///< the result as JSON to standard output
   bool is_brief = false;                                ///< of nodes: see nodes::NodeRunOptions
   bool check = false;                                   ///< self-check: compare runs instead of reporting a result
@@ -99,7 +97,6 @@ class RunArguments {
   std::string seed_, seeds_, jobs_, ranks_, order_, until_, speed_, watchdog_, idle_, journal_, replay_journal_;
   std::string serve_, summary_, picture_, page_, trajectory_, record_, digests_, events_, decisions_;
   std::string record_durations_, replay_durations_, play_;
-  std::vector<std::string> places_, serve_origins_;
   PartnerOptions partners_;
   bool serve_control_ = false, interactive_ = false, tcl_ = false, check_ = false, is_brief_ = false, json_ = false;
 };

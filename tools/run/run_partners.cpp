@@ -24,10 +24,8 @@ void check_robot(const std::string& name, const scenario::Scenario& scenario, co
 }
 
 /// All settings, so that a journal does not depend on the defaults of the version that repeats it.
-std::string declaration(const std::vector<std::string>& reports) {
-  std::string words;
-  for (const std::string& word : reports) words += " " + word;
-  const run::Intervention read = run::parse_intervention("external robot" + words, {"--reports", 0});
+std::string declaration(const std::string& given, const std::string& where) {
+  const run::Intervention read = run::parse_intervention("external robot" + given, {where, 0});
   const run::ExternalSettings& settings = std::get<run::ExternalDeclaration>(read.what).settings;
   return fmt::format(" between={} jump_m={} silent_s={} late_s={}", settings.between, settings.jump_m,
                      settings.silent_s.seconds(), settings.late_s.seconds());
@@ -37,7 +35,6 @@ std::string declaration(const std::vector<std::string>& reports) {
 
 outside::Partners make_partners(const PartnerOptions& options, const scenario::Scenario& scenario) {
   outside::Partners partners;
-  const std::string settings = declaration(options.reports);
   std::vector<std::string> names;
   for (const std::string& text : options.external) {
     const std::string where = "--external";
@@ -51,8 +48,9 @@ outside::Partners make_partners(const PartnerOptions& options, const scenario::S
     if (scenario.engine == world::Engine::bullet)
       throw BadInput(where, "expected engine fcl or slice: bodies of a dynamic world are moved by forces");
     names.push_back(name);
-    const outside::Endpoint endpoint = outside::parse_endpoint(text.substr(equals + 1), where);
-    partners.add(std::make_unique<outside::ReportSource>(name, endpoint, settings, where));
+    const std::size_t end = std::min(text.find(' ', equals), text.size());
+    const outside::Endpoint endpoint = outside::parse_endpoint(text.substr(equals + 1, end - equals - 1), where);
+    partners.add(std::make_unique<outside::ReportSource>(name, endpoint, declaration(text.substr(end), where), where));
   }
   if (options.serve_world.empty()) return partners;
   const std::string where = "--serve-world";

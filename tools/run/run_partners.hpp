@@ -10,10 +10,9 @@
 
 namespace waitpoint::tools {
 
-/// --external, --reports and --serve-world, as given.
+/// --external and --serve-world, as given.
 struct PartnerOptions {
-  std::vector<std::string> external;  ///< "ROBOT=unix:PATH" or "ROBOT=tcp:PORT" each
-  std::vector<std::string> reports;   ///< "KEY=VALUE" each, of run::ExternalSettings
+  std::vector<std::string> external;  ///< "ROBOT=unix:PATH" or "ROBOT=tcp:PORT" each, with run::ExternalSettings
   std::string serve_world;            ///< "unix:PATH" or "tcp:PORT"; empty: not served
   bool faults_end = false;
 

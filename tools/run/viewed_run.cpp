@@ -20,7 +20,6 @@ view::ViewerOptions viewer_options(const RunOptions& options, const scenario::Sc
   view::ViewerOptions viewer;
   viewer.until = options.limit(scenario.until);
   viewer.is_controlled = options.serve_control;
-  viewer.origins = options.serve_origins;
   viewer.replay_command = replay_line(options, options.seed);
   const ServeAddress at = serve_address(*options.serve);
   viewer.address = at.address;
@@ -58,7 +57,6 @@ int run_viewed(const RunOptions& options, const scenario::Scenario& scenario,
   std::optional<view::Viewer> viewer(std::in_place, viewing, std::move(here));
   const std::string url = viewer->url();
   std::fprintf(stderr, "waitpoint: the run is shown at %s\n", url.c_str());
-  std::fprintf(stderr, "waitpoint: Foxglove can connect to %s\n", viewer->foxglove_url().c_str());
   viewer->begin_run();
   ShownProcess of_run(process, "run");
   viewer->serve([&] { return of_run.is_done(url); });

@@ -3,8 +3,6 @@
 #pragma once
 
 #include <cstddef>
-#include <span>
-#include <string>
 #include <vector>
 
 #include "modules/scenario/scenario.hpp"
@@ -15,10 +13,9 @@ class Placement {
  public:
   /// All robots in one process.
   Placement() = default;
-  /// Robots in the scenario's order are spread in equal parts, but those that `given`, "ROBOT=RANK" each, places
-  /// elsewhere. Robots with programs share one rank, that of the first of them. BadInput for an unknown robot or rank,
-  /// or programs' robots on several ranks.
-  Placement(const scenario::Scenario& scenario, int rank, int ranks, std::span<const std::string> given);
+  /// Robots in the scenario's order are spread in equal parts, but all robots with programs share the rank of the first
+  /// of them.
+  Placement(const scenario::Scenario& scenario, int rank, int ranks);
 
   bool is_here(std::size_t robot) const { return rank_of_.empty() || rank_of_[robot] == rank_; }
   int rank_of(std::size_t robot) const { return rank_of_.empty() ? 0 : rank_of_[robot]; }

@@ -16,7 +16,7 @@ nlohmann::json value_of(const std::string& text) { return parameter_value(parse_
 TEST(ParameterValue, has_the_type_of_its_word) {
   EXPECT_EQ(value_of(R"([true, Yes, ON, false, "no", n, off])").dump(), R"([true,true,true,false,"no","n",false])");
   EXPECT_EQ(value_of("[12, -3, +4, 1_000, 0x1F, 0b101, 017, 0, -0x10, 1:30, 089, 0x, _1]").dump(),
-            R"([12,-3,4,1000,31,5,15,0,-16,90,"089","0x","_1"])");
+            R"([12,-3,4,1000,31,5,15,0,-16,"1:30","089","0x","_1"])");
   EXPECT_EQ(value_of("[1.5, -.5, 1., 1.0e+3, 1.0e3, 1e3, '2.5', 1.2.3, ., 1.5e]").dump(),
             R"([1.5,-0.5,1.0,1000.0,"1.0e3","1e3","2.5","1.2.3",".","1.5e"])");
   EXPECT_TRUE(std::isinf(value_of("-.inf").get<double>()));

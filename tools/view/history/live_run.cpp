@@ -31,12 +31,9 @@ LiveRun::LiveRun(Channel& viewer, const scenario::Scenario& scenario, run::Exper
       journal_(std::move(journal)),
       frames_(scenario, experiment),
       counts_(experiment),
-      topics_(scenario, experiment),
       snapshot_period_s_(snapshot_period_s) {
   for (const auto& robot : experiment.robots()) robot->set_watch(&logs_.emplace_back(robot->watch()));
-  experiment.set_observer([this](Time now) { topics_.step(now); });
   viewer_.send(text_of(scene(scenario, experiment, options)));
-  send_topics();
   make_snapshot();
 }
 
@@ -67,7 +64,6 @@ void LiveRun::after_window(Time reached, const std::function<bool()>& is_over) {
   counts_.take(reached);
   if (!viewer_.is_open()) return;
   take_requests();
-  send_topics();
   if (run::processor_s() >= next_snapshot_s_) make_snapshot();
   send_frame();
   if (wall_clock_s() >= next_status_s_) {
@@ -77,7 +73,6 @@ void LiveRun::after_window(Time reached, const std::function<bool()>& is_over) {
   while (is_paused_ && viewer_.is_open() && !is_over()) {
     viewer_.has_news(pause_ms);
     take_requests();
-    send_topics();
     send_frame();
   }
 }
@@ -99,10 +94,6 @@ void LiveRun::heed(const std::string& text) {
     is_paused_ = request.at("on");
     send_status();
   }
-  if (what == "topics") {
-    using Topics = std::vector<LiveTopics::Topic>;
-    topics_.want(request.at("wanted").get<Topics>(), request.at("asked").get<Topics>());
-  }
   if (what == "speed") speed_ = request.at("value").get<double>();
   if (what == "thin") snapshot_period_s_ *= 2;
 }
@@ -122,15 +113,9 @@ void LiveRun::send_log() {
   if (!lines.empty()) viewer_.send(text_of(Json{{"kind", "log"}, {"lines", lines}}));
 }
 
-void LiveRun::send_topics() {
-  for (const TopicNews& news : topics_.take()) viewer_.send(packed(news));
-}
-
 void LiveRun::finish(const bridge::RunResult& result) {
   if (!viewer_.is_open()) return;
   send_log();
-  topics_.finish(result);
-  send_topics();
   make_snapshot();
   viewer_.send(text_of(Json{{"kind", "status"},
                             {"time", result.simulated.ns()},

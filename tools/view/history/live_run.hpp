@@ -3,8 +3,7 @@
 // itself, and, if it is controlled, is paused and paced from there. Nothing of this is an event.
 //
 // To the viewer: the scene (scene.hpp), frames when they are wanted, its status, lines of the modules' log, snapshots.
-// From the viewer: {"do":"frame",...} once for each frame, "pause" {on}, "speed" {value}, "topics" {wanted, asked}
-// (live_topics.hpp), whose news it then tells.
+// From the viewer: {"do":"frame",...} once for each frame, "pause" {on}, "speed" {value}.
 #pragma once
 
 #include <deque>
@@ -15,7 +14,6 @@
 #include "modules/run/experiment.hpp"
 #include "tools/record/module_log.hpp"
 #include "tools/view/event_counts.hpp"
-#include "tools/view/foxglove/live_topics.hpp"
 #include "tools/view/frame_reader.hpp"
 #include "tools/view/history/channel.hpp"
 #include "tools/view/history/memory_use.hpp"
@@ -49,7 +47,6 @@ class LiveRun {
   void send_frame();
   void send_status();
   void send_log();
-  void send_topics();
 
   Channel& viewer_;
   run::Experiment& experiment_;
@@ -57,7 +54,6 @@ class LiveRun {
   FrameReader frames_;
   EventCounts counts_;
   std::deque<ModuleLog> logs_;  // by robot
-  LiveTopics topics_;
   Time reached_;
   std::optional<FrameOptions> wanted_;  // a frame
   std::optional<double> speed_;

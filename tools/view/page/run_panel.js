@@ -50,7 +50,6 @@ class RunPanel {
     if (this.collisions()) rows.push(["Collisions", this.collisions()]);
     if (this.missed()) rows.push(["Deadlines missed", this.missed()]);
     if (status.digest) rows.push(["Digest", status.digest]);
-    if (source.connection) rows.push(["For Foxglove", String(source.connection.url).replace("/live?", "/foxglove?")]);
     this.facts.set(rows);
     setText(this.whose, this.session.line > 0 ? "Summary of the run, not of this line" : "Summary");
     setText(this.text, status.summary || (status.over ? "No summary." : "When the run is over."));

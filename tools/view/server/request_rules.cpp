@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/view/server/request_rules.hpp"
 
-#include <algorithm>
 #include <boost/asio/ip/address.hpp>
 
 namespace waitpoint::tools::view {
@@ -90,23 +89,12 @@ Response RequestRules::answer(const Request& request) const {
   return end(std::move(response), request);
 }
 
-std::optional<Response> RequestRules::refusal(const Request& request, const SocketService& service) const {
+std::optional<Response> RequestRules::refusal(const Request& request) const {
   if (!knows(field(request, http::field::host))) return error(request, http::status::forbidden, host_expected);
   if (!has_token(request)) return error(request, http::status::forbidden, token_expected);
-  const std::string origin(field(request, http::field::origin));
-  if (!is_own(origin) && !std::ranges::count(service.origins, origin)) {
-    if (service.refused) service.refused(origin);
+  if (!is_own(field(request, http::field::origin)))
     return error(request, http::status::forbidden, "pages of this origin may not connect\n");
-  }
-  if (!service.subprotocols.empty() && subprotocol(request, service).empty())
-    return error(request, http::status::bad_request, "expected the subprotocol " + service.subprotocols.front() + "\n");
   return std::nullopt;
-}
-
-std::string RequestRules::subprotocol(const Request& request, const SocketService& service) {
-  for (const auto word : http::token_list(request[http::field::sec_websocket_protocol]))
-    if (std::string text(word.data(), word.size()); std::ranges::count(service.subprotocols, text)) return text;
-  return "";
 }
 
 }  // namespace waitpoint::tools::view

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which requests a web server answers, and how: one page, and WebSockets, for who has the token.
+// Which requests a web server answers, and how: one page, and WebSockets, for clients with the token.
 #pragma once
 
 #include <boost/beast/http.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
-
-#include "tools/view/server/socket_service.hpp"
 
 namespace waitpoint::tools::view {
 
@@ -25,12 +23,10 @@ struct RequestRules {
 
   /// To a request that does not become a WebSocket.
   Response answer(const Request& request) const;
-  /// Why a request does not become a WebSocket of `service`; nothing: it does.
-  std::optional<Response> refusal(const Request& request, const SocketService& service) const;
+  /// The answer to a request that may not become a WebSocket; nothing: it may.
+  std::optional<Response> refusal(const Request& request) const;
   /// Tells of a status other than success.
   static Response error(const Request& request, boost::beast::http::status status, const std::string& text);
-  /// The first subprotocol that the client names and the service speaks; "" if there is none.
-  static std::string subprotocol(const Request& request, const SocketService& service);
 
  private:
   bool knows(std::string_view text) const;

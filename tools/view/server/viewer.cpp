@@ -2,7 +2,6 @@
 #include "tools/view/server/viewer.hpp"
 
 #include <algorithm>
-#include <cstdio>
 
 #include "core/error.hpp"
 #include "tools/output/progress.hpp"
@@ -20,7 +19,6 @@ constexpr double frames_s_max = 60;
 // A client with more than this to take gets no further frames until it has taken them.
 constexpr std::size_t queued_max = 1 << 20;
 constexpr std::size_t log_bytes_max = 4 << 20;
-constexpr std::size_t foxglove_bytes_max = 1 << 20;  // subscriptions to the topics of a crowd
 
 /// A reply with the number of its request.
 std::string with_id(const Json& id, const std::string& text) {
@@ -32,61 +30,23 @@ std::string with_id(const Json& id, const std::string& text) {
 Viewer::Viewer(const ViewerOptions& options, Channel run)
     : options_(options),
       run_(std::move(run)),
-      server_({options.address, options.port, make_token(), page()}, "--serve"),
+      server_({options.address, options.port, make_token(), page()},
+              {.opened = [this](ClientNumber client) { clients_[client]; },
+               .closed =
+                   [this](ClientNumber client) {
+                     clients_.erase(client);
+                     history_.forget(client);
+                   },
+               .received = [this](ClientNumber client, const std::string& text) { received(client, text); }},
+              "--serve"),
       history_({[this](int descriptor, std::function<void()> ready) { server_.watch(descriptor, std::move(ready)); },
                 [this](int descriptor) { server_.forget(descriptor); }},
-               options.until),
-      foxglove_(options.replay_command, make_token(),
-                {[this](ClientNumber client, std::string data, bool is_text) {
-                   server_.send(client, std::move(data), is_text);
-                 },
-                 [this](ClientNumber client) { return server_.queued(client); },
-                 [this](const std::string& request) { run_.queue(request); }}) {
-  offer_page();
-  offer_foxglove();
+               options.until) {
   server_.watch(run_.number(), [this] { take_from_run(); });
 }
 
-void Viewer::offer_page() {
-  SocketService pages{.path = "/live"};
-  pages.opened = [this](ClientNumber client) { clients_[client]; };
-  pages.closed = [this](ClientNumber client) {
-    clients_.erase(client);
-    history_.forget(client);
-  };
-  pages.received = [this](ClientNumber client, const std::string& text, bool) { received(client, text); };
-  server_.offer(std::move(pages));
-}
-
-void Viewer::offer_foxglove() {
-  SocketService foxglove{.path = foxglove_path,
-                         .subprotocols = {"foxglove.websocket.v1", "foxglove.sdk.v1"},
-                         .origins = options_.origins,
-                         .message_bytes_max = foxglove_bytes_max};
-  foxglove.opened = [this](ClientNumber client) { foxglove_.opened(client); };
-  foxglove.closed = [this](ClientNumber client) { foxglove_.closed(client); };
-  foxglove.received = [this](ClientNumber client, const std::string& data, bool is_text) {
-    foxglove_.received(client, data, is_text);
-  };
-  foxglove.refused = [this](const std::string& origin) { tell_of_stranger(origin); };
-  server_.offer(std::move(foxglove));
-}
-
-// Who has the token is probably meant to connect. Once for each origin, as clients try again.
-void Viewer::tell_of_stranger(const std::string& origin) {
-  constexpr std::size_t told_max = 8, size_max = 200;
-  const bool is_printable = std::ranges::all_of(origin, [](char c) { return c > ' ' && c <= '~'; });
-  if (!is_printable || origin.size() > size_max || strangers_.size() >= told_max) return;
-  if (!strangers_.insert(origin).second) return;
-  std::fprintf(stderr, "waitpoint: a viewer of %s was refused; --serve-origin %s allows it\n", origin.c_str(),
-               origin.c_str());
-}
-
 void Viewer::serve(const std::function<bool()>& is_over) {
-  server_.repeat(look_ms, [this] {
-    ask_for_frame();
-    foxglove_.tell_time();
-  });
+  server_.repeat(look_ms, [this] { ask_for_frame(); });
   server_.repeat(status_ms, [this, &is_over] {
     if (is_over()) return server_.stop();
     send_status();
@@ -102,13 +62,11 @@ void Viewer::take_from_run() {
   if (!run_is_over_) {
     status_["over"] = true;
     status_["outcome"] = "crashed";
-    foxglove_.end_run("crashed", FoxgloveClients::Level::error);
   }
   run_is_over_ = true;
 }
 
 void Viewer::take(Channel::Message& message) {
-  if (is_topic_news(message.text)) return foxglove_.take(unpacked(message.text));
   constexpr std::string_view frame = "{\"kind\":\"frame\"";
   if (message.text.starts_with(frame)) {
     frame_is_due_ = false;
@@ -129,9 +87,7 @@ void Viewer::take(Channel::Message& message) {
     if (history_.snapshots() < before) run_.queue(R"({"do":"thin"})");
   } else if (json["kind"] == "status") {
     history_.set_reached(Time::from_ns(json["time"].get<std::int64_t>()));
-    foxglove_.set_time(Time::from_ns(json["time"].get<std::int64_t>()));
     run_is_over_ = json["over"];
-    if (run_is_over_) foxglove_.end_run(json["outcome"], FoxgloveClients::Level::information);
     status_ = std::move(json);
   } else if (json["kind"] == "log") {
     if (log_.size() < log_bytes_max)

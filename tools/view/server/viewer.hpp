@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The process that shows a run to browsers: it serves the page, asks the run for frames as fast as its clients take
-// them, and the history (history.hpp) for what they want to know of the past. Foxglove is another kind of client
-// (foxglove_clients.hpp). The run is never held up by a client: one that is slow gets fewer frames.
+// them, and the history (history.hpp) for what they want to know of the past. The run is never held up by a client: one
+// that is slow gets fewer frames.
 #pragma once
 
 #include <map>
 #include <optional>
-#include <set>
 #include <string>
 #include <vector>
 
-#include "tools/view/foxglove/foxglove_clients.hpp"
 #include "tools/view/history/history.hpp"
 #include "tools/view/server/web_server.hpp"
 
@@ -19,10 +17,9 @@ namespace waitpoint::tools::view {
 struct ViewerOptions {
   std::string address = "127.0.0.1";
   std::uint16_t port = 0;
-  Time until;                          ///< the end of the run at the latest
-  bool is_controlled = false;          ///< clients may pause and pace the run, and make branches
-  std::string replay_command;          ///< of a journal, which the page shows: "waitpoint run S.yaml --seed 1"
-  std::vector<std::string> origins{};  ///< of pages from elsewhere with Foxglove in them
+  Time until;                  ///< the end of the run at the latest
+  bool is_controlled = false;  ///< clients may pause and pace the run, and make branches
+  std::string replay_command;  ///< of a journal, which the page shows: "waitpoint run S.yaml --seed 1"
 };
 
 class Viewer {
@@ -31,8 +28,6 @@ class Viewer {
   Viewer(const ViewerOptions& options, Channel run);
 
   std::string url() const { return server_.url(); }
-  /// For Foxglove.
-  std::string foxglove_url() const { return server_.url_of_socket(foxglove_path); }
   /// The run waits for this.
   void begin_run() { run_.queue("{}"); }
   /// Until `is_over`, which is called ten times a second, returns true. The run has its own process.
@@ -48,11 +43,6 @@ class Viewer {
     History::Reply header;        // that it waits for, before the run has begun
   };
 
-  static constexpr const char* foxglove_path = "/foxglove";
-
-  void offer_page();
-  void offer_foxglove();
-  void tell_of_stranger(const std::string& origin);
   void take_from_run();
   void take(Channel::Message& message);
   bool is_ready(ClientNumber number, const Client& client, double now_s) const;
@@ -72,8 +62,6 @@ class Viewer {
   Channel run_;
   WebServer server_;
   History history_;
-  FoxgloveClients foxglove_;
-  std::set<std::string> strangers_;  // origins that were refused
   std::map<ClientNumber, Client> clients_;
   std::string scene_, log_;  // as the run sent them
   std::size_t robots_ = 0;

@@ -2,7 +2,6 @@
 #include "tools/view/server/web_server.hpp"
 
 #include <boost/asio/ip/tcp.hpp>
-#include <deque>
 #include <map>
 
 #include "core/error.hpp"
@@ -27,11 +26,6 @@ constexpr auto request_time = std::chrono::seconds(20);
 }  // namespace
 
 struct WebServer::Implementation {
-  struct Client {
-    const SocketService* service;
-    std::shared_ptr<WebSocket> socket;
-  };
-
   /// A connection that has not become a WebSocket.
   struct Connection : std::enable_shared_from_this<Connection> {
     Connection(Implementation& all, Tcp::socket socket) : all(all), stream(std::move(socket)) { ++all.connections; }
@@ -48,14 +42,13 @@ struct WebServer::Implementation {
 
     void respond() {
       const Request& request = parser.get();
-      const SocketService* const service =
-          beast::websocket::is_upgrade(request) ? all.service_at(RequestRules::path(request)) : nullptr;
-      if (service == nullptr) return write(all.rules.answer(request));
-      if (auto refusal = all.rules.refusal(request, *service)) return write(std::move(*refusal));
-      if (all.clients_of(*service) >= clients_max)
+      if (!beast::websocket::is_upgrade(request) || RequestRules::path(request) != SocketService::path)
+        return write(all.rules.answer(request));
+      if (auto refusal = all.rules.refusal(request)) return write(std::move(*refusal));
+      if (all.clients.size() >= clients_max)
         return write(RequestRules::error(request, http::status::service_unavailable, "there are too many viewers\n"));
       stream.expires_never();
-      all.add(*service, std::move(stream))->accept(request, RequestRules::subprotocol(request, *service));
+      all.add(std::move(stream))->accept(request);
     }
 
     void write(Response answer) {
@@ -73,31 +66,19 @@ struct WebServer::Implementation {
     Response response;
   };
 
-  const SocketService* service_at(std::string_view path) const {
-    for (const SocketService& service : services)
-      if (service.path == path) return &service;
-    return nullptr;
-  }
-
-  std::size_t clients_of(const SocketService& service) const {
-    std::size_t count = 0;
-    for (const auto& [number, client] : clients) count += client.service == &service;
-    return count;
-  }
-
-  std::shared_ptr<WebSocket> add(const SocketService& service, beast::tcp_stream stream) {
+  std::shared_ptr<WebSocket> add(beast::tcp_stream stream) {
     const ClientNumber number = ++last_number;
     WebSocket::Events events;
-    events.opened = [&service, number] { service.opened(number); };
-    events.received = [&service, number](std::string data, bool is_text) {
-      service.received(number, std::move(data), is_text);
+    events.opened = [this, number] { service.opened(number); };
+    events.received = [this, number](const std::string& text) {
+      if (service.received) service.received(number, text);
     };
-    events.ended = [this, &service, number](bool was_open) {
+    events.ended = [this, number](bool was_open) {
       clients.erase(number);
       if (was_open) service.closed(number);
     };
-    auto socket = std::make_shared<WebSocket>(std::move(stream), service.message_bytes_max, std::move(events));
-    clients[number] = {&service, socket};
+    auto socket = std::make_shared<WebSocket>(std::move(stream), std::move(events));
+    clients[number] = socket;
     return socket;
   }
 
@@ -109,17 +90,18 @@ struct WebServer::Implementation {
     });
   }
 
-  std::deque<SocketService> services;  // at lasting addresses; they outlive the loop's sockets
+  SocketService service;  // outlives the loop's sockets
   RequestRules rules;
   std::size_t connections = 0;
   EventLoop loop;
   Tcp::acceptor acceptor{loop.context()};
   ClientNumber last_number = 0;
-  std::map<ClientNumber, Client> clients;
+  std::map<ClientNumber, std::shared_ptr<WebSocket>> clients;
 };
 
-WebServer::WebServer(const WebServerOptions& options, const std::string& option)
+WebServer::WebServer(const WebServerOptions& options, SocketService service, const std::string& option)
     : all_(std::make_unique<Implementation>()) {
+  all_->service = std::move(service);
   try {
     const Tcp::endpoint endpoint(asio::ip::make_address(options.address), options.port);
     all_->acceptor.open(endpoint.protocol());
@@ -141,26 +123,19 @@ WebServer::~WebServer() = default;
 
 std::string WebServer::url() const { return "http://" + all_->rules.host + "/?token=" + all_->rules.token; }
 
-std::string WebServer::url_of_socket(const std::string& path) const {
-  return "ws://" + all_->rules.host + path + "?token=" + all_->rules.token;
-}
-
-void WebServer::offer(SocketService service) { all_->services.push_back(std::move(service)); }
-
 void WebServer::set_page(std::string_view page) { all_->rules.page = page; }
 
-void WebServer::send(ClientNumber client, std::string data, bool is_text) {
-  if (const auto found = all_->clients.find(client); found != all_->clients.end())
-    found->second.socket->send(std::move(data), is_text);
+void WebServer::send(ClientNumber client, std::string text) {
+  if (const auto found = all_->clients.find(client); found != all_->clients.end()) found->second->send(std::move(text));
 }
 
 std::size_t WebServer::queued(ClientNumber client) const {
   const auto found = all_->clients.find(client);
-  return found != all_->clients.end() ? found->second.socket->queued() : 0;
+  return found != all_->clients.end() ? found->second->queued() : 0;
 }
 
 void WebServer::close(ClientNumber client) {
-  if (const auto found = all_->clients.find(client); found != all_->clients.end()) found->second.socket->end();
+  if (const auto found = all_->clients.find(client); found != all_->clients.end()) found->second->end();
 }
 
 void WebServer::watch(int descriptor, std::function<void()> ready) { all_->loop.watch(descriptor, std::move(ready)); }

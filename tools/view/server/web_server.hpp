@@ -26,7 +26,7 @@ struct WebServerOptions {
 class WebServer {
  public:
   /// Listens. Throws BadInput, naming `option`, for an address that cannot be had.
-  WebServer(const WebServerOptions& options, const std::string& option);
+  WebServer(const WebServerOptions& options, SocketService service, const std::string& option);
   ~WebServer();
   WebServer(const WebServer&) = delete;
   WebServer& operator=(const WebServer&) = delete;
@@ -36,14 +36,9 @@ class WebServer {
 
   /// The page's address, with the token.
   std::string url() const;
-  /// The address of a service.
-  std::string url_of_socket(const std::string& path) const;
-
-  /// Before run().
-  void offer(SocketService service);
 
   /// Nothing for a client that has gone.
-  void send(ClientNumber client, std::string data, bool is_text = true);
+  void send(ClientNumber client, std::string text);
   /// Bytes that the client has not taken yet; 0 if it has gone.
   std::size_t queued(ClientNumber client) const;
   void close(ClientNumber client);

@@ -18,17 +18,13 @@ constexpr std::size_t queued_bytes_max = 256 << 20;
 
 }  // namespace
 
-WebSocket::WebSocket(beast::tcp_stream stream, std::size_t message_bytes_max, Events events)
-    : socket_(std::move(stream)), events_(std::move(events)) {
+WebSocket::WebSocket(beast::tcp_stream stream, Events events) : socket_(std::move(stream)), events_(std::move(events)) {
   socket_.set_option(websocket::stream_base::timeout::suggested(beast::role_type::server));
-  socket_.read_message_max(message_bytes_max);
+  socket_.read_message_max(SocketService::message_bytes_max);
   socket_.auto_fragment(false);
 }
 
-void WebSocket::accept(const Request& request, const std::string& subprotocol) {
-  socket_.set_option(websocket::stream_base::decorator([subprotocol](websocket::response_type& response) {
-    if (!subprotocol.empty()) response.set(beast::http::field::sec_websocket_protocol, subprotocol);
-  }));
+void WebSocket::accept(const Request& request) {
   socket_.async_accept(request, [self = shared_from_this()](error_code error) {
     if (error) return self->end();
     self->is_open_ = true;
@@ -40,33 +36,32 @@ void WebSocket::accept(const Request& request, const std::string& subprotocol) {
 void WebSocket::read() {
   socket_.async_read(buffer_, [self = shared_from_this()](error_code error, std::size_t) {
     if (error) return self->end();
-    std::string data = beast::buffers_to_string(self->buffer_.data());
+    const std::string text = beast::buffers_to_string(self->buffer_.data());
     self->buffer_.consume(self->buffer_.size());
-    self->events_.received(std::move(data), self->socket_.got_text());
+    self->events_.received(text);
     if (!self->has_ended_) self->read();
   });
 }
 
-void WebSocket::send(std::string data, bool is_text) {
+void WebSocket::send(std::string text) {
   if (!is_open_ || has_ended_ || is_cut_off_) return;
-  queued_ += data.size();
+  queued_ += text.size();
   if (queued_ > queued_bytes_max) {
     is_cut_off_ = true;
     // Later: the sender may be going through all its clients.
     asio::post(socket_.get_executor(), [self = shared_from_this()] { self->end(); });
     return;
   }
-  messages_.push_back({std::move(data), is_text});
-  if (messages_.size() == 1) write();
+  texts_.push_back(std::move(text));
+  if (texts_.size() == 1) write();
 }
 
 void WebSocket::write() {
-  socket_.text(messages_.front().is_text);
-  socket_.async_write(asio::buffer(messages_.front().data), [self = shared_from_this()](error_code error, std::size_t) {
+  socket_.async_write(asio::buffer(texts_.front()), [self = shared_from_this()](error_code error, std::size_t) {
     if (error) return self->end();
-    self->queued_ -= self->messages_.front().data.size();
-    self->messages_.pop_front();
-    if (!self->messages_.empty() && !self->has_ended_) self->write();
+    self->queued_ -= self->texts_.front().size();
+    self->texts_.pop_front();
+    if (!self->texts_.empty() && !self->has_ended_) self->write();
   });
 }
 

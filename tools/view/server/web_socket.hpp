@@ -10,6 +10,7 @@
 #include <string>
 
 #include "tools/view/server/request_rules.hpp"
+#include "tools/view/server/socket_service.hpp"
 
 namespace waitpoint::tools::view {
 
@@ -18,33 +19,28 @@ class WebSocket : public std::enable_shared_from_this<WebSocket> {
   /// `ended` is called once, `was_open` if `opened` was before.
   struct Events {
     std::function<void()> opened;
-    std::function<void(std::string data, bool is_text)> received;
+    std::function<void(const std::string& text)> received;
     std::function<void(bool was_open)> ended;
   };
 
-  WebSocket(boost::beast::tcp_stream stream, std::size_t message_bytes_max, Events events);
+  WebSocket(boost::beast::tcp_stream stream, Events events);
 
   /// Answers the request for it.
-  void accept(const Request& request, const std::string& subprotocol);
+  void accept(const Request& request);
   /// Nothing if it is not open.
-  void send(std::string data, bool is_text);
+  void send(std::string text);
   /// Bytes that the other end has not taken yet.
   std::size_t queued() const { return queued_; }
   void end();
 
  private:
-  struct Message {
-    std::string data;
-    bool is_text;
-  };
-
   void read();
   void write();
 
   boost::beast::websocket::stream<boost::beast::tcp_stream> socket_;
   Events events_;
   boost::beast::flat_buffer buffer_;
-  std::deque<Message> messages_;  // the first is being sent
+  std::deque<std::string> texts_;  // the first is being sent
   std::size_t queued_ = 0;
   bool is_open_ = false, is_cut_off_ = false, has_ended_ = false;
 };
