@@ -19,6 +19,9 @@
 // with its name, only if it is set, so that runs without it keep their digests.
 //
 //     field("temperature_c", &Battery::temperature_c, added);
+//
+// Further facts of a field, such as its range and a description, may follow the member: core/field_facts.hpp. The
+// digest ignores them.
 #pragma once
 
 #include <algorithm>
@@ -31,14 +34,11 @@
 
 #include "core/digest.hpp"
 #include "core/error.hpp"
+#include "core/field_facts.hpp"
 #include "core/pose.hpp"
 #include "core/time.hpp"
 
 namespace waitpoint {
-
-/// Marks a field that was added later: see above.
-struct Added {};
-inline constexpr Added added;
 
 /// A visitor that accepts every field.
 struct FieldProbe {
@@ -136,10 +136,12 @@ struct FieldHash {
   Digest& digest;
   const T& value;
 
-  void operator()(std::string_view, auto member) const { add_value(digest, value.*member); }
-  void operator()(std::string_view name, auto member, Added) const {
-    if (!is_set(value.*member)) return;
-    digest.add(name);
+  template <class... Facts>
+  void operator()(std::string_view name, auto member, const Facts&...) const {
+    if constexpr ((std::is_same_v<Facts, Added> || ...)) {
+      if (!is_set(value.*member)) return;
+      digest.add(name);
+    }
     add_value(digest, value.*member);
   }
 };

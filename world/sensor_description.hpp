@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/field_facts.hpp"
 #include "core/pose.hpp"
 #include "core/time.hpp"
 
@@ -81,6 +82,20 @@ struct InertialErrors {
   double scale = 1;                 ///< measured / true
   double resolution = 0;            ///< quantisation; 0: continuous
   double max = 0;                   ///< saturation; 0: none
+
+  static void fields(auto field) {
+    using Errors = InertialErrors;
+    field("noise_per_sqrt_hz", &Errors::noise_per_sqrt_hz, ranges::rate_error,
+          "white noise: the deviation of a mean over a second");
+    field("bias", &Errors::bias, ranges::rate_error, "standard deviation of the turn-on bias");
+    field("walk_per_sqrt_s", &Errors::walk_per_sqrt_s, ranges::rate_error,
+          "random walk of the bias: its deviation after a second");
+    field("drift", &Errors::drift, ranges::rate_error, "standard deviation of the bias that changes");
+    field("drift_s", &Errors::drift_s, ranges::time_constant, "its correlation time");
+    field("scale", &Errors::scale, ranges::factor, "measured by true");
+    field("resolution", &Errors::resolution, ranges::resolution, "step of the readings; 0: none");
+    field("max", &Errors::max, ranges::positive_number, "saturation; without it none");
+  }
 };
 
 /// An inertial measurement unit at the body's centre: a gyro about the vertical, three accelerometers.
@@ -88,6 +103,12 @@ struct ImuDescription {
   InertialErrors gyro;           ///< rad/s
   InertialErrors accelerometer;  ///< m/s2, each of the three
   Duration period = std::chrono::milliseconds(10);
+
+  static void fields(auto field) {
+    field("gyro_rad_s", &ImuDescription::gyro, "errors of the gyro");
+    field("accelerometer_m_s2", &ImuDescription::accelerometer, "errors of each accelerometer");
+    field("period_ms", &ImuDescription::period, "of the readings");
+  }
 };
 
 /// A receiver of positions in the world's frame, such as GPS.

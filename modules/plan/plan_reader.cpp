@@ -16,7 +16,7 @@ using scenario::YamlNode;
 namespace {
 
 constexpr std::uint64_t amount_max = 1'000'000;
-constexpr scenario::NumberRange any_number{-1e12, 1e12, "a number from -1e12 to 1e12"};
+constexpr NumberRange any_number{-1e12, 1e12, "a number from -1e12 to 1e12"};
 
 Duration read_seconds(const YamlNode& node, const std::string& what, bool is_signed = false) {
   Duration duration;

@@ -41,24 +41,24 @@ world::OdometryErrors read_odometry(const YamlNode& node, Kind kind) {
        "turn_noise_rad_per_sqrt_rad", "slips_per_m", "slip_m", "slip_turn_rad", "units_per_m", "units_per_rad",
        "wheel_diameter_ratio", "wheel_base_ratio", "wheel_noise_m_per_sqrt_m", "wheel_ticks_per_m"});
   world::OdometryErrors errors;
-  map.read("travel_scale", errors.travel_scale, factor);
-  map.read("turn_scale", errors.turn_scale, factor);
-  map.read("drift_rad_per_m", errors.drift_rad_per_m, signed_angle_error);
-  map.read("travel_noise_m_per_sqrt_m", errors.travel_noise_m_per_sqrt_m, length_error);
-  map.read("turn_noise_rad_per_sqrt_m", errors.turn_noise_rad_per_sqrt_m, angle_error);
-  map.read("turn_noise_rad_per_sqrt_rad", errors.turn_noise_rad_per_sqrt_rad, angle_error);
+  map.read("travel_scale", errors.travel_scale, ranges::factor);
+  map.read("turn_scale", errors.turn_scale, ranges::factor);
+  map.read("drift_rad_per_m", errors.drift_rad_per_m, ranges::signed_angle_error);
+  map.read("travel_noise_m_per_sqrt_m", errors.travel_noise_m_per_sqrt_m, ranges::length_error);
+  map.read("turn_noise_rad_per_sqrt_m", errors.turn_noise_rad_per_sqrt_m, ranges::angle_error);
+  map.read("turn_noise_rad_per_sqrt_rad", errors.turn_noise_rad_per_sqrt_rad, ranges::angle_error);
   constexpr NumberRange slips{0, 1000, "a number from 0 to 1000"};
   map.read("slips_per_m", errors.slips_per_m, slips);
-  map.read("slip_m", errors.slip_m, length_error);
-  map.read("slip_turn_rad", errors.slip_turn_rad, angle_error);
-  map.read("units_per_m", errors.units_per_m, units);
-  map.read("units_per_rad", errors.units_per_rad, units);
+  map.read("slip_m", errors.slip_m, ranges::length_error);
+  map.read("slip_turn_rad", errors.slip_turn_rad, ranges::angle_error);
+  map.read("units_per_m", errors.units_per_m, ranges::units);
+  map.read("units_per_rad", errors.units_per_rad, ranges::units);
   only_for(map, has_two_sides(kind), "differential or skid_steer",
            {"wheel_diameter_ratio", "wheel_base_ratio", "wheel_noise_m_per_sqrt_m", "wheel_ticks_per_m"});
-  map.read("wheel_diameter_ratio", errors.wheel_diameter_ratio, factor);
-  map.read("wheel_base_ratio", errors.wheel_base_ratio, factor);
-  map.read("wheel_noise_m_per_sqrt_m", errors.wheel_noise_m_per_sqrt_m, length_error);
-  map.read("wheel_ticks_per_m", errors.wheel_ticks_per_m, units);
+  map.read("wheel_diameter_ratio", errors.wheel_diameter_ratio, ranges::factor);
+  map.read("wheel_base_ratio", errors.wheel_base_ratio, ranges::factor);
+  map.read("wheel_noise_m_per_sqrt_m", errors.wheel_noise_m_per_sqrt_m, ranges::length_error);
+  map.read("wheel_ticks_per_m", errors.wheel_ticks_per_m, ranges::units);
   return errors;
 }
 
@@ -71,13 +71,13 @@ void read_kind(const YamlMap& map, world::BaseDescription& base) {
   only_for(map, base.kind == Kind::aerial, "aerial", {"climb_max_m_s", "climb_acceleration_m_s2"});
   constexpr NumberRange longer{1, 1e3, "a number from 1 to 1000"};
   map.read("effective_axle_ratio", base.effective_axle_ratio, longer);
-  map.read("wheelbase_m", base.wheelbase_m, length_number);
+  map.read("wheelbase_m", base.wheelbase_m, ranges::length);
   constexpr NumberRange steering{least_nonzero, 89, "degrees above 0, at most 89"};
   map.read_degrees("steering_max_deg", base.steering_max_rad, steering);
   constexpr NumberRange steering_rate{1e-3, 1e6, "degrees per second from 0.001 to 1000000"};
   map.read_degrees("steering_rate_deg_s", base.steering_rate_rad_s, steering_rate);
-  map.read("climb_max_m_s", base.climb_max_m_s, rate);
-  map.read("climb_acceleration_m_s2", base.climb_acceleration_m_s2, acceleration);
+  map.read("climb_max_m_s", base.climb_max_m_s, ranges::rate);
+  map.read("climb_acceleration_m_s2", base.climb_acceleration_m_s2, ranges::acceleration);
 }
 
 world::BaseDescription read_base(const YamlNode& node, world::BaseDescription base) {
@@ -104,19 +104,19 @@ world::BaseDescription read_base(const YamlNode& node, world::BaseDescription ba
                      "battery_capacity_s",
                      "battery_capacity_m"});
   read_kind(map, base);
-  map.read("v_max_m_s", base.v_max_m_s, rate);
-  map.read("w_max_rad_s", base.w_max_rad_s, rate);
-  map.read("v_acceleration_m_s2", base.v_acceleration_m_s2, acceleration);
-  map.read("w_acceleration_rad_s2", base.w_acceleration_rad_s2, acceleration);
+  map.read("v_max_m_s", base.v_max_m_s, ranges::rate);
+  map.read("w_max_rad_s", base.w_max_rad_s, ranges::rate);
+  map.read("v_acceleration_m_s2", base.v_acceleration_m_s2, ranges::acceleration);
+  map.read("w_acceleration_rad_s2", base.w_acceleration_rad_s2, ranges::acceleration);
   map.read("mass_kg", base.mass_kg, mass_number);
   map.read("drive_force_n", base.drive_force_n, force);
   map.read("grip", base.grip, friction_number);
-  map.read("axle_m", base.axle_m, length_number);
+  map.read("axle_m", base.axle_m, ranges::length);
   map.read("watchdog_ms", base.watchdog, 1ms);
   if (const YamlNode* odometry = map.find("odometry")) base.odometry = read_odometry(*odometry, base.kind);
   map.read("battery_volts_full", base.battery_volts_full, volts);
   map.read("battery_volts_empty", base.battery_volts_empty, volts);
-  map.read("battery_capacity_s", base.battery_capacity_s, time_constant);
+  map.read("battery_capacity_s", base.battery_capacity_s, ranges::time_constant);
   map.read("battery_capacity_m", base.battery_capacity_m, battery_range);
   return base;
 }
@@ -140,7 +140,7 @@ world::BatteryDescription read_battery(const YamlNode& node) {
   map.read("volts_empty", battery.volts_empty, volts);
   if (battery.volts_empty > battery.volts_full) throw node.written.bad("expected volts_empty to be at most volts_full");
   map.read("resistance_ohm", battery.resistance_ohm, electrical);
-  map.read("resolution_v", battery.resolution_v, resolution);
+  map.read("resolution_v", battery.resolution_v, ranges::resolution);
   map.read("capacity_ah", battery.capacity_ah, battery_number);
   map.read("rated_h", battery.rated_h, battery_number);
   constexpr NumberRange exponent{1, 2, "a number from 1 to 2"};

@@ -55,7 +55,7 @@ LogFile read_log(const YamlNode& node) {
   if (map.has("field_of_view_deg"))
     log.laser.field_of_view_rad = radians(map.number("field_of_view_deg", {0.1, 360, "an angle from 0.1 to 360"}));
   if (const YamlNode* mount = map.find("mount")) log.laser.mount = read_pose(*mount, "mount");
-  if (map.has("range_max_m")) log.laser.range_max_m = map.number("range_max_m", length_number);
+  if (map.has("range_max_m")) log.laser.range_max_m = map.number("range_max_m", ranges::length);
   return log;
 }
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "modules/scenario/medium_reader.hpp"
 
-#include "modules/scenario/yaml_reader.hpp"
-
 namespace waitpoint::scenario {
 namespace {
 
@@ -25,24 +23,38 @@ void read_latency(const YamlNode& node, io::Medium& medium) {
   medium.latency_most = milliseconds(ends[1]);
 }
 
+Json latency_schema(SchemaDefinitions&) {
+  return any_of({number_schema(latency_range), numbers_schema(latency_range, 2, 2)});
+}
+
 }  // namespace
 
-io::Medium read_medium(const YamlNode& node) {
-  const YamlMap map(
-      node, "the medium",
-      {"latency_ms", "latency_us_per_m", "bandwidth_bit_s", "queue_bytes", "range_m", "range_check_ms", "loss"});
-  io::Medium medium;
-  read_latency(map.require("latency_ms"), medium);
-  constexpr NumberRange per_metre_range{0, 1e6, "a number from 0 to 1000000"};
-  double latency_us_per_m = 0;
-  map.read("latency_us_per_m", latency_us_per_m, per_metre_range);
-  medium.latency_per_metre = Duration::from_seconds(latency_us_per_m * 1e-6);
-  map.read("bandwidth_bit_s", medium.bandwidth_bit_s, 1, 1'000'000'000'000);
-  map.read("queue_bytes", medium.queue_bytes, 0, 1'000'000'000);
+const Keys<io::Medium>& medium_keys() {
+  using io::Medium;
+  constexpr NumberRange per_metre{0, 1e6, "a number from 0 to 1000000"};
   constexpr NumberRange range{1e-3, 1e9, "a number of metres from 0.001 to 1e9"};
-  map.read("range_m", medium.range_m, range);
-  map.read("range_check_ms", medium.range_check, 1ms);
-  map.read("loss", medium.loss, {0, 1, "a probability from 0 to 1"});
+  static const Keys<Medium> keys =
+      Keys<Medium>("medium")
+          .add("latency_ms", read_latency, latency_schema,
+               "of each message: a positive number, or `[least, greatest]`, from which it is drawn", Need::required)
+          .add("latency_us_per_m", &Medium::latency_per_metre, duration_form(1us, per_metre),
+               "added for each metre between the two robots")
+          .add("bandwidth_bit_s", &Medium::bandwidth_bit_s, count_form<std::uint64_t>({1, 1'000'000'000'000}),
+               "from each robot to each other one; messages queue")
+          .add("queue_bytes", &Medium::queue_bytes, count_form<std::uint64_t>({0, 1'000'000'000}),
+               "queue limit: datagrams beyond it are dropped")
+          .add("range_m", &Medium::range_m, number_form(range),
+               "out of range datagrams are lost; streams and letters wait until the robots are nearer")
+          .add("range_check_ms", &Medium::range_check, duration_form(1ms),
+               "period at which waiting messages check the range")
+          .add("loss", &Medium::loss, number_form(ranges::probability),
+               "probability that a datagram is lost; streams and letters are never lost");
+  return keys;
+}
+
+io::Medium read_medium(const YamlNode& node) {
+  io::Medium medium;
+  read_object(node, "the medium", medium_keys(), medium);
   return medium;
 }
 

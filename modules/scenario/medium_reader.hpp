@@ -3,10 +3,11 @@
 #pragma once
 
 #include "fibers/io/medium.hpp"
-#include "modules/scenario/yaml_tree.hpp"
+#include "modules/scenario/keys.hpp"
 
 namespace waitpoint::scenario {
 
+const Keys<io::Medium>& medium_keys();
 /// Throws BadInput with the line for values out of range.
 io::Medium read_medium(const YamlNode& node);
 

@@ -44,8 +44,8 @@ PlayScenario read_play(const YamlNode& node) {
     if (map.has(key)) value = Duration::from_seconds(map.number(key, seconds_from_zero));
   };
   read_seconds("start_s", play.start);
-  if (map.has("duration_s")) play.duration = Duration::from_seconds(map.number("duration_s", time_constant));
-  map.read("rate", play.rate, factor);
+  if (map.has("duration_s")) play.duration = Duration::from_seconds(map.number("duration_s", ranges::time_constant));
+  map.read("rate", play.rate, ranges::factor);
   read_seconds("delay_s", play.delay);
   read_seconds("idle_s", play.idle);
   read_seconds("end_s", play.end_most);

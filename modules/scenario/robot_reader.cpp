@@ -189,8 +189,8 @@ std::vector<Goal> read_goals(const YamlNode& node) {
     goal.written = item.written;
     if (item.kind == YamlNode::Kind::map) {
       const YamlMap map(item, "a goal", {"x_m", "y_m", "name"});
-      goal.position.x = map.number("x_m", coordinate);
-      goal.position.y = map.number("y_m", coordinate);
+      goal.position.x = map.number("x_m", ranges::coordinate);
+      goal.position.y = map.number("y_m", ranges::coordinate);
       goal.name = map.text("name", "");
     } else {
       goal.position = read_point(item, "a goal");
@@ -270,7 +270,7 @@ RobotScenario read_robot(const YamlNode& node, const YamlNode* types) {
   if (const YamlNode* height = own.find("start_height_m")) {
     if (robot.body.base.kind != world::BaseDescription::Kind::aerial)
       throw height->written.bad("expected no start_height_m: " + own.what() + " does not fly");
-    own.read("start_height_m", robot.body.start_height_m, height_number);
+    own.read("start_height_m", robot.body.start_height_m, ranges::height);
   }
   if (const YamlNode* goals = own.find("goals")) robot.goals = read_goals(*goals);
   if (const YamlNode* plan = own.find("plan")) {

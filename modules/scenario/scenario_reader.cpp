@@ -43,10 +43,11 @@ Expectation read_expectation(const YamlNode& node) {
     expect.collisions = read_count(*collisions, "collisions", 0, count_max);
   expect.plans_completed = map.one_of("plans", {"any", "completed"}, 0) == 1;
   if (map.has("position_error_max_m"))
-    expect.position_error_max_m = map.number("position_error_max_m", number_from_zero);
+    expect.position_error_max_m = map.number("position_error_max_m", ranges::number_from_zero);
   if (const YamlNode* failures = map.find("node_failures"))
     expect.node_failures = read_count(*failures, "node_failures", 0, count_max);
-  if (map.has("service_call_max_s")) expect.service_call_max_s = map.number("service_call_max_s", positive_number);
+  if (map.has("service_call_max_s"))
+    expect.service_call_max_s = map.number("service_call_max_s", ranges::positive_number);
   if (const YamlNode* topics = map.find("topics"))
     for (const YamlNode& item : read_list(*topics, "topics")) {
       const std::string text = read_lines(item, "the value of a topic");
@@ -63,7 +64,7 @@ MapFile read_map(const YamlNode& node) {
   const YamlNode& file = map.require("file");
   MapFile result = {.file = file.written.resolve(read_text(file, "file")), .written = file.written};
   map.read("known", result.known);
-  if (map.has("height_m")) result.height_m = map.number("height_m", length_number);
+  if (map.has("height_m")) result.height_m = map.number("height_m", ranges::length);
   return result;
 }
 
@@ -101,7 +102,7 @@ void read_world(const YamlNode& node, Scenario& scenario) {
   if (const YamlNode* engine = map.find("engine")) scenario.engine_written = engine->written;
   if (const YamlNode* map_file = map.find("map")) scenario.map = read_map(*map_file);
   double height_m = height_default_m;
-  map.read("shape_height_m", height_m, length_number);
+  map.read("shape_height_m", height_m, ranges::length);
   if (const YamlNode* shapes = map.find("shapes")) read_shapes(*shapes, height_m, scenario);
 }
 

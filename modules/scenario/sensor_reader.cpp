@@ -5,6 +5,7 @@
 
 #include "modules/posters/base.hpp"
 #include "modules/posters/laser.hpp"
+#include "modules/scenario/keys.hpp"
 #include "modules/scenario/shape_reader.hpp"
 #include "world/sensors/laser_models.hpp"
 #include "world/sensors/laser_timing.hpp"
@@ -20,19 +21,19 @@ constexpr NumberRange probability{0, 1, "a probability from 0 to 1"};
 
 /// Error parameters of a laser that do not depend on others.
 void read_laser_errors(const YamlMap& map, world::LaserDescription& laser) {
-  map.read("range_noise_m", laser.range_noise_m, length_error);
+  map.read("range_noise_m", laser.range_noise_m, ranges::length_error);
   constexpr NumberRange growth{1, 1e3, "a number from 1 to 1000"};
   map.read("noise_growth", laser.noise_growth, growth);
-  map.read("range_bias_m", laser.range_bias_m, coordinate);
-  map.read("warm_up_bias_m", laser.warm_up_bias_m, coordinate);
-  map.read("warm_up_s", laser.warm_up_s, time_constant);
+  map.read("range_bias_m", laser.range_bias_m, ranges::coordinate);
+  map.read("warm_up_bias_m", laser.warm_up_bias_m, ranges::coordinate);
+  map.read("warm_up_s", laser.warm_up_s, ranges::time_constant);
   constexpr NumberRange jitter{0, 10, "degrees from 0 to 10"};
   map.read_degrees("angle_noise_deg", laser.angle_noise_rad, jitter);
   constexpr NumberRange width{0, 0.1, "a width from 0 to 0.1 m"};
   map.read("spot_m", laser.spot_m, width);
   constexpr NumberRange divergence{0, 0.1, "an angle from 0 to 0.1 rad"};
   map.read("spot_divergence_rad", laser.spot_divergence_rad, divergence);
-  map.read("mixed_jump_m", laser.mixed_jump_m, length_number);
+  map.read("mixed_jump_m", laser.mixed_jump_m, ranges::length);
   map.read("dropout", laser.dropout, probability);
   constexpr NumberRange incidence{least_nonzero, 90, "degrees above 0, at most 90"};
   map.read_degrees("incidence_max_deg", laser.incidence_max_rad, incidence);
@@ -58,30 +59,14 @@ void read_laser_timing(const YamlMap& map, bool lms, world::LaserDescription& la
   }
 }
 
-/// Errors of one kind of axes, in the unit of the key of `node`.
-world::InertialErrors read_inertial_errors(const YamlNode& node, std::string_view what) {
-  const YamlMap map(node, std::string(what),
-                    {"noise_per_sqrt_hz", "bias", "walk_per_sqrt_s", "drift", "drift_s", "scale", "resolution", "max"});
-  world::InertialErrors errors;
-  map.read("noise_per_sqrt_hz", errors.noise_per_sqrt_hz, rate_error);
-  map.read("bias", errors.bias, rate_error);
-  map.read("walk_per_sqrt_s", errors.walk_per_sqrt_s, rate_error);
-  map.read("drift", errors.drift, rate_error);
-  map.read("drift_s", errors.drift_s, time_constant);
-  map.read("scale", errors.scale, factor);
-  map.read("resolution", errors.resolution, resolution);
-  map.read("max", errors.max, positive_number);
-  return errors;
-}
-
 /// Common keys of rings of sonars and infrared range finders; `nearest` is the range of range_min_m.
 template <class Ring>
 void read_ring(const YamlMap& map, std::uint32_t count_max, const NumberRange& nearest, Ring& ring) {
   map.read("count", ring.count, 1, count_max);
-  map.read("ring_radius_m", ring.ring_radius_m, length_error);
-  map.read("height_m", ring.height_m, height_number);
+  map.read("ring_radius_m", ring.ring_radius_m, ranges::length_error);
+  map.read("height_m", ring.height_m, ranges::height);
   map.read("range_min_m", ring.range_min_m, nearest);
-  map.read("range_max_m", ring.range_max_m, length_number);
+  map.read("range_max_m", ring.range_max_m, ranges::length);
   if (ring.range_max_m <= ring.range_min_m)
     throw map.node().written.bad("expected range_max_m to be above range_min_m");
   map.read("period_ms", ring.period, 1ms);
@@ -142,14 +127,14 @@ LaserReading read_laser(const YamlNode& node) {
   if (lms) laser = model == 1 ? world::lms_200() : world::lms_291();
   reading.name = map.text("name", "laser");
   if (const YamlNode* mount = map.find("mount")) laser.mount = read_pose(*mount, "mount");
-  map.read("height_m", laser.height_m, height_number);
+  map.read("height_m", laser.height_m, ranges::height);
   map.read("beams", laser.beams, 2, posters::beam_count_max);
   constexpr NumberRange fan{least_nonzero, 360, "degrees above 0, at most 360"};
   map.read_degrees("field_of_view_deg", laser.field_of_view_rad, fan);
   map.read("resolution_m", laser.resolution_m, step);
   if (lms) laser.range_max_m = world::lms_range_max_m(laser.resolution_m);
   const double has_numbers_to_m = laser.range_max_m;
-  map.read("range_max_m", laser.range_max_m, length_number);
+  map.read("range_max_m", laser.range_max_m, ranges::length);
   if (lms && laser.range_max_m > has_numbers_to_m) {
     throw map.require("range_max_m")
         .written.bad("expected range_max_m to be at most 8191 times resolution_m, found '" + map.text("range_max_m") +
@@ -166,10 +151,10 @@ world::SonarRingDescription read_sonar_ring(const YamlNode& node) {
       {"count", "ring_radius_m", "height_m", "half_cone_deg", "range_min_m", "range_max_m", "range_noise_relative",
        "period_ms", "firing_order", "crosstalk", "air_celsius", "calibrated_celsius"});
   world::SonarRingDescription ring;
-  read_ring(map, posters::sonar_count_max, length_error, ring);
+  read_ring(map, posters::sonar_count_max, ranges::length_error, ring);
   constexpr NumberRange cone{least_nonzero, 90, "degrees above 0, at most 90"};
   map.read_degrees("half_cone_deg", ring.half_cone_rad, cone);
-  map.read("range_noise_relative", ring.range_noise_relative, rate_error);
+  map.read("range_noise_relative", ring.range_noise_relative, ranges::rate_error);
   constexpr NumberRange celsius{-60, 60, "degrees from -60 to 60"};
   map.read("air_celsius", ring.air_celsius, celsius);
   map.read("calibrated_celsius", ring.calibrated_celsius, celsius);
@@ -192,22 +177,18 @@ world::InfraredRingDescription read_infrareds(const YamlNode& node) {
                     {"count", "ring_radius_m", "height_m", "range_min_m", "range_max_m", "gain_per_v", "exponent",
                      "noise_v", "resolution_v", "period_ms"});
   world::InfraredRingDescription ring;
-  read_ring(map, posters::infrared_count_max, length_number, ring);
-  map.read("gain_per_v", ring.gain_per_v, factor);
+  read_ring(map, posters::infrared_count_max, ranges::length, ring);
+  map.read("gain_per_v", ring.gain_per_v, ranges::factor);
   constexpr NumberRange falling{-10, -0.1, "a number from -10 to -0.1"};
   map.read("exponent", ring.exponent, falling);
-  map.read("noise_v", ring.noise_v, rate_error);
+  map.read("noise_v", ring.noise_v, ranges::rate_error);
   map.read("resolution_v", ring.resolution_v, step);
   return ring;
 }
 
 world::ImuDescription read_imu(const YamlNode& node) {
-  const YamlMap map(node, "the imu", {"gyro_rad_s", "accelerometer_m_s2", "period_ms"});
   world::ImuDescription imu;
-  if (const YamlNode* gyro = map.find("gyro_rad_s")) imu.gyro = read_inertial_errors(*gyro, "gyro_rad_s");
-  if (const YamlNode* accelerometer = map.find("accelerometer_m_s2"))
-    imu.accelerometer = read_inertial_errors(*accelerometer, "accelerometer_m_s2");
-  map.read("period_ms", imu.period, 1ms);
+  read_object(node, "the imu", keys_of<world::ImuDescription>(), imu);
   return imu;
 }
 
@@ -217,13 +198,13 @@ world::PositionReceiverDescription read_gps(const YamlNode& node) {
                      "resolution_m", "dropout", "period_ms"});
   world::PositionReceiverDescription gps;
   if (const YamlNode* antenna = map.find("antenna_m")) gps.antenna = read_point(*antenna, "antenna_m");
-  map.read("bias_x_m", gps.bias_x_m, coordinate);
-  map.read("bias_y_m", gps.bias_y_m, coordinate);
-  map.read("drift_m", gps.drift_m, length_error);
-  map.read("drift_s", gps.drift_s, time_constant);
-  map.read("noise_m", gps.noise_m, length_error);
-  map.read("height_factor", gps.height_factor, rate_error);
-  map.read("resolution_m", gps.resolution_m, resolution);
+  map.read("bias_x_m", gps.bias_x_m, ranges::coordinate);
+  map.read("bias_y_m", gps.bias_y_m, ranges::coordinate);
+  map.read("drift_m", gps.drift_m, ranges::length_error);
+  map.read("drift_s", gps.drift_s, ranges::time_constant);
+  map.read("noise_m", gps.noise_m, ranges::length_error);
+  map.read("height_factor", gps.height_factor, ranges::rate_error);
+  map.read("resolution_m", gps.resolution_m, ranges::resolution);
   map.read("dropout", gps.dropout, probability);
   map.read("period_ms", gps.period, 1ms);
   return gps;

@@ -11,16 +11,13 @@ namespace {
 
 using world::Shape;
 
-constexpr NumberRange turn{-3600, 3600, "degrees within ten turns"};
-
-/// From -pi to pi; default 0.
 void read_corners(const YamlMap& map, Shape& shape) {
   if (map.has("centre_m") || map.has("size_m") || map.has("radius_m") || map.has("heading_deg")) {
     throw map.node().written.bad("expected " + map.what() +
                                  " to have corners_m alone, or centre_m with size_m or radius_m");
   }
   const YamlNode& node = map.require("corners_m");
-  const std::vector<double> c = read_numbers(node, "corners_m", 4, 4, coordinate);
+  const std::vector<double> c = read_numbers(node, "corners_m", 4, 4, ranges::coordinate);
   shape.length_m = std::fabs(c[2] - c[0]);
   shape.width_m = std::fabs(c[3] - c[1]);
   if (shape.length_m == 0 || shape.width_m == 0)
@@ -38,9 +35,9 @@ void read_about_centre(const YamlMap& map, bool centre_needed, Shape& shape) {
   shape.pose = {centre.x, centre.y, read_heading(map)};
   if (map.has("radius_m")) {
     shape.kind = Shape::Kind::cylinder;
-    shape.radius_m = map.number("radius_m", length_number);
+    shape.radius_m = map.number("radius_m", ranges::length);
   } else {
-    const std::vector<double> size = read_numbers(map.require("size_m"), "size_m", 2, 2, length_number);
+    const std::vector<double> size = read_numbers(map.require("size_m"), "size_m", 2, 2, ranges::length);
     shape.length_m = size[0];
     shape.width_m = size[1];
   }
@@ -53,8 +50,8 @@ Shape read_shape(const YamlMap& map, bool of_world, std::optional<double> height
   } else {
     read_about_centre(map, of_world, shape);
   }
-  map.read("low_m", shape.z_low_m, height_number);
-  shape.z_high_m = height_m && !map.has("height_m") ? *height_m : map.number("height_m", length_number);
+  map.read("low_m", shape.z_low_m, ranges::height);
+  shape.z_high_m = height_m && !map.has("height_m") ? *height_m : map.number("height_m", ranges::length);
   if (shape.z_high_m <= shape.z_low_m) {
     throw map.node().written.bad("expected height_m of " + map.what() + " to be above its low_m");
   }
@@ -62,12 +59,6 @@ Shape read_shape(const YamlMap& map, bool of_world, std::optional<double> height
 }
 
 }  // namespace
-
-double read_heading(const YamlMap& map) {
-  double heading_rad = 0;
-  map.read_degrees("heading_deg", heading_rad, turn);
-  return exact::wrap_angle(heading_rad);
-}
 
 Shape read_body_shape(const YamlNode& node) {
   const YamlMap map(node, "the shape", {"centre_m", "size_m", "heading_deg", "radius_m", "low_m", "height_m"});
@@ -93,27 +84,6 @@ world::Obstacle read_obstacle(const YamlNode& node, double height_m, std::size_t
     map.read("friction", obstacle.friction, friction_number);
   }
   return obstacle;
-}
-
-Point read_point(const YamlNode& node, std::string_view what) {
-  if (node.kind == YamlNode::Kind::map) {
-    const YamlMap map(node, std::string(what), {"x_m", "y_m"});
-    const double x = map.number("x_m", coordinate);
-    return {x, map.number("y_m", coordinate)};
-  }
-  const std::vector<double> xy = read_numbers(node, what, 2, 2, coordinate);
-  return {xy[0], xy[1]};
-}
-
-Pose read_pose(const YamlNode& node, std::string_view what) {
-  if (node.kind == YamlNode::Kind::map) {
-    const YamlMap map(node, std::string(what), {"x_m", "y_m", "heading_deg"});
-    const double x = map.number("x_m", coordinate), y = map.number("y_m", coordinate);
-    return {x, y, read_heading(map)};
-  }
-  const std::vector<double> numbers = read_numbers(node, what, 2, 3, coordinate);
-  const double heading_deg = numbers.size() == 3 ? read_number(node.items[2], "heading_deg", turn) : 0;
-  return {numbers[0], numbers[1], exact::wrap_angle(radians(heading_deg))};
 }
 
 }  // namespace waitpoint::scenario

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "modules/scenario/place_reader.hpp"
 #include "modules/scenario/yaml_reader.hpp"
 #include "world/description.hpp"
 
@@ -25,14 +26,5 @@ std::string shape_name(const YamlNode& node, std::size_t number);
 
 /// A shape of the world; a cylinder or rotated box needs `centre_m`. `height_m` is the default height.
 world::Obstacle read_obstacle(const YamlNode& node, double height_m, std::size_t number);
-
-/// `heading_deg` in radians, in (-pi, pi]; 0 if it is not given.
-double read_heading(const YamlMap& map);
-
-/// `[x, y]` or `{x_m: x, y_m: y}`.
-Point read_point(const YamlNode& node, std::string_view what);
-
-/// `[x, y, heading_deg]`, `[x, y]` or `{x_m: x, y_m: y, heading_deg: h}`.
-Pose read_pose(const YamlNode& node, std::string_view what);
 
 }  // namespace waitpoint::scenario

@@ -18,7 +18,7 @@ std::string resolved(const YamlNode& file, std::string_view what) {
 world::SpaceVector read_place(const YamlMap& map) {
   const YamlNode* node = map.find("at_m");
   if (node == nullptr) return {};
-  const std::vector<double> at = read_numbers(*node, "at_m", 2, 3, coordinate);
+  const std::vector<double> at = read_numbers(*node, "at_m", 2, 3, ranges::coordinate);
   return {at[0], at[1], at.size() == 3 ? at[2] : 0};
 }
 

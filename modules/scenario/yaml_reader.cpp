@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "modules/scenario/yaml_reader.hpp"
 
+#include <algorithm>
 #include <cmath>
-
-#include <span>
 
 #include "core/exact_math.hpp"
 #include "core/nearest_name.hpp"
@@ -43,6 +42,13 @@ std::uint64_t read_count(const YamlNode& node, std::string_view what, std::uint6
   return number;
 }
 
+Duration read_duration(const YamlNode& node, std::string_view what, Duration unit) {
+  const double seconds = read_number(node, what, {1e-6, 1e9, "a positive number"}) * unit.seconds();
+  constexpr double least_s = 1e-6;  // a shorter period would be a hang
+  if (seconds < least_s * (1 - 1e-9)) refuse(node, what, "at least a microsecond");
+  return Duration::from_seconds(seconds);
+}
+
 bool read_truth(const YamlNode& node, std::string_view what) {
   const bool plain = node.kind == YamlNode::Kind::scalar && !node.quoted;
   if (plain && node.text == "true") return true;
@@ -61,6 +67,12 @@ std::string read_text(const YamlNode& node, std::string_view what) {
   return node.text;
 }
 
+std::size_t read_word(const YamlNode& node, std::string_view what, std::span<const std::string_view> words) {
+  const auto word = std::find(words.begin(), words.end(), read_text(node, what));
+  if (word == words.end()) refuse(node, what, word_list(words));
+  return static_cast<std::size_t>(word - words.begin());
+}
+
 std::vector<double> read_numbers(const YamlNode& node, std::string_view what, std::size_t size_min,
                                  std::size_t size_max, const NumberRange& range) {
   if (node.kind != YamlNode::Kind::list || node.items.size() < size_min || node.items.size() > size_max) {
@@ -77,17 +89,14 @@ const std::vector<YamlNode>& read_list(const YamlNode& node, std::string_view wh
   return node.items;
 }
 
-YamlMap::YamlMap(const YamlNode& node, std::string what, std::initializer_list<std::string_view> known)
+YamlMap::YamlMap(const YamlNode& node, std::string what, std::span<const std::string_view> known)
     : node_(node), what_(std::move(what)) {
   if (node.kind != YamlNode::Kind::map) refuse(node, what_, "a map of keys");
-  const std::span<const std::string_view> names(known.begin(), known.size());
   for (const YamlEntry& entry : node.entries) {
-    bool is_known = false;
-    for (const std::string_view name : names) is_known = is_known || name == entry.key;
-    if (is_known) continue;
-    const std::string hint = did_you_mean(entry.key, names);
+    if (std::find(known.begin(), known.end(), entry.key) != known.end()) continue;
+    const std::string hint = did_you_mean(entry.key, known);
     throw entry.written.bad("unknown key '" + entry.key + "' in " + what_ +
-                            (hint.empty() ? ", expected " + word_list(names) : hint));
+                            (hint.empty() ? ", expected " + word_list(known) : hint));
   }
 }
 
@@ -110,12 +119,7 @@ std::string YamlMap::text(std::string_view key, const std::string& otherwise) co
 std::size_t YamlMap::one_of(std::string_view key, std::initializer_list<std::string_view> words,
                             std::size_t otherwise) const {
   if (!has(key)) return otherwise;
-  const std::string text = read_text(*find(key), key);
-  const std::span<const std::string_view> names(words.begin(), words.size());
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    if (names[i] == text) return i;
-  }
-  refuse(*find(key), key, word_list(names));
+  return read_word(*find(key), key, std::span(words.begin(), words.size()));
 }
 
 void YamlMap::read(std::string_view key, double& value, const NumberRange& range) const {
@@ -135,11 +139,7 @@ void YamlMap::read(std::string_view key, bool& value) const {
 }
 
 void YamlMap::read(std::string_view key, Duration& value, Duration unit) const {
-  if (!has(key)) return;
-  const double seconds = number(key, {1e-6, 1e9, "a positive number"}) * unit.seconds();
-  constexpr double least_s = 1e-6;  // a shorter period would be a hang
-  if (seconds < least_s * (1 - 1e-9)) refuse(*find(key), key, "at least a microsecond");
-  value = Duration::from_seconds(seconds);
+  if (has(key)) value = read_duration(*find(key), key, unit);
 }
 
 void YamlMap::read_degrees(std::string_view key, double& value_rad, const NumberRange& range) const {

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// JSON Schemas (2020-12) of the values that yaml_reader.hpp reads: each accepts what the function of the same name
+// does, but for numbers nearer to 0 than 1e-12.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "core/number_range.hpp"
+#include "core/time.hpp"
+
+namespace waitpoint::scenario {
+
+using Json = nlohmann::ordered_json;
+
+/// The parts of a schema that other parts refer to by their names.
+class SchemaDefinitions {
+ public:
+  /// A partial one is of what is laid over other values: it requires no keys.
+  explicit SchemaDefinitions(bool is_partial = false) : is_partial_(is_partial) {}
+
+  bool is_partial() const { return is_partial_; }
+  /// A reference to the definition `name`, which `make` makes at first use.
+  Json reference(const std::string& name, const std::function<Json()>& make);
+  const std::map<std::string, Json>& made() const { return made_; }
+
+ private:
+  bool is_partial_;
+  std::map<std::string, Json> made_;
+};
+
+Json number_schema(const NumberRange& range);
+Json duration_schema(Duration unit);
+Json count_schema(const CountRange& range);
+Json truth_schema();
+/// A text may be written as a number or a word that is one to others.
+Json text_schema();
+Json word_schema(std::span<const std::string_view> words);
+Json list_schema(Json item, std::size_t size_min = 0);
+/// A list of `size_min` to `size_max` numbers.
+Json numbers_schema(const NumberRange& range, std::size_t size_min, std::size_t size_max);
+/// A map of any keys, whose values are each of this kind.
+Json map_schema(Json value);
+Json any_of(std::initializer_list<Json> schemas);
+/// The same or null: a key without a value is the same as no key.
+Json or_null(Json schema);
+
+}  // namespace waitpoint::scenario
