@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::array<std::string_view, 4> known = {"step_ms", "shapes", "map", "include"};
 
-TEST(NearestName, edits_are_counted) {
+TEST(NearestName, CountsEdits) {
   EXPECT_EQ(edit_distance("", ""), 0u);
   EXPECT_EQ(edit_distance("map", ""), 3u);
   EXPECT_EQ(edit_distance("map", "map"), 0u);
@@ -21,24 +21,24 @@ TEST(NearestName, edits_are_counted) {
   EXPECT_EQ(edit_distance("ca", "abc"), 3u) << "a swapped pair is not edited again";
 }
 
-TEST(NearestName, the_meant_name_is_found) {
+TEST(NearestName, FindsTheMisspeltName) {
   EXPECT_EQ(nearest_name("steps_ms", known), "step_ms");
   EXPECT_EQ(nearest_name("shaeps", known), "shapes");
   EXPECT_EQ(nearest_name("map", known), "map");
 }
 
-TEST(NearestName, nothing_is_suggested_for_another_word) {
+TEST(NearestName, SuggestsNothingForAnUnrelatedWord) {
   EXPECT_EQ(nearest_name("colour", known), "");
   EXPECT_EQ(nearest_name("", known), "");
   EXPECT_EQ(nearest_name("map", {}), "");
 }
 
-TEST(NearestName, the_first_of_equals_is_taken) {
+TEST(NearestName, TakesTheFirstOfEquallyNearNames) {
   constexpr std::array<std::string_view, 2> names = {"cart", "card"};
   EXPECT_EQ(nearest_name("carx", names), "cart");
 }
 
-TEST(NearestName, a_message_ends_with_the_question_or_with_nothing) {
+TEST(NearestName, EndsAMessageWithASuggestionOrNothing) {
   EXPECT_EQ(did_you_mean("shape", known), ", did you mean 'shapes'?");
   EXPECT_EQ(did_you_mean("colour", known), "");
 }

@@ -29,7 +29,7 @@ std::size_t peak_of_a_minute(run::Experiment& experiment, Duration begin) {
 }
 
 // A round takes about a minute.
-TEST(Endurance, twenty_robots_lose_no_goal_and_need_no_more_memory_in_later_rounds) {
+TEST(Endurance, TwentyRobotsReachAllGoalsInConstantMemory) {
   const scenario::Scenario scenario = shipped("office-20.yaml", {"world.engine=slice"});
   const std::vector<genom::ModuleType> types = tools::papers_modules();
   run::Experiment experiment(scenario, types, {usual_seed, kernel::Order::fifo, ""});

@@ -27,14 +27,14 @@ std::map<std::string, std::string> golden_digests() {
 
 class Golden : public ::testing::TestWithParam<std::string> {};
 
-TEST_P(Golden, the_first_seconds_have_the_digest_that_they_had) {
+TEST_P(Golden, FirstSecondsHaveTheGoldenDigest) {
   const std::map<std::string, std::string> golden = golden_digests();
   ASSERT_TRUE(golden.contains(GetParam()));
   EXPECT_EQ(to_string(run(shipped(GetParam())).digest), golden.at(GetParam()))
       << "if the run was meant to change, write its new digest into tests/golden/digests.txt";
 }
 
-TEST_P(Golden, beams_through_slices_are_the_same_run) {
+TEST_P(Golden, SliceEngineGivesTheSameRun) {
   const std::map<std::string, std::string> golden = golden_digests();
   ASSERT_TRUE(golden.contains(GetParam()));
   EXPECT_EQ(to_string(run(shipped(GetParam(), {"world.engine=slice"})).digest), golden.at(GetParam()));

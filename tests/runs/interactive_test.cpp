@@ -50,7 +50,7 @@ const std::string meddling =
     "remove-obstacle box\n"
     "request rackham ndd Stop\n";
 
-TEST(Interactive, pausing_stepping_and_changing_the_speed_change_nothing) {
+TEST(Interactive, PausingSteppingAndPacingKeepTheDigest) {
   const std::vector<std::string> sessions = {
       "run\n",
       "step\nstep 1000\nrun 0.777\nstep 3\nrun +0.5\nstatus\ntasks\nhelp\ncontinue\n",
@@ -65,7 +65,7 @@ TEST(Interactive, pausing_stepping_and_changing_the_speed_change_nothing) {
   }
 }
 
-TEST(Interactive, a_step_is_one_event_and_shows_it) {
+TEST(Interactive, StepExecutesAndPrintsOneEvent) {
   const tools::Folder folder;
   const Outcome outcome = typed("step\nstep\nstep 40\nquit\n", {"--events", folder / "events"});
   const std::string events = folder.read("events");
@@ -76,14 +76,14 @@ TEST(Interactive, a_step_is_one_event_and_shows_it) {
   EXPECT_NE(outcome.output.find("after 42 events\n" + events.substr(last)), std::string::npos) << outcome.output;
 }
 
-TEST(Interactive, a_condition_stops_after_the_event_that_makes_it_true) {
+TEST(Interactive, ConditionStopsAfterTheEventThatMakesItTrue) {
   const tools::Folder folder;
   const Outcome outcome = typed("until rackham.travelled_m >= 0.05\nstatus\nquit\n", {"--summary", folder / "s.json"});
   EXPECT_NE(outcome.output.find(" 0.05 m travelled"), std::string::npos) << outcome.output;
   EXPECT_NE(outcome.digest(), free_digest());
 }
 
-TEST(Interactive, the_journal_of_what_was_done_replays_to_the_same_digest_in_a_new_process) {
+TEST(Interactive, JournalReplaysToTheSameDigestInANewProcess) {
   const tools::Folder folder;
   const Outcome done = typed(meddling + "run\n", {"--journal", folder / "journal"});
   ASSERT_LE(done.status, 1) << done.errors;
@@ -109,7 +109,7 @@ TEST(Interactive, the_journal_of_what_was_done_replays_to_the_same_digest_in_a_n
   EXPECT_EQ(folder.read("again"), journal);
 }
 
-TEST(Interactive, a_run_left_between_two_events_of_an_instant_replays_to_that_event) {
+TEST(Interactive, JournalEndsBetweenTwoEventsOfAnInstant) {
   const tools::Folder folder;
   const Outcome done = typed(meddling + "step 13\nquit\n", {"--journal", folder / "journal"});
   const Command again{
@@ -127,7 +127,7 @@ TEST(Interactive, a_run_left_between_two_events_of_an_instant_replays_to_that_ev
   EXPECT_NE(other.errors.find("this is not the run of the journal"), std::string::npos) << other.errors;
 }
 
-TEST(Interactive, a_journal_that_does_not_fit_is_bad_input) {
+TEST(Interactive, RefusesAJournalOfAnotherRun) {
   const tools::Folder folder;
   const Outcome done = typed("run 0.1\nmove rackham 20 5\nrun 0.2\nquit\n", {"--journal", folder / "journal"});
   ASSERT_LE(done.status, 1) << done.errors;
@@ -162,7 +162,7 @@ TEST(Interactive, a_journal_that_does_not_fit_is_bad_input) {
             std::string::npos);
 }
 
-TEST(Interactive, a_journal_without_an_end_replays_and_says_so) {
+TEST(Interactive, ReplaysAJournalWithoutAnEnd) {
   const tools::Folder folder;
   const Outcome done = typed("run 0.1\nmove rackham 20 5\nrun\n", {"--journal", folder / "journal"});
   const std::string whole = folder.read("journal");
@@ -172,7 +172,7 @@ TEST(Interactive, a_journal_without_an_end_replays_and_says_so) {
   EXPECT_NE(repeated.errors.find("the journal has no end"), std::string::npos) << repeated.errors;
 }
 
-TEST(Interactive, what_is_not_understood_is_a_line_and_does_not_end_the_run) {
+TEST(Interactive, UnknownCommandsDoNotEndTheRun) {
   const std::string wrong =
       "setp\nstep many\nrun yesterday\nuntil rackham.gaols > 1\nuntil somebody.goals > 1\nuntil rackham.goals > all\n"
       "speed -1\nmove nobody 1 2\nmove rackham 1\nrequest rackham ndd GoTo via=3\nat noon move rackham 1 2\nquit now\n";
@@ -185,26 +185,26 @@ TEST(Interactive, what_is_not_understood_is_a_line_and_does_not_end_the_run) {
   EXPECT_NE(outcome.errors.find("standard input:1: unknown command 'setp', did you mean 'step'?"), std::string::npos);
 }
 
-TEST(Interactive, what_cannot_be_done_is_refused_and_told) {
+TEST(Interactive, RefusesImpossibleInterventions) {
   const Outcome outcome = typed("run 0.1\nmove rackham 0 4\nremove-obstacle nothing\nrun\n");
   EXPECT_NE(outcome.errors.find("move rackham 0 4: refused, 'west wall' is in the way"), std::string::npos)
       << outcome.errors;
   EXPECT_NE(outcome.errors.find("remove-obstacle nothing: refused, there is no obstacle 'nothing'"), std::string::npos);
 }
 
-TEST(Interactive, the_end_of_the_input_ends_the_run_there) {
+TEST(Interactive, EndOfInputEndsTheRun) {
   const Outcome outcome = typed("run 0.5");
   EXPECT_NE(outcome.output.find("left after 0.5 s simulated"), std::string::npos) << outcome.output;
 }
 
-TEST(Interactive, a_paced_run_reports_its_lag) {
+TEST(Interactive, PacedRunReportsItsLag) {
   const Outcome paced = outcome_of(run_command("office.yaml", "1", {"--speed", "1e6"}));
   EXPECT_NE(paced.output.find("\n  lag "), std::string::npos) << paced.output;
   EXPECT_EQ(outcome_of(run_command("office.yaml", "1")).output.find("\n  lag "), std::string::npos);
 }
 
 // The same through the programming interface.
-TEST(Interactive, interventions_of_the_interface_known_early_or_late_are_the_same_run) {
+TEST(Interactive, EarlyAndLateSubmissionsGiveTheSameRun) {
   const scenario::Scenario scenario = shipped("office.yaml");
   const std::vector<genom::ModuleType> types = tools::papers_modules();
   const Time date = Time::from_ns(700'000'000), end = Time::from_ns(1'500'000'000);

@@ -22,7 +22,7 @@ void expect_digest(const Outcome& outcome, const std::string& expected, const st
   EXPECT_EQ(outcome.digest(), expected) << what << ": " << outcome.errors;
 }
 
-TEST(Process, twenty_new_processes_in_other_surroundings_are_the_same_run) {
+TEST(Process, TwentyProcessesInOtherEnvironmentsGiveOneRun) {
   const std::string expected = here();
   const std::vector<std::string> locales = {"C", "de_DE.UTF-8", "tr_TR.UTF-8", "ja_JP.EUC-JP"};
   for (std::size_t i = 0; i < 20; ++i) {
@@ -42,7 +42,7 @@ TEST(Process, twenty_new_processes_in_other_surroundings_are_the_same_run) {
   }
 }
 
-TEST(Process, what_is_written_on_the_side_does_not_change_a_run) {
+TEST(Process, OutputsDoNotChangeTheRun) {
   const std::string expected = here();
   const std::vector<std::string> options = {"summary", "picture", "trajectory", "digests", "events"};
   const tools::Folder folder;
@@ -60,7 +60,7 @@ TEST(Process, what_is_written_on_the_side_does_not_change_a_run) {
   EXPECT_EQ(nlohmann::json::parse(folder.read("all.summary")).at("digest"), expected);
 }
 
-TEST(Process, a_self_check_compares_all_events_of_the_run_and_finds_no_difference) {
+TEST(Process, SelfCheckComparesAllEvents) {
   if (test::is_emulated()) GTEST_SKIP() << "a self-check starts its program anew";
   const Outcome plain = outcome_of(run_command("office.yaml", "10"));
   const std::size_t at = plain.output.find("  events            ");
@@ -74,7 +74,7 @@ TEST(Process, a_self_check_compares_all_events_of_the_run_and_finds_no_differenc
   EXPECT_EQ(checked.errors, "");
 }
 
-TEST(Process, a_self_check_without_a_place_for_its_log_is_bad_input) {
+TEST(Process, SelfCheckWithoutTemporaryFolderIsBadInput) {
   Command command = run_command("office.yaml", "2", {"--check"});
   command.environment = {"TMPDIR=/proc/self"};
   const Outcome outcome = outcome_of(command);
@@ -84,7 +84,7 @@ TEST(Process, a_self_check_without_a_place_for_its_log_is_bad_input) {
       << outcome.errors;
 }
 
-TEST(Process, pacing_does_not_change_a_run) {
+TEST(Process, PacingDoesNotChangeTheRun) {
   const Outcome free = outcome_of(run_command("office.yaml", "2"));
   const auto start = std::chrono::steady_clock::now();
   const Outcome paced = outcome_of(run_command("office.yaml", "2", {"--speed", "4"}));
@@ -93,20 +93,20 @@ TEST(Process, pacing_does_not_change_a_run) {
   expect_digest(paced, free.digest(), "paced");
 }
 
-TEST(Process, another_seed_is_another_run) {
+TEST(Process, AnotherSeedGivesAnotherRun) {
   const Outcome other = outcome_of(run_command("office.yaml", "20", {"--seed", "2"}));
   ASSERT_LE(other.status, 1) << other.errors;
   EXPECT_NE(other.digest(), here());
   EXPECT_EQ(other.digest(), to_string(run(shipped("office.yaml"), first_seconds, 2).digest));
 }
 
-TEST(Process, the_seeded_order_repeats_in_a_new_process) {
+TEST(Process, SeededOrderRepeatsInANewProcess) {
   const bridge::RunResult expected = run(shipped("office.yaml"), first_seconds, 3, kernel::Order::seeded);
   expect_digest(outcome_of(run_command("office.yaml", "20", {"--seed", "3", "--order", "seeded"})),
                 to_string(expected.digest), "seeded");
 }
 
-TEST(Process, a_debugger_that_stops_it_a_hundred_times_does_not_change_a_run) {
+TEST(Process, HundredDebuggerStopsDoNotChangeTheRun) {
   if (test::is_emulated()) GTEST_SKIP() << "gdb cannot start the program";
   if (outcome_of({{"gdb", "--version"}}).status != 0) GTEST_SKIP() << "there is no gdb here";
   const tools::Folder folder;
@@ -132,7 +132,7 @@ TEST(Process, a_debugger_that_stops_it_a_hundred_times_does_not_change_a_run) {
   EXPECT_EQ(outcome.digest(), here()) << outcome.output << outcome.errors;
 }
 
-TEST(Process, the_whole_mission_is_the_same_in_two_processes) {
+TEST(Process, WholeMissionRepeatsInAnotherProcess) {
   const tools::Folder folder;
   const auto command = [&](const std::string& name) {
     return Command{{program(), "run", test::project_root() / "scenarios/office.yaml", "--digests",

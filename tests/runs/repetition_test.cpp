@@ -16,7 +16,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-TEST(Repetition, a_hundred_runs_in_one_process_are_one_run) {
+TEST(Repetition, HundredRunsInOneProcessAreEqual) {
   const scenario::Scenario scenario = shipped("office.yaml");
   const bridge::RunResult first = run(scenario);
   ASSERT_GT(first.events, 10'000u);
@@ -30,7 +30,7 @@ TEST(Repetition, a_hundred_runs_in_one_process_are_one_run) {
   }
 }
 
-TEST(Repetition, the_seeded_order_repeats_too_and_is_another) {
+TEST(Repetition, SeededOrderRepeatsAndDiffersFromFifo) {
   const scenario::Scenario scenario = shipped("office.yaml");
   const auto seeded = [&](std::uint64_t seed) {
     return to_string(run(scenario, first_seconds, seed, kernel::Order::seeded).digest);
@@ -41,7 +41,7 @@ TEST(Repetition, the_seeded_order_repeats_too_and_is_another) {
   EXPECT_NE(seeded(usual_seed + 1), first);
 }
 
-TEST(Repetition, runs_in_several_threads_are_the_runs_that_they_are_alone) {
+TEST(Repetition, RunsInSeveralThreadsEqualSingleRuns) {
   if (test::is_emulated()) GTEST_SKIP() << "eight runs at once need more address space than qemu has";
   const scenario::Scenario scenario = shipped("office.yaml");
   const auto digest = [&](std::size_t seed) { return to_string(run(scenario, 5s, seed).digest); };
@@ -55,14 +55,14 @@ TEST(Repetition, runs_in_several_threads_are_the_runs_that_they_are_alone) {
   }
 }
 
-TEST(Repetition, every_seed_gives_another_digest) {
+TEST(Repetition, EverySeedGivesAnotherDigest) {
   const scenario::Scenario scenario = shipped("office.yaml");
   std::set<std::string> digests;
   for (std::uint64_t seed = 0; seed < 20; ++seed) digests.insert(to_string(run(scenario, 2s, seed).digest));
   EXPECT_EQ(digests.size(), 20u);
 }
 
-TEST(Repetition, the_windows_in_which_it_is_run_do_not_change_a_run) {
+TEST(Repetition, WindowsDoNotChangeTheRun) {
   const scenario::Scenario scenario = shipped("office.yaml");
   const std::vector<genom::ModuleType> types = tools::papers_modules();
   const std::string whole = to_string(run(scenario).digest);
@@ -82,7 +82,7 @@ TEST(Repetition, the_windows_in_which_it_is_run_do_not_change_a_run) {
   EXPECT_EQ(in_windows(any), whole);
 }
 
-TEST(Repetition, looking_on_does_not_change_a_run) {
+TEST(Repetition, ObserversDoNotChangeTheRun) {
   const scenario::Scenario scenario = shipped("office.yaml");
   const std::vector<genom::ModuleType> types = tools::papers_modules();
   run::Experiment experiment(scenario, types, {usual_seed, kernel::Order::fifo, ""});

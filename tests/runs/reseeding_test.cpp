@@ -35,7 +35,7 @@ Digests digests(const scenario::Scenario& scenario, std::uint64_t seed, std::opt
   return all;
 }
 
-TEST(Reseeding, the_run_differs_after_the_instant_and_not_before) {
+TEST(Reseeding, ChangesTheRunFromItsInstantOn) {
   const scenario::Scenario scenario = shipped("office.yaml");
   for (const kernel::Order order : {kernel::Order::fifo, kernel::Order::seeded}) {
     EXPECT_EQ(digests(scenario, 1, 7, instant, order, instant).run,
@@ -47,7 +47,7 @@ TEST(Reseeding, the_run_differs_after_the_instant_and_not_before) {
   }
 }
 
-TEST(Reseeding, the_present_seed_once_more_leaves_the_robots_as_they_are) {
+TEST(Reseeding, PresentSeedChangesNothing) {
   const scenario::Scenario scenario = shipped("office.yaml");
   for (const kernel::Order order : {kernel::Order::fifo, kernel::Order::seeded}) {
     const Digests same = digests(scenario, 1, 1, instant, order), plain = digests(scenario, 1, {}, instant, order);
@@ -58,7 +58,7 @@ TEST(Reseeding, the_present_seed_once_more_leaves_the_robots_as_they_are) {
 
 // Nothing has been drawn before the first step but the drift of the receiver in the yard, so that no stream may be left
 // out.
-TEST(Reseeding, from_the_first_step_on_the_robots_are_those_of_the_other_seed) {
+TEST(Reseeding, AtTheFirstStepEqualsTheOtherSeed) {
   for (const std::string name : {"office.yaml", "office-air.yaml", "office-dynamic.yaml", "yard.yaml"}) {
     if (name == "office-dynamic.yaml" && world::make_bullet_world({}, 1) == nullptr) continue;  // built without Bullet
     const bool is_yard = name == "yard.yaml";

@@ -150,7 +150,7 @@ class SingleBits : public ::testing::Test {
   std::map<std::string, std::string> changes_;  // by digest
 };
 
-TEST_F(SingleBits, of_posters_times_poses_and_streams_all_change_the_digest) {
+TEST_F(SingleBits, InPostersTimesPosesAndStreamsChangeTheDigest) {
   const auto flip = [&](const std::string& what, std::uint64_t bits) {
     const std::uint64_t at = draw(ticks - 1), bit = draw(bits);
     expect_new(what + " " + std::to_string(bit) + " at " + std::to_string(at), digest(flipped(what, at, bit)));

@@ -78,7 +78,7 @@ class UnrelatedRobots : public ::testing::TestWithParam<kernel::Order> {
   }
 };
 
-TEST_P(UnrelatedRobots, do_not_notice_when_one_is_removed) {
+TEST_P(UnrelatedRobots, KeepTheirDigestsWhenOneIsRemoved) {
   const Watched all = watch(ten(), GetParam());
   ASSERT_EQ(all.digests.size(), 10u);
   EXPECT_GE(all.pairs.size(), 3u) << "nobody meets: nothing is shown";
@@ -94,7 +94,7 @@ TEST_P(UnrelatedRobots, do_not_notice_when_one_is_removed) {
   EXPECT_GT(moved, 0u) << "not even related robots notice each other: nothing is shown";
 }
 
-TEST_P(UnrelatedRobots, do_not_notice_when_an_eleventh_comes) {
+TEST_P(UnrelatedRobots, KeepTheirDigestsWhenAnEleventhComes) {
   const Watched all = watch(ten(), GetParam());
   const std::vector<scenario::RobotScenario> newcomers = {
       newcomer("aaron", {20, 9.4, 0}, {{30, 9.5}, {20, 9.4}}),        // in the south corridor
@@ -110,7 +110,7 @@ TEST_P(UnrelatedRobots, do_not_notice_when_an_eleventh_comes) {
   }
 }
 
-TEST_P(UnrelatedRobots, do_not_notice_the_order_of_the_file) {
+TEST_P(UnrelatedRobots, KeepTheirDigestsInAnotherOrderOfTheFile) {
   const Watched all = watch(ten(), GetParam());
   scenario::Scenario reversed = ten();
   std::reverse(reversed.robots.begin(), reversed.robots.end());
@@ -118,7 +118,7 @@ TEST_P(UnrelatedRobots, do_not_notice_the_order_of_the_file) {
   EXPECT_EQ(watch(reversed, GetParam()).digests, all.digests);
 }
 
-TEST_P(UnrelatedRobots, do_not_notice_when_one_is_renamed) {
+TEST_P(UnrelatedRobots, KeepTheirDigestsWhenOneIsRenamed) {
   const Watched all = watch(ten(), GetParam());
   scenario::Scenario scenario = ten();
   rename(robot_of(scenario, "emil"), "zacharias");

@@ -21,7 +21,7 @@ class CommandLine : public ::testing::Test {
   void TearDown() override { unsetenv("WAITPOINT_SEED"); }
 };
 
-TEST_F(CommandLine, a_scenario_alone_has_the_defaults) {
+TEST_F(CommandLine, ScenarioAloneHasDefaults) {
   const RunOptions options = run({"run", "office.yaml"});
   EXPECT_EQ(options.scenario, "office.yaml");
   EXPECT_EQ(options.seed, 1u);
@@ -31,7 +31,7 @@ TEST_F(CommandLine, a_scenario_alone_has_the_defaults) {
                options.digests || options.events);
 }
 
-TEST_F(CommandLine, every_option_arrives) {
+TEST_F(CommandLine, ReadsEveryOption) {
   const RunOptions options =
       run({"run", "--seed", "18446744073709551615", "--until=1.5", "--speed", "2", "--summary", "s.json", "--picture",
            "p.svg", "--trajectory", "t.tum", "--digests", "d", "--events", "e", "office.yaml"});
@@ -46,14 +46,14 @@ TEST_F(CommandLine, every_option_arrives) {
   EXPECT_EQ(options.scenario, "office.yaml");
 }
 
-TEST_F(CommandLine, settings_are_kept_in_order_and_do_not_swallow_the_scenario) {
+TEST_F(CommandLine, SettingsKeepTheirOrderAndLeaveTheScenario) {
   const RunOptions options = run({"run", "--set", "robots.0.goals=[[1,2],[3,4]]", "--set=a.b=[]", "office.yaml"});
   EXPECT_EQ(options.assignments, (std::vector<std::string>{"robots.0.goals=[[1,2],[3,4]]", "a.b=[]"}));
   EXPECT_EQ(options.scenario, "office.yaml");
   EXPECT_EQ(std::get<CheckOptions>(read({"check", "a.yaml", "--set", "x=1"})).assignments.size(), 1u);
 }
 
-TEST_F(CommandLine, a_run_is_interactive_or_follows_a_journal) {
+TEST_F(CommandLine, RefusesInteractiveWithAJournalToReplay) {
   const RunOptions options = run({"run", "a", "--interactive", "--journal", "j"});
   EXPECT_TRUE(options.interactive);
   EXPECT_EQ(options.journal, "j");
@@ -67,14 +67,14 @@ TEST_F(CommandLine, a_run_is_interactive_or_follows_a_journal) {
             "--seeds: cannot be used together with --journal");
 }
 
-TEST_F(CommandLine, a_range_of_seeds) {
+TEST_F(CommandLine, ReadsARangeOfSeeds) {
   const RunOptions options = run({"run", "a", "--seeds", "3..10"});
   ASSERT_TRUE(options.seeds.has_value());
   EXPECT_EQ(options.seeds->first, 3u);
   EXPECT_EQ(options.seeds->last, 10u);
 }
 
-TEST_F(CommandLine, the_environments_seed_gives_way_to_the_options) {
+TEST_F(CommandLine, SeedOptionOverridesTheEnvironment) {
   setenv("WAITPOINT_SEED", "77", 1);
   EXPECT_EQ(run({"run", "a"}).seed, 77u);
   EXPECT_EQ(run({"run", "a", "--seed", "5"}).seed, 5u);
@@ -82,7 +82,7 @@ TEST_F(CommandLine, the_environments_seed_gives_way_to_the_options) {
   EXPECT_EQ(message({"run", "a"}), "WAITPOINT_SEED: expected a whole number from 0 to 2^64 - 1, found 'many'");
 }
 
-TEST_F(CommandLine, a_self_check_writes_no_files_and_is_of_one_run) {
+TEST_F(CommandLine, SelfCheckRefusesFilesAndSeveralRuns) {
   EXPECT_FALSE(run({"run", "a"}).check);
   const RunOptions options = run({"run", "a", "--check", "--seed", "3", "--until", "2", "--replay-durations", "d"});
   EXPECT_TRUE(options.check);
@@ -96,7 +96,7 @@ TEST_F(CommandLine, a_self_check_writes_no_files_and_is_of_one_run) {
   EXPECT_EQ(message({"run", "a", "--check", "--speed", "1"}), "--check: cannot be used together with --speed");
 }
 
-TEST_F(CommandLine, what_is_to_be_run_in_gdb_is_left_as_it_is) {
+TEST_F(CommandLine, GdbPassesItsCommandUnchanged) {
   using Words = std::vector<std::string>;
   const auto of_scenario =
       std::get<DebugOptions>(read({"gdb", "-batch", "-x", "f", "--", "run", "a.yaml", "--seed", "?"}));
@@ -112,7 +112,7 @@ TEST_F(CommandLine, what_is_to_be_run_in_gdb_is_left_as_it_is) {
   EXPECT_NE(std::get<ShownText>(read({"gdb", "--help"})).text.find("-- PROGRAM"), std::string::npos);
 }
 
-TEST_F(CommandLine, help_and_version_are_texts) {
+TEST_F(CommandLine, HelpAndVersionAreTexts) {
   EXPECT_EQ(std::get<ShownText>(read({"--version"})).text, "waitpoint 1.2.3\n");
   const std::string help = std::get<ShownText>(read({"run", "--help"})).text;
   for (const char* option :
@@ -123,7 +123,7 @@ TEST_F(CommandLine, help_and_version_are_texts) {
   EXPECT_NE(std::get<ShownText>(read({"--help"})).text.find("check"), std::string::npos);
 }
 
-TEST_F(CommandLine, what_is_not_understood_is_one_clear_line) {
+TEST_F(CommandLine, ReportsBadArgumentsInOneLine) {
   EXPECT_EQ(
       message({}),
       "command line: expected a command: run, check, plan, gdb, explore, exec, genom, replay, fit, compare, view, "
@@ -143,13 +143,13 @@ TEST_F(CommandLine, what_is_not_understood_is_one_clear_line) {
             "--seeds: cannot be used together with --picture");
 }
 
-TEST_F(CommandLine, an_empty_word_is_no_default) {
+TEST_F(CommandLine, RefusesAnEmptyWord) {
   EXPECT_EQ(message({"run", "a", "--seed", ""}), "--seed: expected a value, found ''");
   EXPECT_EQ(message({"run", ""}), "SCENARIO: expected a value, found ''");
   EXPECT_EQ(message({"explore", "a", "--iterations", ""}), "--iterations: expected a value, found ''");
 }
 
-TEST_F(CommandLine, a_flag_takes_no_value) {
+TEST_F(CommandLine, RefusesAValueOfAFlag) {
   EXPECT_EQ(message({"run", "a", "--json=1"}), "--json: expected no value, found '1'");
   EXPECT_EQ(message({"check", "a", "--json=true"}), "--json: expected no value, found 'true'");
   EXPECT_EQ(message({"--version", "--json=yes"}), "--json: expected no value, found 'yes'");
@@ -158,7 +158,7 @@ TEST_F(CommandLine, a_flag_takes_no_value) {
   EXPECT_EQ(run({"run", "a", "--set", "name=--json=1"}).assignments.front(), "name=--json=1");
 }
 
-TEST(Version, tells_compiler_flags_and_math) {
+TEST(Version, NamesCompilerFlagsAndMath) {
   const std::string text = version_text();
   for (const char* part : {"waitpoint ", "\ndigests   wp1\n", "\ncompiler  ", "\nflags     ", "\nmath      "}) {
     EXPECT_NE(text.find(part), std::string::npos) << part;
@@ -166,7 +166,7 @@ TEST(Version, tells_compiler_flags_and_math) {
   EXPECT_EQ(text.find(" \n"), std::string::npos);
 }
 
-TEST_F(CommandLine, two_files_of_one_name_are_refused) {
+TEST_F(CommandLine, RefusesTwoFilesOfOneName) {
   EXPECT_EQ(message({"run", "a", "--summary", "out", "--events", "out"}),
             "--events: 'out' is the file that --summary writes");
   EXPECT_EQ(message({"run", "a", "--digests", "out", "--picture", "no/../out"}),
@@ -187,7 +187,7 @@ TEST_F(CommandLine, two_files_of_one_name_are_refused) {
   EXPECT_EQ(message({"run", "a", "--summary", "out", "--events", "out.events"}), "");
 }
 
-TEST_F(CommandLine, the_three_files_of_a_trajectory_are_distinct_from_the_others) {
+TEST_F(CommandLine, RefusesFilesOfATrajectoryUsedTwice) {
   for (const char* name : {"a.tum", "a.estimated.tum", "a.odometry.tum"})
     EXPECT_EQ(message({"run", "a", "--trajectory", "a.tum", "--events", name}),
               "--events: '" + std::string(name) + "' is the file that --trajectory writes");
@@ -199,14 +199,14 @@ TEST_F(CommandLine, the_three_files_of_a_trajectory_are_distinct_from_the_others
     EXPECT_NE(message({"run", "a", "--trajectory", name}).find("it writes three files"), std::string::npos);
 }
 
-TEST_F(CommandLine, a_picture_has_no_name_of_another_format) {
+TEST_F(CommandLine, RefusesAPictureNamedAsAnotherFormat) {
   for (const char* name : {"x.png", "x.PNG", "x.Jpg", "x.PDF", "x.jpeg", "x.gif", "x.webp", "x.tiff"})
     EXPECT_NE(message({"run", "a", "--picture", name}).find("ends in .svg"), std::string::npos) << name;
   for (const char* name : {"x.svg", "x.SVG", "x", "a.b/x", "x.picture", "-", "/dev/stdout"})
     EXPECT_EQ(message({"run", "a", "--picture", name}), "") << name;
 }
 
-TEST_F(CommandLine, standard_output_as_a_file_is_noticed) {
+TEST_F(CommandLine, RecognisesStandardOutputAsAFile) {
   for (const char* option : {"--summary", "--picture", "--record", "--digests", "--events", "--decisions",
                              "--record-durations", "--journal"}) {
     EXPECT_TRUE(run({"run", "a", option, "-"}).writes_standard_output()) << option;
@@ -214,7 +214,7 @@ TEST_F(CommandLine, standard_output_as_a_file_is_noticed) {
   }
 }
 
-TEST_F(CommandLine, a_replay_line_is_read_back_by_a_shell) {
+TEST_F(CommandLine, ReplayLineSurvivesAShell) {
   EXPECT_EQ(replay_line(run({"run", "a.yaml", "--set", "x=1", "--replay-journal", "j"}), 3),
             "waitpoint run a.yaml --seed 3 --replay-journal j --set 'x=1'");
   EXPECT_EQ(replay_line(run({"run", "a.yaml", "--order", "seeded", "--until", "2.5", "--brief"}), 3),

@@ -13,7 +13,7 @@ namespace {
 
 class LaunchErrors : public LaunchTexts {};
 
-TEST_F(LaunchErrors, elements_and_attributes_are_known_ones) {
+TEST_F(LaunchErrors, RefuseUnknownElementsAndAttributes) {
   const std::vector<std::pair<std::string, std::string>> cases = {
       {R"xml(<nod pkg="p" type="t" name="n"/>)xml", "unknown element <nod> in <launch>, did you mean 'node'?"},
       {R"xml(<group><zzzzz/></group>)xml",
@@ -35,7 +35,7 @@ TEST_F(LaunchErrors, elements_and_attributes_are_known_ones) {
   for (const auto& [elements, expected] : cases) EXPECT_EQ(complaint_about(elements), "a.launch:2: " + expected);
 }
 
-TEST_F(LaunchErrors, what_a_simulation_does_not_do_is_refused) {
+TEST_F(LaunchErrors, RefuseFeaturesThatASimulationLacks) {
   const std::string node = R"xml(<node pkg="p" type="t" name="n" )xml";
   EXPECT_EQ(complaint_about(node + R"xml(respawn="true"/>)xml"),
             "a.launch:2: expected no respawn: a node that ends is a result of the run, not started again");
@@ -52,7 +52,7 @@ TEST_F(LaunchErrors, what_a_simulation_does_not_do_is_refused) {
             "a.launch:2: expected 'command' of <rosparam> to be load, found 'delete'");
 }
 
-TEST_F(LaunchErrors, values_of_attributes_are_checked) {
+TEST_F(LaunchErrors, CheckValuesOfAttributes) {
   const std::string node = R"xml(<node pkg="p" type="t" )xml";
   const std::vector<std::pair<std::string, std::string>> cases = {
       {node + R"xml(name="a/b"/>)xml",
@@ -78,7 +78,7 @@ TEST_F(LaunchErrors, values_of_attributes_are_checked) {
   for (const auto& [elements, expected] : cases) EXPECT_EQ(complaint_about(elements), "a.launch:2: " + expected);
 }
 
-TEST_F(LaunchErrors, parameters_are_checked) {
+TEST_F(LaunchErrors, CheckParameters) {
   const std::vector<std::pair<std::string, std::string>> cases = {
       {R"xml(<param name="a"/>)xml", "expected 'value' or 'textfile' of <param>, found none"},
       {R"xml(<param name="a" value="1" textfile="t"/>)xml", "expected 'value' or 'textfile' of <param>, found both"},
@@ -102,7 +102,7 @@ TEST_F(LaunchErrors, parameters_are_checked) {
             "a.launch:3: expected no parameter '/a': there is '/a/b' at a.launch:2");
 }
 
-TEST_F(LaunchErrors, yaml_has_its_own_lines) {
+TEST_F(LaunchErrors, NameLinesWithinEmbeddedYaml) {
   EXPECT_EQ(complaint_about("<rosparam>\n  a: 1\n  b: 2\n  a: 3\n</rosparam>"),
             "a.launch:5: key 'a' is given twice, first at a.launch:3");
   folder_.write("p.yaml", "a: 1\nb: [");
@@ -110,7 +110,7 @@ TEST_F(LaunchErrors, yaml_has_its_own_lines) {
             "p.yaml:2: this is not valid YAML: end of sequence flow not found");
 }
 
-TEST_F(LaunchErrors, substitutions_are_checked) {
+TEST_F(LaunchErrors, CheckSubstitutions) {
   const std::vector<std::pair<std::string, std::string>> cases = {
       {"$(arg x)", "there is no argument 'x' here"},
       {"$(arg spede)", "there is no argument 'spede' here, did you mean 'speed'?"},
@@ -136,7 +136,7 @@ TEST_F(LaunchErrors, substitutions_are_checked) {
   }
 }
 
-TEST_F(LaunchErrors, arguments_fit_to_the_file) {
+TEST_F(LaunchErrors, CheckArgumentsAgainstTheirDeclarations) {
   EXPECT_EQ(complaint_about(R"xml(<arg name="a"/> <arg name="a"/>)xml"),
             "a.launch:2: the argument 'a' is declared twice");
   EXPECT_EQ(complaint_about(R"xml(<arg name="a" value="1" default="2"/>)xml"),
@@ -147,13 +147,13 @@ TEST_F(LaunchErrors, arguments_fit_to_the_file) {
             "s.yaml:7: the file 'a.launch' has no argument 'sped', did you mean 'speed'?");
 }
 
-TEST_F(LaunchErrors, two_nodes_have_two_names) {
+TEST_F(LaunchErrors, RefuseTwoNodesOfOneName) {
   EXPECT_EQ(complaint("<launch>\n<node pkg='p' type='t' name='n' ns='a'/>\n<group ns='a'>\n<node pkg='p' type='u' "
                       "name='n'/></group></launch>"),
             "a.launch:4: there are two nodes called '/a/n', the first at a.launch:2");
 }
 
-TEST_F(LaunchErrors, an_included_file_is_named_with_the_way_to_it) {
+TEST_F(LaunchErrors, NameTheChainOfIncludes) {
   folder_.write("c.launch", "<launch>\n<nodes/>\n</launch>");
   folder_.write("b.launch", "<launch><include file='c.launch'/></launch>");
   EXPECT_EQ(
@@ -173,7 +173,7 @@ TEST_F(LaunchErrors, an_included_file_is_named_with_the_way_to_it) {
             "a.launch:2: expected a 'value' of the argument 'x' that is passed, found none");
 }
 
-TEST_F(LaunchErrors, includes_end) {
+TEST_F(LaunchErrors, BoundIncludes) {
   EXPECT_EQ(complaint_about("<include file='a.launch'/>"),
             "a.launch: expected a file that does not include itself (included at a.launch:2)");
   // Two includes in each of twenty files: a million.
@@ -186,7 +186,7 @@ TEST_F(LaunchErrors, includes_end) {
             std::string::npos);
 }
 
-TEST_F(LaunchErrors, texts_do_not_grow_without_end) {
+TEST_F(LaunchErrors, BoundTexts) {
   std::string elements = "<arg name='a0' value='0123456789abcdef'/>";
   for (int i = 1; i < 40; ++i) {
     const std::string before = "$(arg a" + std::to_string(i - 1) + ")";
@@ -195,7 +195,7 @@ TEST_F(LaunchErrors, texts_do_not_grow_without_end) {
   EXPECT_EQ(complaint_about(elements), "a.launch:2: expected a text of at most 1 MiB after substitution");
 }
 
-TEST_F(LaunchErrors, elements_are_bounded) {
+TEST_F(LaunchErrors, BoundElements) {
   std::string many, groups;
   for (int i = 0; i < 1100; ++i) many += "<arg name='a" + std::to_string(i) + "' value='1'/>";
   EXPECT_EQ(complaint_about(many),
@@ -204,7 +204,7 @@ TEST_F(LaunchErrors, elements_are_bounded) {
   EXPECT_EQ(complaint_about(groups), "a.launch:2: expected at most 20000 elements in all files of a launch");
 }
 
-TEST_F(LaunchErrors, what_is_no_launch_file_is_told) {
+TEST_F(LaunchErrors, RefuseFilesOfOtherFormats) {
   EXPECT_EQ(complaint("<robot/>"), "a.launch:1: expected the outermost element to be <launch>");
   EXPECT_EQ(complaint("<launch x='1'/>"),
             "a.launch:1: unknown attribute 'x' of <launch>, expected deprecated, if or unless");

@@ -26,7 +26,7 @@ std::string complaint(const std::string& expression) {
   return scenario::message_of<BadInput>([&] { value_of(expression); });
 }
 
-TEST(LaunchExpression, compares) {
+TEST(LaunchExpression, Compares) {
   for (const char* holds : {"word == 'fast'", "word != \"slow\"", "number >= 3 and number < 4", "not (number > 3)",
                             "arg('sim')", "sim == True", "none == ''", "number == 3.0", "'3' != number", "'a' < 'b'",
                             "not not sim", "True or word", "1 <= 1", "sim == 1"})
@@ -35,7 +35,7 @@ TEST(LaunchExpression, compares) {
     EXPECT_EQ(value_of(fails), "False") << fails;
 }
 
-TEST(LaunchExpression, calculates) {
+TEST(LaunchExpression, Calculates) {
   EXPECT_EQ(value_of("2 * number + 1"), "7");
   EXPECT_EQ(value_of("1 - 2 - 3"), "-4");
   EXPECT_EQ(value_of("number / 2"), "1.5");
@@ -49,19 +49,19 @@ TEST(LaunchExpression, calculates) {
   EXPECT_EQ(value_of("'a' + word + 'b'"), "afastb");
 }
 
-TEST(LaunchExpression, chooses) {
+TEST(LaunchExpression, EvaluatesConditionals) {
   EXPECT_EQ(value_of("'x' if sim else 'y'"), "x");
   EXPECT_EQ(value_of("1 if number > 5 else 2 if number > 2 else 3"), "2");
   EXPECT_EQ(value_of("none or word"), "fast");
   EXPECT_EQ(value_of("none and word"), "");
 }
 
-TEST(LaunchExpression, calls_substitutions) {
+TEST(LaunchExpression, CallsSubstitutions) {
   EXPECT_EQ(value_of("env('HOME')"), "env2");
   EXPECT_EQ(value_of("optenv('A', 'b') + dirname()"), "optenv3dirname1");
 }
 
-TEST(LaunchExpression, tells_what_is_wrong) {
+TEST(LaunchExpression, ReportsErrors) {
   EXPECT_EQ(complaint("1 +"), "a.launch:3: expected a value in the expression '1 +', found its end");
   EXPECT_EQ(complaint("(1"), "a.launch:3: expected ')' in the expression '(1', found its end");
   EXPECT_EQ(complaint("1 2"), "a.launch:3: expected the end in the expression '1 2', found '2'");
@@ -92,7 +92,7 @@ TEST(LaunchExpression, tells_what_is_wrong) {
     EXPECT_NE(complaint(wrong), "") << wrong;
 }
 
-TEST(LaunchExpression, is_bounded) {
+TEST(LaunchExpression, BoundsNestingAndLength) {
   EXPECT_EQ(complaint(std::string(5000, '1')), "a.launch:3: expected an expression of at most 4096 characters");
   EXPECT_NE(complaint(std::string(2000, '(')).find("expected at most 50 levels"), std::string::npos);
   EXPECT_EQ(value_of(std::string(4000, '-') + "1"), "1");

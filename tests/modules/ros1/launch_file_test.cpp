@@ -9,7 +9,7 @@ namespace {
 
 class LaunchFile : public LaunchTexts {};
 
-TEST_F(LaunchFile, a_node_has_its_attributes) {
+TEST_F(LaunchFile, ReadsTheAttributesOfANode) {
   const Launch launch = read(R"xml(<?xml version="1.0"?>
 <launch>
   <!-- a comment -->
@@ -34,7 +34,7 @@ TEST_F(LaunchFile, a_node_has_its_attributes) {
   EXPECT_TRUE(map.arguments.empty());
 }
 
-TEST_F(LaunchFile, parameters_have_types) {
+TEST_F(LaunchFile, GivesParametersTheirTypes) {
   EXPECT_EQ(text_of(read_elements(R"xml(
     <param name="a" value="3"/> <param name="b" value="3.5"/> <param name="c" value="True"/> <param name="d" value="x y"/>
     <param name="e" value="1e3"/> <param name="f" value="3" type="str"/> <param name="g" value="3" type="double"/>
@@ -44,7 +44,7 @@ TEST_F(LaunchFile, parameters_have_types) {
             R"xml(/a=3 /b=3.5 /c=true /d="x y" /e="1e3" /f="3" /g=3.0 /h=true /i=[1,{"j":2.5}] /k=-7 /l="")xml");
 }
 
-TEST_F(LaunchFile, parameters_are_of_namespaces_and_nodes) {
+TEST_F(LaunchFile, PutsParametersIntoNamespacesAndNodes) {
   EXPECT_EQ(text_of(read_elements(R"xml(
     <param name="a" value="1"/> <param name="/b" value="2"/>
     <group ns="g">
@@ -58,14 +58,14 @@ TEST_F(LaunchFile, parameters_are_of_namespaces_and_nodes) {
             "/a=1 /b=2 /deep/down/m/all=4 /deep/down/m/f=7 /deep/down/m/g/h=8 /g/c=3 /g/n/all=4 /g/n/d=5 /g/n/e=6");
 }
 
-TEST_F(LaunchFile, a_later_parameter_replaces_an_earlier_one) {
+TEST_F(LaunchFile, LaterParametersReplaceEarlierOnes) {
   EXPECT_EQ(text_of(read_elements(R"xml(<param name="a" value="1"/> <rosparam>{a: 2, b: 3}</rosparam>
                                      <param name="b" value="4"/>)xml")
                         .parameters),
             "/a=2 /b=4");
 }
 
-TEST_F(LaunchFile, rosparam_reads_yaml_of_the_text_and_of_files) {
+TEST_F(LaunchFile, RosparamReadsYamlFromTextAndFiles) {
   folder_.write("p.yaml", "speed: 0.5\nlimits: {low: -1, high: 1}\nname: yes\n");
   folder_.write("list.yaml", "[1, 2]");
   EXPECT_EQ(text_of(read_elements(R"xml(<arg name="x" default="9"/>
@@ -83,13 +83,13 @@ TEST_F(LaunchFile, rosparam_reads_yaml_of_the_text_and_of_files) {
             "/numbers=[1,2] /text=[9]");
 }
 
-TEST_F(LaunchFile, a_text_file_is_a_parameter) {
+TEST_F(LaunchFile, ReadsAParameterFromATextFile) {
   folder_.write("r.urdf", "<robot/>\n");
   EXPECT_EQ(text_of(read_elements(R"xml(<param name="robot_description" textfile="r.urdf"/>)xml").parameters),
             R"xml(/robot_description="<robot/>\n")xml");
 }
 
-TEST_F(LaunchFile, remappings_and_variables_end_with_their_scope) {
+TEST_F(LaunchFile, RemappingsAndVariablesEndWithTheirScope) {
   const Launch launch = read_elements(R"xml(
     <remap from="scan" to="base_scan"/> <env name="A" value="1"/>
     <group>
@@ -103,7 +103,7 @@ TEST_F(LaunchFile, remappings_and_variables_end_with_their_scope) {
   EXPECT_EQ(text_of(launch.nodes[1].environment), "A=1");
 }
 
-TEST_F(LaunchFile, conditions_choose_elements) {
+TEST_F(LaunchFile, ConditionsSelectElements) {
   EXPECT_EQ(text_of(read_elements(R"xml(<arg name="sim" default="true"/> <arg name="kind" default="fast"/>
     <param name="a" value="1" if="$(arg sim)"/> <param name="b" value="1" unless="$(arg sim)"/>
     <group if="0"> <param name="c" value="1"/> </group> <group unless="False"> <param name="d" value="1"/> </group>
@@ -113,14 +113,14 @@ TEST_F(LaunchFile, conditions_choose_elements) {
             "/a=1 /d=1 /e=1");
 }
 
-TEST_F(LaunchFile, arguments_are_given_or_have_defaults) {
+TEST_F(LaunchFile, ArgumentsAreGivenOrDefault) {
   const std::string text = R"xml(<arg name="a" default="1"/> <arg name="b" default="$(arg a)$(arg a)"/>
     <arg name="c" value="fixed"/> <param name="p" value="$(arg a) $(arg b) $(arg c)"/>)xml";
   EXPECT_EQ(text_of(read_elements(text).parameters), R"xml(/p="1 11 fixed")xml");
   EXPECT_EQ(text_of(read_elements(text, {{"a", "x"}}).parameters), R"xml(/p="x xx fixed")xml");
 }
 
-TEST_F(LaunchFile, an_included_file_has_only_the_arguments_that_are_passed) {
+TEST_F(LaunchFile, IncludedFilesSeeOnlyPassedArguments) {
   folder_.write("inner/b.launch", R"xml(<launch> <arg name="x"/> <arg name="y" default="of b"/>
     <param name="p" value="$(arg x), $(arg y)"/> <param name="at" value="$(dirname)"/>
     <include file="c.launch" if="false"/> <node pkg="p" type="t" name="n"/> </launch>)xml");
@@ -139,7 +139,7 @@ TEST_F(LaunchFile, an_included_file_has_only_the_arguments_that_are_passed) {
   EXPECT_TRUE(launch.nodes[1].environment.empty());
 }
 
-TEST_F(LaunchFile, names_and_places_are_substituted) {
+TEST_F(LaunchFile, SubstitutesNamesAndPaths) {
   variables_ = {{"ROBOT", "rackham"}};
   folder_.write("share/maps/package.xml", "<package><name>maps</name></package>");
   const Launch launch = read_elements(R"xml(<param name="a" value="$(env ROBOT) $(optenv ROBOT x)"/>
@@ -154,7 +154,7 @@ TEST_F(LaunchFile, names_and_places_are_substituted) {
   EXPECT_EQ(launch.nodes[1].name, "other_2");
 }
 
-TEST_F(LaunchFile, tests_are_kept_apart) {
+TEST_F(LaunchFile, KeepsTestsSeparate) {
   const Launch launch = read_elements(R"xml(
     <test test-name="drives" pkg="p" type="t.test" time-limit="90.5" retry="2" args="-v"> <param name="x" value="1"/> </test>
     <test test-name="stands" name="checker" pkg="p" type="t"/>)xml");
@@ -169,14 +169,14 @@ TEST_F(LaunchFile, tests_are_kept_apart) {
   EXPECT_EQ(text_of(launch.parameters), "/drives/x=1");
 }
 
-TEST_F(LaunchFile, namespaces_can_be_cleared_first) {
+TEST_F(LaunchFile, ClearsNamespacesOnRequest) {
   EXPECT_EQ(read_elements(R"xml(<group ns="g" clear_params="true"> <node pkg="p" type="t" name="n" clear_params="true"/>
                              </group>)xml")
                 .cleared,
             (std::vector<std::string>{"/g", "/g/n"}));
 }
 
-TEST_F(LaunchFile, the_fingerprint_is_of_all_files) {
+TEST_F(LaunchFile, FingerprintCoversAllFiles) {
   const std::string text = R"xml(<launch> <include file="b.launch"/> </launch>)xml";
   folder_.write("b.launch", "<launch/>");
   const std::uint64_t first = read(text).fingerprint;
@@ -186,7 +186,7 @@ TEST_F(LaunchFile, the_fingerprint_is_of_all_files) {
   EXPECT_NE(read(text).fingerprint, first);
 }
 
-TEST_F(LaunchFile, a_deprecated_file_is_a_warning) {
+TEST_F(LaunchFile, WarnsOfADeprecatedFile) {
   const Launch launch = read(R"xml(<launch deprecated="use b.launch"/>)xml");
   ASSERT_EQ(launch.warnings.size(), 1U);
   EXPECT_NE(launch.warnings[0].find("a.launch:1: the launch file is deprecated: use b.launch"), std::string::npos);

@@ -10,7 +10,7 @@
 namespace waitpoint::ros1 {
 namespace {
 
-TEST(GraphName, is_of_words) {
+TEST(GraphName, ConsistsOfWordsAndSlashes) {
   for (const char* good : {"a", "a_1/b2", "/a/b", "/", "~a", "~/a/b", "a/1"}) EXPECT_TRUE(is_graph_name(good)) << good;
   for (const char* bad : {"", "1a", "a b", "a//b", "a/", "~", "//", "/1", "a-b", "_a", "é"})
     EXPECT_FALSE(is_graph_name(bad)) << bad;
@@ -18,7 +18,7 @@ TEST(GraphName, is_of_words) {
   for (const char* bad : {"", "a/b", "/a", "~a", "1", "_a"}) EXPECT_FALSE(is_base_name(bad)) << bad;
 }
 
-TEST(GraphName, is_resolved_in_its_namespace) {
+TEST(GraphName, ResolvesInItsNamespace) {
   EXPECT_EQ(resolved("scan", "/"), "/scan");
   EXPECT_EQ(resolved("scan", "/r/s"), "/r/s/scan");
   EXPECT_EQ(resolved("/scan", "/r"), "/scan");
@@ -27,7 +27,7 @@ TEST(GraphName, is_resolved_in_its_namespace) {
   EXPECT_EQ(without_extra_slashes("//a///b/"), "/a/b");
 }
 
-TEST(WordsOfText, are_those_of_a_shell) {
+TEST(WordsOfText, SplitAsAShellDoes) {
   std::vector<std::string> words;
   EXPECT_TRUE(split_words(R"( a  'b c' "d \" e"f g\ h '' "\n" )", words));
   EXPECT_EQ(words, (std::vector<std::string>{"a", "b c", "d \" ef", "g h", "", "\\n"}));
@@ -37,7 +37,7 @@ TEST(WordsOfText, are_those_of_a_shell) {
   for (const char* bad : {"'a", "\"a", "a\\"}) EXPECT_FALSE(split_words(bad, words)) << bad;
 }
 
-TEST(NodeCondition, is_of_nodes_topics_services_and_the_system) {
+TEST(NodeCondition, NamesNodesTopicsServicesAndPorts) {
   NodeCondition condition;
   ASSERT_TRUE(parse("topic:scan", "/r", condition));
   EXPECT_EQ(std::get<Advertisement>(condition).name, "/r/scan");
@@ -63,7 +63,7 @@ Node node(const std::string& ns, const std::string& name, int line, const std::v
   return result;
 }
 
-TEST(LaunchConditions, name_nodes_of_the_own_namespace_first) {
+TEST(LaunchConditions, PreferNodesOfTheirOwnNamespace) {
   Launch launch;
   launch.add(node("/a", "map", 1));
   launch.add(node("/b", "map", 2));
@@ -80,7 +80,7 @@ TEST(LaunchConditions, name_nodes_of_the_own_namespace_first) {
             "s.yaml:5: after: there are several nodes 'map', but none in the namespace /c");
 }
 
-TEST(LaunchConditions, are_of_nodes_that_can_start) {
+TEST(LaunchConditions, RefuseUnknownNodesAndCycles) {
   Launch unknown;
   unknown.add(node("/", "driver", 1));
   unknown.add(node("/", "a", 2, {"drivre"}));

@@ -26,7 +26,7 @@ class PackageFolders : public ::testing::Test {
   scenario::TemporaryFolder folder_;
 };
 
-TEST_F(PackageFolders, an_installed_package_has_its_executables_in_lib) {
+TEST_F(PackageFolders, FindsExecutablesOfInstalledPackagesInLib) {
   package("usr/share/nav", "nav");
   const fs::path amcl = program("usr/lib/nav/amcl"), script = program("usr/share/nav/scripts/plot.py");
   Packages packages({in("usr/share")});
@@ -38,7 +38,7 @@ TEST_F(PackageFolders, an_installed_package_has_its_executables_in_lib) {
   EXPECT_EQ(packages.executable("map", "amcl"), std::nullopt);
 }
 
-TEST_F(PackageFolders, a_workspace_is_searched_by_names_in_manifests) {
+TEST_F(PackageFolders, SearchesWorkspacesByNamesInManifests) {
   const fs::path map = package("ws/src/navigation/folder_of_map", "map");
   package("ws/src/navigation/folder_of_map/inner", "inner");
   package("ws/src/old/folder", "ignored");
@@ -53,7 +53,7 @@ TEST_F(PackageFolders, a_workspace_is_searched_by_names_in_manifests) {
     EXPECT_EQ(packages.folder(none), std::nullopt) << none;
 }
 
-TEST_F(PackageFolders, the_first_root_and_the_first_by_name_count) {
+TEST_F(PackageFolders, PrefersTheFirstRootAndTheFirstByName) {
   package("one/b", "twice");
   const fs::path first = package("one/a", "twice");
   package("two/twice", "twice");
@@ -61,7 +61,7 @@ TEST_F(PackageFolders, the_first_root_and_the_first_by_name_count) {
   EXPECT_EQ(Packages({in("none"), in("two"), in("one")}).folder("twice"), in("two/twice"));
 }
 
-TEST_F(PackageFolders, an_executable_is_a_file_that_can_be_executed) {
+TEST_F(PackageFolders, RequiresExecutablePermission) {
   package("src/p", "p");
   folder_.write("src/p/run", "no program");
   fs::create_directories(in("src/p/a/run"));
@@ -70,14 +70,14 @@ TEST_F(PackageFolders, an_executable_is_a_file_that_can_be_executed) {
   EXPECT_EQ(Packages({in("src")}).executable("p", "run"), found);
 }
 
-TEST_F(PackageFolders, a_manifest_without_a_name_is_none) {
+TEST_F(PackageFolders, IgnoresAManifestWithoutAName) {
   folder_.write("share/p/package.xml", "<package/>");
   folder_.write("share/q/package.xml", "no XML");
   EXPECT_EQ(Packages({in("share")}).folder("p"), std::nullopt);
   EXPECT_EQ(Packages({in("share")}).folder("q"), std::nullopt);
 }
 
-TEST_F(PackageFolders, roots_are_those_of_the_environment_and_of_debian) {
+TEST_F(PackageFolders, TakesRootsFromTheEnvironmentAndDebian) {
   const auto roots_of = [](std::optional<std::string> listed) {
     return Packages::of([&](const std::string& name) { return name == "ROS_PACKAGE_PATH" ? listed : std::nullopt; })
         .roots();

@@ -17,9 +17,9 @@ bridge::RunResult result_with(std::size_t reached, std::size_t goals, std::uint6
   return result;
 }
 
-TEST(Expectation, nothing_expected_is_always_met) { EXPECT_EQ(unmet({}, result_with(0, 3, 9)), Lines{}); }
+TEST(Expectation, EmptyIsAlwaysMet) { EXPECT_EQ(unmet({}, result_with(0, 3, 9)), Lines{}); }
 
-TEST(Expectation, all_goals_and_no_collisions) {
+TEST(Expectation, ChecksGoalsAndCollisions) {
   scenario::Expectation expect;
   expect.all_goals_reached = true;
   expect.collisions = 0;
@@ -29,14 +29,14 @@ TEST(Expectation, all_goals_and_no_collisions) {
   EXPECT_EQ(unmet(expect, result_with(2, 3, 1)).size(), 2u);
 }
 
-TEST(Expectation, a_number_of_goals_is_exact) {
+TEST(Expectation, RequiresAnExactNumberOfGoals) {
   scenario::Expectation expect;
   expect.goals_reached = 2;
   EXPECT_EQ(unmet(expect, result_with(2, 3, 5)), Lines{});
   EXPECT_EQ(unmet(expect, result_with(3, 3, 5)), Lines{"3 of 3 goals reached, expected 2"});
 }
 
-TEST(Expectation, what_is_greater_by_little_is_told_with_the_digits_that_differ) {
+TEST(Expectation, PrintsDigitsUpToTheDifference) {
   scenario::Expectation expect;
   expect.position_error_max_m = 0.025;
   bridge::RunResult result = result_with(0, 0, 0);
@@ -46,19 +46,19 @@ TEST(Expectation, what_is_greater_by_little_is_told_with_the_digits_that_differ)
   }
 }
 
-TEST(Expectation, a_run_without_progress_is_never_expected) {
+TEST(Expectation, NeverAllowsARunWithoutProgress) {
   bridge::RunResult result = result_with(0, 0, 0);
   result.outcome = bridge::Outcome::no_progress;
   EXPECT_EQ(unmet({}, result), Lines{"the run made no progress"});
 }
 
-TEST(Expectation, a_deadlock_is_never_expected) {
+TEST(Expectation, NeverAllowsADeadlock) {
   bridge::RunResult result = result_with(0, 0, 0);
   result.outcome = bridge::Outcome::deadlock;
   EXPECT_EQ(unmet({}, result), Lines{"the run ended in a deadlock"});
 }
 
-TEST(RunTotals, sum_counts_and_keep_the_greatest_errors) {
+TEST(RunTotals, SumCountsAndKeepTheGreatestErrors) {
   bridge::RunResult result = result_with(1, 2, 3);
   result.robots[0].position_error_mean_m = 0.25;
   result.robots[0].position_error_max_m = 0.5;

@@ -23,7 +23,7 @@ class BaseReader : public ::testing::Test {
   TemporaryFolder folder_;
 };
 
-TEST_F(BaseReader, each_kind_has_its_own_keys) {
+TEST_F(BaseReader, EachKindHasItsOwnKeys) {
   EXPECT_EQ(base("kind: synchro").kind, Kind::synchro);
   EXPECT_EQ(base("kind: omni").kind, Kind::omni);
   const world::BaseDescription car =
@@ -42,12 +42,12 @@ TEST_F(BaseReader, each_kind_has_its_own_keys) {
   EXPECT_EQ(drone.climb_acceleration_m_s2, 0.9);
 }
 
-TEST_F(BaseReader, a_watchdog_is_there_only_if_asked_for) {
+TEST_F(BaseReader, HasAWatchdogOnRequest) {
   EXPECT_EQ(base("kind: omni").watchdog, Duration());
   EXPECT_EQ(base("kind: omni\n      watchdog_ms: 300").watchdog, Duration(300ms));
 }
 
-TEST_F(BaseReader, what_flies_has_a_height_where_it_starts) {
+TEST_F(BaseReader, AerialBasesHaveAStartHeight) {
   const std::string start = "robots.one.start_height_m=1.5";
   const Scenario flies = read(valid_scenario, {"robots.one.base.kind=aerial", start});
   EXPECT_EQ(flies.robots[0].body.start_height_m, 1.5);
@@ -55,7 +55,7 @@ TEST_F(BaseReader, what_flies_has_a_height_where_it_starts) {
             "--set " + start + ": expected no start_height_m: robot 'one' does not fly");
 }
 
-TEST_F(BaseReader, odometry_has_its_errors) {
+TEST_F(BaseReader, ReadsOdometryErrors) {
   const world::OdometryErrors errors =
       read(changed("{travel_scale: 1.01}",
                    "{wheel_diameter_ratio: 1.002, wheel_base_ratio: 0.99, wheel_noise_m_per_sqrt_m: 0.003, "
@@ -79,7 +79,7 @@ struct BadBase {
 
 class BadBases : public ::testing::TestWithParam<BadBase> {};
 
-TEST_P(BadBases, are_one_line_that_names_file_line_and_what_was_expected) {
+TEST_P(BadBases, AreReportedInOneLineWithFileAndLine) {
   const TemporaryFolder folder;
   const auto file = folder.write(
       "s.yaml",

@@ -16,7 +16,7 @@ class ControlReader : public ::testing::Test {
   TemporaryFolder folder_;
 };
 
-TEST_F(ControlReader, rules_of_a_robot_precede_those_of_the_scenario) {
+TEST_F(ControlReader, RulesOfARobotPrecedeThoseOfTheScenario) {
   const std::string all = folder_.write("all.ctl", "# all").string(), own = folder_.write("own.ctl", "# own").string();
   EXPECT_FALSE(read({}).robots[0].control);
   const Scenario scenario =
@@ -29,7 +29,7 @@ TEST_F(ControlReader, rules_of_a_robot_precede_those_of_the_scenario) {
   EXPECT_EQ(scenario.robots[1].control->settings[1].key, "clock.kind");
 }
 
-TEST_F(ControlReader, the_rules_are_part_of_the_fingerprint) {
+TEST_F(ControlReader, RulesArePartOfTheFingerprint) {
   const auto fingerprint = [this](const std::string& rules) {
     return read({"control=" + folder_.write("r.ctl", rules).string()}).fingerprint;
   };
@@ -37,7 +37,7 @@ TEST_F(ControlReader, the_rules_are_part_of_the_fingerprint) {
   EXPECT_NE(fingerprint("# one"), fingerprint("# two"));
 }
 
-TEST_F(ControlReader, a_map_without_rules_and_a_missing_file_are_bad_input) {
+TEST_F(ControlReader, RefusesAMapWithoutRulesAndAMissingFile) {
   EXPECT_EQ(message_of<BadInput>([&] { read({"control={priority: 1}"}); }),
             "--set control={priority: 1}: expected key 'rules' in control");
   EXPECT_NE(message_of<BadInput>([&] { read({"control=no.ctl"}); }).find("no.ctl"), std::string::npos);

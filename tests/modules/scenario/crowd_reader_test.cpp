@@ -8,7 +8,7 @@
 namespace waitpoint::scenario {
 namespace {
 
-TEST(CrowdReader, a_hundred_thousand_robots_are_read) {
+TEST(CrowdReader, ReadsAHundredThousandRobots) {
   constexpr int robots = 100'000;
   std::string text = "format: 1\nrobot_types: {kind: &kind {shape: {radius_m: 0.2, height_m: 1}}}\nrobots:\n";
   for (int i = 0; i < robots; ++i) {
@@ -25,7 +25,7 @@ TEST(CrowdReader, a_hundred_thousand_robots_are_read) {
   EXPECT_EQ(scenario.robots[99'999].body.start, (Pose{99'999.5, 2.5, 0}));
 }
 
-TEST(CrowdReader, a_floor_of_many_shapes_takes_as_many_changes) {
+TEST(CrowdReader, AppliesManyChangesToAFloorOfManyShapes) {
   constexpr int shapes = 20'000;
   std::string floor = "format: 1\nshape_height_m: 2\nshapes:\n",
               own = "format: 1\nworld:\n  include: floor.yaml\n  shapes:\n";

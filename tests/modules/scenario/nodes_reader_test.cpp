@@ -32,7 +32,7 @@ class NodesReader : public ::testing::Test {
   TemporaryFolder folder_;
 };
 
-TEST_F(NodesReader, a_robot_without_the_keys_has_none) {
+TEST_F(NodesReader, RobotsWithoutTheKeysHaveNoNodes) {
   const Scenario scenario = read("");
   EXPECT_FALSE(scenario.robots[0].nodes);
   EXPECT_FALSE(scenario.robots[0].goals_are_for_nodes());
@@ -40,7 +40,7 @@ TEST_F(NodesReader, a_robot_without_the_keys_has_none) {
   EXPECT_EQ(scenario.ros.master, RosScenario::Master::inside);
 }
 
-TEST_F(NodesReader, nodes_have_programs_names_and_parameters) {
+TEST_F(NodesReader, ReadsProgramsNamesAndParameters) {
   const Scenario scenario = read(R"yaml(    nodes:
       - name: driver
         command: [nodes/driver, --fast]
@@ -81,7 +81,7 @@ TEST_F(NodesReader, nodes_have_programs_names_and_parameters) {
   EXPECT_EQ(parameters, R"(/driver/frame="base_link" /driver/limits/low=-1 /driver/on=true /driver/speed_m_s=0.5 )");
 }
 
-TEST_F(NodesReader, a_launch_file_is_before_the_nodes) {
+TEST_F(NodesReader, LaunchFilePrecedesNodes) {
   folder_.write("r/a.launch", R"xml(<launch><arg name="use_map"/><arg name="n" default="1"/>
     <node pkg="p" type="t" name="map" if="$(arg use_map)"> <param name="n" value="$(arg n)"/> <param name="m" value="2"/> </node>
     </launch>)xml");
@@ -99,7 +99,7 @@ TEST_F(NodesReader, a_launch_file_is_before_the_nodes) {
   EXPECT_TRUE(launch_of(found.robots[0]).nodes.empty());
 }
 
-TEST_F(NodesReader, launch_files_are_part_of_the_fingerprint) {
+TEST_F(NodesReader, LaunchFilesArePartOfTheFingerprint) {
   const auto fingerprint = [this](const std::string& text) {
     folder_.write("a.launch", text);
     return read("    launch: a.launch\n").fingerprint;
@@ -108,7 +108,7 @@ TEST_F(NodesReader, launch_files_are_part_of_the_fingerprint) {
   EXPECT_NE(fingerprint("<launch/>"), fingerprint("<launch></launch>"));
 }
 
-TEST_F(NodesReader, several_robots_have_namespaces_of_their_own) {
+TEST_F(NodesReader, SeveralRobotsHaveSeparateNamespaces) {
   const std::string node = "    nodes: [{name: a, command: [x]}]\n";
   const Scenario scenario = read(node, node + "    ros: {tf_prefix: \"\"}\n", "ros: {clock: true, master: outside}\n");
   EXPECT_EQ(scenario.robots[0].nodes->ns, "/one");
@@ -120,7 +120,7 @@ TEST_F(NodesReader, several_robots_have_namespaces_of_their_own) {
   EXPECT_EQ(scenario.ros.master, RosScenario::Master::outside);
 }
 
-TEST_F(NodesReader, one_robot_has_the_namespace_that_is_given_or_none) {
+TEST_F(NodesReader, OneRobotHasTheGivenNamespaceOrNone) {
   EXPECT_EQ(read("    ros: {}\n").robots[0].nodes->ns, "/");
   EXPECT_EQ(read("    ros: {namespace: \"\"}\n").robots[0].nodes->ns, "/");
   const Scenario scenario = read("    ros: {namespace: a/b}\n    nodes: [{name: n, command: [x]}]\n");
@@ -129,7 +129,7 @@ TEST_F(NodesReader, one_robot_has_the_namespace_that_is_given_or_none) {
   EXPECT_EQ(launch_of(scenario.robots[0]).nodes[0].global_name(), "/a/b/n");
 }
 
-TEST_F(NodesReader, a_type_has_nodes_too_which_a_robot_changes_by_name) {
+TEST_F(NodesReader, RobotsOverrideNodesOfTheirTypeByName) {
   const std::string type =
       "    executive: {patience_s: 3}\n    nodes:\n      - {name: a, command: [x], params: {p: 1, q: 2}}\n";
   const Scenario scenario = read_scenario(folder_.write("s.yaml", changed("    executive: {patience_s: 3}\n", type)),
@@ -139,7 +139,7 @@ TEST_F(NodesReader, a_type_has_nodes_too_which_a_robot_changes_by_name) {
   EXPECT_EQ(launch_of(scenario.robots[1]).parameters.at("/two/a/p").value, 1);
 }
 
-TEST_F(NodesReader, goals_are_the_nodes_of_a_robot_without_modules) {
+TEST_F(NodesReader, GoalsGoToNodesOfARobotWithoutModules) {
   const std::string nodes = "    nodes: [{name: a, command: [x]}]\n";
   EXPECT_FALSE(read(nodes).robots[0].goals_are_for_nodes());
   EXPECT_TRUE(read(nodes + "    modules: [{name: rflex, enabled: false}, {name: front, enabled: false}]\n")
@@ -147,7 +147,7 @@ TEST_F(NodesReader, goals_are_the_nodes_of_a_robot_without_modules) {
                   .goals_are_for_nodes());
 }
 
-TEST_F(NodesReader, what_is_wrong_with_a_node_is_told_at_its_line) {
+TEST_F(NodesReader, ReportsErrorsOfNodesAtTheirLine) {
   const std::vector<std::pair<std::string, std::string>> cases = {
       {"{name: a}", "expected a command, or a package and a type, in a node, found none"},
       {"{name: a, command: [x], package: p}", "expected a command, or a package and a type, in a node, found both"},
@@ -175,7 +175,7 @@ TEST_F(NodesReader, what_is_wrong_with_a_node_is_told_at_its_line) {
             "s.yaml:36: there are two nodes called '/a', the first at s.yaml:35");
 }
 
-TEST_F(NodesReader, what_is_wrong_with_a_launch_file_is_told_at_its_line) {
+TEST_F(NodesReader, ReportsErrorsOfLaunchFilesAtTheirLine) {
   EXPECT_EQ(complaint("    launch: none.launch\n"),
             "s.yaml:34: expected a launch file, found 'none.launch', which is no file");
   EXPECT_EQ(complaint("    launch: $(find waitpoint_none)/a.launch\n").substr(0, 54),
@@ -191,13 +191,13 @@ TEST_F(NodesReader, what_is_wrong_with_a_launch_file_is_told_at_its_line) {
             "s.yaml:36: there are two nodes called '/a', the first at a.launch:1");
 }
 
-TEST_F(NodesReader, nodes_are_refused_where_files_are_confined) {
+TEST_F(NodesReader, RefusesNodesInConfinedRuns) {
   const Confinement confinement(std::vector{folder_.path()});
   EXPECT_EQ(complaint("    nodes: [{name: a, command: [x]}]\n"),
             "s.yaml:34: nodes of ROS are not started with --confined");
 }
 
-TEST_F(NodesReader, robots_have_different_names_in_ros) {
+TEST_F(NodesReader, RefusesRobotsOfOneRosName) {
   const std::string node = "[{name: a, command: [x], namespace: /all}]\n";
   EXPECT_EQ(complaint("    nodes: " + node, "    nodes: " + node),
             "s.yaml:40: there are two nodes called '/all/a', the first at s.yaml:34");

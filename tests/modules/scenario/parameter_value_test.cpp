@@ -13,7 +13,7 @@ namespace {
 
 nlohmann::json value_of(const std::string& text) { return parameter_value(parse_yaml(text, "p.yaml")); }
 
-TEST(ParameterValue, has_the_type_of_its_word) {
+TEST(ParameterValue, HasTheTypeOfItsWord) {
   EXPECT_EQ(value_of(R"([true, Yes, ON, false, "no", n, off])").dump(), R"([true,true,true,false,"no","n",false])");
   EXPECT_EQ(value_of("[12, -3, +4, 1_000, 0x1F, 0b101, 017, 0, -0x10, 1:30, 089, 0x, _1]").dump(),
             R"([12,-3,4,1000,31,5,15,0,-16,"1:30","089","0x","_1"])");
@@ -25,7 +25,7 @@ TEST(ParameterValue, has_the_type_of_its_word) {
   EXPECT_TRUE(value_of("").is_null());
 }
 
-TEST(ParameterValue, has_angles) {
+TEST(ParameterValue, ReadsAngles) {
   EXPECT_DOUBLE_EQ(value_of("deg(90)").get<double>(), 1.5707963267948966);
   EXPECT_DOUBLE_EQ(value_of("rad(-2*pi)").get<double>(), -6.283185307179586);
   EXPECT_EQ(value_of("'rad(1)'"), "rad(1)");
@@ -34,7 +34,7 @@ TEST(ParameterValue, has_angles) {
   EXPECT_THROW(value_of("rad('x')"), BadInput);
 }
 
-TEST(ParameterValue, is_within_its_type) {
+TEST(ParameterValue, RefusesNumbersBeyondTheirType) {
   EXPECT_THROW(value_of("99999999999999999999"), BadInput);
   EXPECT_THROW(value_of("0xFFFFFFFFFFFFFFFF"), BadInput);
   EXPECT_THROW(value_of("1.0e+999"), BadInput);

@@ -30,7 +30,7 @@ class RobotModelOfAScenario : public ::testing::Test {
   TemporaryFolder folder_;
 };
 
-TEST_F(RobotModelOfAScenario, gives_shape_and_lasers_their_places) {
+TEST_F(RobotModelOfAScenario, GivesShapeAndLaserMounts) {
   const world::BodyDescription body = read("frame: mast").robots.at(0).body;
   EXPECT_EQ(body.shape.kind, world::Shape::Kind::box);
   EXPECT_EQ(body.shape.length_m, 0.6);
@@ -41,7 +41,7 @@ TEST_F(RobotModelOfAScenario, gives_shape_and_lasers_their_places) {
   EXPECT_NEAR(laser.height_m, 0.4, 1e-12);  // the body stands on the floor, not in it
 }
 
-TEST_F(RobotModelOfAScenario, takes_the_arguments_of_xacro) {
+TEST_F(RobotModelOfAScenario, TakesXacroArguments) {
   folder_.write("rover.urdf", R"(<robot name="rover">
     <link name="${namespace}base"><collision><geometry><box size="${length} 0.4 0.2"/></geometry></collision></link>
     </robot>)");
@@ -58,7 +58,7 @@ TEST_F(RobotModelOfAScenario, takes_the_arguments_of_xacro) {
   EXPECT_NE(message_of<BadInput>([&] { read_with("[a]"); }).find("expected arguments to be a map"), std::string::npos);
 }
 
-TEST_F(RobotModelOfAScenario, that_cannot_be_meant_is_one_line) {
+TEST_F(RobotModelOfAScenario, ContradictionsAreReportedInOneLine) {
   EXPECT_NE(complaint("frame: mst").find("there is no link 'mst' in the urdf, did you mean 'mast'?"), std::string::npos)
       << complaint("frame: mst");
   EXPECT_NE(complaint("frame: tilted").find("expected link 'tilted' to be upright"), std::string::npos);

@@ -30,40 +30,40 @@ std::string complaint(const Scenario& scenario, const OccupancyGrid& map, bool h
 /// Robot one starts at (1, 1) and has goals at (3, 1) and (1, 4); robot two starts at (3, 2) and has none.
 OccupancyGrid floor(int width, int height) { return OccupancyGrid(width, height, 0.5, {0, 0, 0}, Cell::free); }
 
-TEST_F(ScenarioChecks, starts_and_goals_in_free_places_pass) {
+TEST_F(ScenarioChecks, AcceptStartsAndGoalsInFreeSpace) {
   EXPECT_EQ(complaint(scenario_, floor(8, 10)), "");
   EXPECT_EQ(complaint(scenario_, floor(8, 10), true), "");
 }
 
-TEST_F(ScenarioChecks, a_goal_inside_an_obstacle_is_told_at_its_line) {
+TEST_F(ScenarioChecks, ReportAGoalInsideAnObstacleAtItsLine) {
   OccupancyGrid map = floor(8, 10);
   map[{2, 8}] = Cell::occupied;
   EXPECT_EQ(complaint(scenario_, map),
             file_.string() + ":36: goal 2 'shelf' of robot 'one' is inside an obstacle, expected a free place");
 }
 
-TEST_F(ScenarioChecks, a_goal_in_an_unknown_part_of_the_map_is_told_at_its_line) {
+TEST_F(ScenarioChecks, ReportAGoalInUnknownSpaceAtItsLine) {
   OccupancyGrid map = floor(8, 10);
   map[{6, 2}] = Cell::unknown;
   EXPECT_EQ(complaint(scenario_, map),
             file_.string() + ":35: goal 1 of robot 'one' is in an unknown part of the map, expected a free place");
 }
 
-TEST_F(ScenarioChecks, a_goal_outside_the_map_is_told_at_its_line) {
+TEST_F(ScenarioChecks, ReportAGoalOutsideTheMapAtItsLine) {
   EXPECT_EQ(complaint(scenario_, floor(6, 10)),
             file_.string() +
                 ":35: goal 1 of robot 'one' is outside the map, which lies between (0.00, 0.00) and "
                 "(3.00, 5.00); expected a free place on it");
 }
 
-TEST_F(ScenarioChecks, a_goal_of_an_option_is_told_by_the_option) {
+TEST_F(ScenarioChecks, ReportAGoalOfAnOptionByTheOption) {
   const Scenario scenario = read_scenario(file_, {"robots.0.goals=[[99,99]]"});
   EXPECT_EQ(complaint(scenario, floor(8, 10)),
             "--set robots.0.goals=[[99,99]]: goal 1 of robot 'one' is outside the map, which lies between (0.00, 0.00) "
             "and (4.00, 5.00); expected a free place on it");
 }
 
-TEST_F(ScenarioChecks, a_start_outside_the_map_is_told_at_its_line) {
+TEST_F(ScenarioChecks, ReportAStartOutsideTheMapAtItsLine) {
   const OccupancyGrid turned(8, 10, 0.5, {9, 2, exact::pi / 2}, Cell::free);
   EXPECT_EQ(complaint(scenario_, turned),
             file_.string() +
@@ -71,7 +71,7 @@ TEST_F(ScenarioChecks, a_start_outside_the_map_is_told_at_its_line) {
                 "(9.00, 6.00); expected a free place on it");
 }
 
-TEST_F(ScenarioChecks, a_robot_without_goals_starts_anywhere_but_outside_a_map_of_cells) {
+TEST_F(ScenarioChecks, AcceptAnyStartOnTheMapWithoutGoals) {
   const Scenario scenario = read_scenario(file_, {"robots.1.start=[99,99]"});
   EXPECT_EQ(complaint(scenario, floor(8, 10)), "");
   EXPECT_EQ(complaint(scenario, floor(8, 10), true),
@@ -79,7 +79,7 @@ TEST_F(ScenarioChecks, a_robot_without_goals_starts_anywhere_but_outside_a_map_o
             "(4.00, 5.00); expected a free place on it");
 }
 
-TEST_F(ScenarioChecks, a_robot_that_starts_inside_a_shape_is_told_with_both_lines) {
+TEST_F(ScenarioChecks, ReportAStartInsideAShapeWithBothLines) {
   EXPECT_NO_THROW(check_starts(scenario_, {}));
   EXPECT_EQ(message_of<BadInput>([&] {
               check_starts(scenario_, {{"one", "wall", false}});
@@ -87,7 +87,7 @@ TEST_F(ScenarioChecks, a_robot_that_starts_inside_a_shape_is_told_with_both_line
             file_.string() + ":33: robot 'one' starts inside 'wall' (" + file_.string() + ":8), expected a free place");
 }
 
-TEST_F(ScenarioChecks, a_robot_that_starts_inside_another_is_told_with_both_lines) {
+TEST_F(ScenarioChecks, ReportOverlappingStartsWithBothLines) {
   EXPECT_EQ(
       message_of<BadInput>([&] {
         check_starts(scenario_, {{"two", "one", true}});

@@ -18,7 +18,7 @@ class ScenarioReader : public ::testing::Test {
   TemporaryFolder folder_;
 };
 
-TEST_F(ScenarioReader, every_value_arrives) {
+TEST_F(ScenarioReader, ReadsEveryValue) {
   const Scenario scenario = read(valid_scenario);
   EXPECT_EQ(scenario.name, "small");
   EXPECT_TRUE(scenario.expect.all_goals_reached);
@@ -37,7 +37,7 @@ TEST_F(ScenarioReader, every_value_arrives) {
   EXPECT_TRUE(scenario.shapes[0].known);
 }
 
-TEST_F(ScenarioReader, processors_and_latency_of_hardware_arrive) {
+TEST_F(ScenarioReader, ReadsProcessorsAndHardwareLatency) {
   std::string text = changed("device: base.command}", "device: base.command, latency_us: 1500}");
   const std::string last = "    executive: {patience_s: 3}\n";
   text.replace(text.find(last), last.size(), last + "    processors: [cpu, io]\n");
@@ -47,7 +47,7 @@ TEST_F(ScenarioReader, processors_and_latency_of_hardware_arrive) {
   EXPECT_EQ(robot.bridge.at(1).latency, Duration());
 }
 
-TEST_F(ScenarioReader, the_fingerprint_is_of_what_is_written_and_not_of_where) {
+TEST_F(ScenarioReader, FingerprintCoversContentsNotPaths) {
   const std::uint64_t whole = read(valid_scenario).fingerprint;
   EXPECT_EQ(read("# a comment\n\n" + std::string(valid_scenario)).fingerprint, whole);
   EXPECT_EQ(read(changed("step_ms: 5", "step_ms: 7"), {"world.step_ms=5"}).fingerprint, whole);
@@ -56,7 +56,7 @@ TEST_F(ScenarioReader, the_fingerprint_is_of_what_is_written_and_not_of_where) {
   EXPECT_NE(read(changed("cost_us: 300", "cost_us: 301")).fingerprint, whole);
 }
 
-TEST_F(ScenarioReader, a_robot_has_its_type_with_its_own_keys_laid_over) {
+TEST_F(ScenarioReader, RobotKeysOverrideTheType) {
   const Scenario scenario = read(valid_scenario);
   ASSERT_EQ(scenario.robots.size(), 2u);
   const RobotScenario &one = scenario.robots[0], &two = scenario.robots[1];
@@ -84,7 +84,7 @@ TEST_F(ScenarioReader, a_robot_has_its_type_with_its_own_keys_laid_over) {
   EXPECT_EQ(two.modules[1].settings.size(), one.modules[1].settings.size());
 }
 
-TEST_F(ScenarioReader, parameters_of_modules_stay_text_with_their_lines) {
+TEST_F(ScenarioReader, ModuleParametersStayTextWithTheirLines) {
   const Scenario scenario = read(valid_scenario);
   const RobotScenario& one = scenario.robots[0];
   ASSERT_EQ(one.modules.size(), 2u);
@@ -103,7 +103,7 @@ TEST_F(ScenarioReader, parameters_of_modules_stay_text_with_their_lines) {
   EXPECT_EQ(one.executive.at(0).key, "patience_s");
 }
 
-TEST_F(ScenarioReader, the_world_has_a_body_for_each_robot) {
+TEST_F(ScenarioReader, WorldHasABodyForEachRobot) {
   const world::WorldDescription world = read(valid_scenario).world_without_map();
   EXPECT_EQ(world.step, Duration(5ms));
   EXPECT_EQ(world.obstacles.size(), 3u);
@@ -112,7 +112,7 @@ TEST_F(ScenarioReader, the_world_has_a_body_for_each_robot) {
   EXPECT_EQ(world.bodies[1].start, (Pose{3, 2, 0}));
 }
 
-TEST_F(ScenarioReader, a_floor_is_included_under_the_world) {
+TEST_F(ScenarioReader, WorldIncludesAFloor) {
   folder_.write("floors/f.yaml",
                 "format: 1\nshape_height_m: 2.5\nshapes:\n"
                 "  - {name: wall, corners_m: [0, 0, 9, 1]}\n  - {name: post, centre_m: [5, 5], radius_m: 0.2}\n");
@@ -126,14 +126,14 @@ TEST_F(ScenarioReader, a_floor_is_included_under_the_world) {
   EXPECT_EQ(scenario.shapes_written[1].text(), (folder_.path() / "floors/f.yaml").string() + ":5");
 }
 
-TEST_F(ScenarioReader, an_error_in_an_included_floor_names_the_floors_line) {
+TEST_F(ScenarioReader, ErrorsInAnIncludedFloorNameItsLine) {
   folder_.write("f.yaml", "format: 1\nshapes:\n  - {corners_m: [0, 0, 9]}\n");
   const std::string message = message_of<BadInput>([&] { read(changed("  step_ms: 5", "  include: f.yaml")); });
   EXPECT_EQ(message,
             (folder_.path() / "f.yaml").string() + ":3: expected corners_m to be a list of 4 numbers, found a list");
 }
 
-TEST_F(ScenarioReader, robot_types_are_included_under_the_scenarios_own) {
+TEST_F(ScenarioReader, ScenarioTypesOverrideIncludedRobotTypes) {
   folder_.write("types.yaml", "format: 1\nrobot_types:\n  tank:\n    shape: {size_m: [1, 0.6], height_m: 0.5}\n");
   const std::string with_include = changed("  scout:", "  include: types.yaml\n  scout:");
   const Scenario scenario = read(with_include, {"robots.one.type=tank", "robot_types.tank.base.v_max_m_s=0.2"});
@@ -142,7 +142,7 @@ TEST_F(ScenarioReader, robot_types_are_included_under_the_scenarios_own) {
   EXPECT_EQ(scenario.robots[1].body.shape.radius_m, 0.26);
 }
 
-TEST_F(ScenarioReader, paths_are_relative_to_the_file_that_names_them) {
+TEST_F(ScenarioReader, PathsAreRelativeToTheirFile) {
   const Scenario scenario = read(changed("  step_ms: 5", "  map: {file: maps/m.yaml, height_m: 1.5}"));
   ASSERT_TRUE(scenario.map.has_value());
   EXPECT_EQ(scenario.map->file, folder_.path() / "maps/m.yaml");
@@ -154,12 +154,12 @@ TEST_F(ScenarioReader, paths_are_relative_to_the_file_that_names_them) {
   EXPECT_EQ(in_short.map->written.line, 6);
 }
 
-TEST_F(ScenarioReader, a_map_may_be_one_that_the_robots_do_not_know) {
+TEST_F(ScenarioReader, MapsCanBeUnknownToRobots) {
   EXPECT_TRUE(read(changed("  step_ms: 5", "  map: {file: maps/m.yaml}")).map->known);
   EXPECT_FALSE(read(changed("  step_ms: 5", "  map: {file: maps/m.yaml, known: false}")).map->known);
 }
 
-TEST_F(ScenarioReader, a_medium_has_its_values_and_defaults) {
+TEST_F(ScenarioReader, MediumHasValuesAndDefaults) {
   EXPECT_FALSE(read(valid_scenario).medium.has_value());
   const auto with = [&](std::string_view medium) {
     return *read(changed("until_s: 30", "medium: {" + std::string(medium) + "}")).medium;
@@ -184,7 +184,7 @@ TEST_F(ScenarioReader, a_medium_has_its_values_and_defaults) {
 
 // --- options -----------------------------------------------------------------------------------------------------
 
-TEST_F(ScenarioReader, set_replaces_values_by_keys_numbers_and_names) {
+TEST_F(ScenarioReader, SetReplacesValuesByKeyIndexAndName) {
   const Scenario scenario = read(valid_scenario, {"world.step_ms=2", "robots.0.goals=[[1,2],[3,4],[5,6]]",
                                                   "robot_types.scout.modules.front.enabled=false",
                                                   "robots.two.name=three", "world.shapes.desk.known=true"});
@@ -196,7 +196,7 @@ TEST_F(ScenarioReader, set_replaces_values_by_keys_numbers_and_names) {
   EXPECT_TRUE(scenario.shapes[2].known);
 }
 
-TEST_F(ScenarioReader, set_makes_keys_that_the_file_does_not_have) {
+TEST_F(ScenarioReader, SetAddsMissingKeys) {
   const Scenario scenario =
       read(valid_scenario, {"world.map.file=m.yaml", "robots.two.executive.patience_s=9", "world.shapes=[]"});
   EXPECT_EQ(scenario.map->file, "m.yaml") << "relative to the current directory";
@@ -206,7 +206,7 @@ TEST_F(ScenarioReader, set_makes_keys_that_the_file_does_not_have) {
   EXPECT_EQ(scenario.robots[0].executive.at(0).text, "3");
 }
 
-TEST_F(ScenarioReader, set_empties_an_included_floor_or_takes_another) {
+TEST_F(ScenarioReader, SetClearsOrReplacesAnIncludedFloor) {
   folder_.write("f.yaml", "format: 1\nshapes:\n  - {corners_m: [0, 0, 9, 1]}\n");
   folder_.write("g.yaml", "format: 1\nshapes: []\n");
   const std::string text = changed("  step_ms: 5", "  include: f.yaml");
@@ -222,7 +222,7 @@ struct BadSet {
 
 class BadAssignment : public ::testing::TestWithParam<BadSet> {};
 
-TEST_P(BadAssignment, is_one_line_that_names_the_option) {
+TEST_P(BadAssignment, IsReportedInOneLineWithTheOption) {
   const TemporaryFolder folder;
   const auto file = folder.write("s.yaml", valid_scenario);
   const std::string message = message_of<BadInput>([&] { read_scenario(file, {GetParam().option}); });
@@ -246,7 +246,7 @@ INSTANTIATE_TEST_SUITE_P(
 
 class BadScenario : public ::testing::TestWithParam<BadCase> {};
 
-TEST_P(BadScenario, is_one_line_that_names_file_line_and_what_was_expected) { expect_complaint(GetParam()); }
+TEST_P(BadScenario, IsReportedInOneLineWithFileAndLine) { expect_complaint(GetParam()); }
 
 const BadCase bad_cases[] = {
     {"a_processor_twice", "    executive: {patience_s: 3}", "    processors: [cpu, io, cpu]", 29,
@@ -343,25 +343,25 @@ INSTANTIATE_TEST_SUITE_P(Scenario, BadScenario, ::testing::ValuesIn(bad_cases),
                          [](const auto& info) { return info.param.name; });
 
 // A file that cannot be opened or parsed.
-TEST(ScenarioFile, that_is_not_there_is_one_line) {
+TEST(ScenarioFile, MissingIsReportedInOneLine) {
   EXPECT_EQ(message_of<BadInput>([] { read_scenario("nowhere/s.yaml"); }),
             "nowhere/s.yaml: cannot be read: No such file or directory");
 }
 
-TEST(ScenarioFile, that_is_empty_is_one_line) {
+TEST(ScenarioFile, EmptyIsReportedInOneLine) {
   const TemporaryFolder folder;
   const auto file = folder.write("s.yaml", "");
   EXPECT_EQ(message_of<BadInput>([&] { read_scenario(file); }),
             file.string() + ":1: expected keys such as 'format: 1', found nothing");
 }
 
-TEST(ScenarioFile, without_robots_is_one_line) {
+TEST(ScenarioFile, WithoutRobotsIsReportedInOneLine) {
   const TemporaryFolder folder;
   const auto file = folder.write("s.yaml", "format: 1\nrobots: []\n");
   EXPECT_EQ(message_of<BadInput>([&] { read_scenario(file); }), file.string() + ":2: expected at least one robot");
 }
 
-TEST(ScenarioFile, with_a_name_that_fills_screens_is_one_line) {
+TEST(ScenarioFile, OverlongNameIsReportedInOneLine) {
   const TemporaryFolder folder;
   std::string letters;
   for (int i = 0; i < 200; ++i) letters += "\xc3\xa9";

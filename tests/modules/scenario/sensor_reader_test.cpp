@@ -8,7 +8,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-TEST(SensorReader, an_lms_is_what_its_data_sheet_says_but_for_what_is_given) {
+TEST(SensorReader, LmsHasDataSheetDefaults) {
   const auto laser_of = [&](const std::string& keys) {
     const TemporaryFolder folder;
     const auto file = folder.write("s.yaml", changed("beams: 181", keys));
@@ -30,7 +30,7 @@ TEST(SensorReader, an_lms_is_what_its_data_sheet_says_but_for_what_is_given) {
   EXPECT_EQ(laser_of("beams: 181").mirror_turn, Duration()) << "a generic one has none of these";
 }
 
-TEST(SensorReader, what_a_robot_senses_of_its_own_motion_is_off_unless_it_is_given) {
+TEST(SensorReader, ImuGpsAndBatteryAreOffByDefault) {
   const TemporaryFolder folder;
   const world::BodyDescription none = read_scenario(folder.write("s.yaml", valid_scenario)).robots.at(0).body;
   EXPECT_FALSE(none.imu || none.gps || none.battery);
@@ -58,7 +58,7 @@ TEST(SensorReader, what_a_robot_senses_of_its_own_motion_is_off_unless_it_is_giv
 
 class BadSensor : public ::testing::TestWithParam<BadCase> {};
 
-TEST_P(BadSensor, is_one_line_that_names_file_line_and_what_was_expected) { expect_complaint(GetParam()); }
+TEST_P(BadSensor, IsReportedInOneLineWithFileAndLine) { expect_complaint(GetParam()); }
 
 const BadCase bad_sensors[] = {
     {"a_laser_that_nobody_makes", "beams: 181", "model: lms100", 19,

@@ -29,7 +29,7 @@ double clearance_m(const Scenario& scenario, Point p) {
 
 class ShippedScenario : public ::testing::TestWithParam<std::string> {};
 
-TEST_P(ShippedScenario, has_free_starts_and_goals_with_room) {
+TEST_P(ShippedScenario, HasFreeStartsAndGoals) {
   const Scenario scenario = shipped(GetParam());
   EXPECT_TRUE(scenario.expect.all_goals_reached);
   EXPECT_EQ(scenario.expect.collisions, 0u);
@@ -49,7 +49,7 @@ INSTANTIATE_TEST_SUITE_P(Scenario, ShippedScenario,
                            return name;
                          });
 
-TEST(ShippedScenario, office_has_one_robot_six_goals_and_a_crate_on_no_map) {
+TEST(ShippedScenario, OfficeHasOneRobotSixGoalsAndAnUnmappedCrate) {
   const Scenario scenario = shipped("office.yaml");
   ASSERT_EQ(scenario.robots.size(), 1u);
   EXPECT_GE(scenario.robots[0].goals.size(), 6u);
@@ -59,18 +59,16 @@ TEST(ShippedScenario, office_has_one_robot_six_goals_and_a_crate_on_no_map) {
   EXPECT_EQ(unknown, 1u);
 }
 
-TEST(ShippedScenario, office_10_has_ten_robots_of_different_names) {
-  EXPECT_EQ(shipped("office-10.yaml").robots.size(), 10u);
-}
+TEST(ShippedScenario, Office10HasTenRobotsOfDifferentNames) { EXPECT_EQ(shipped("office-10.yaml").robots.size(), 10u); }
 
-TEST(ShippedScenario, a_module_of_the_type_is_switched_off_by_an_option) {
+TEST(ShippedScenario, SetDisablesAModuleOfTheType) {
   const Scenario scenario = shipped("office.yaml", {"robot_types.rackham.modules.segloc.enabled=false"});
   for (const ModuleScenario& module : scenario.robots.at(0).modules) {
     EXPECT_EQ(module.enabled, module.name != "segloc" && module.name != "locate") << module.name;
   }
 }
 
-TEST(ShippedScenario, the_floor_gives_way_to_a_map_by_options) {
+TEST(ShippedScenario, SetReplacesTheFloorByAMap) {
   const Scenario scenario = shipped(
       "office.yaml", {"world.map.file=m.yaml", "world.shapes=[]", "robots.0.start=[1,2]", "robots.0.goals=[[3,4]]"});
   EXPECT_TRUE(scenario.shapes.empty());

@@ -32,7 +32,7 @@ std::string octree() {
   return tree;
 }
 
-TEST_F(SurfaceReader, meshes_and_octrees_stand_among_the_shapes) {
+TEST_F(SurfaceReader, ReadsMeshesAndOctreesAmongShapes) {
   folder_.write("parts/wall.stl", triangle_stl);
   folder_.write("yard.bt", octree());
   const Scenario scenario = read(changed("  shapes:\n",
@@ -55,7 +55,7 @@ TEST_F(SurfaceReader, meshes_and_octrees_stand_among_the_shapes) {
   EXPECT_EQ(scenario.shapes[2].name, "shape 4") << "its place in the list";
 }
 
-TEST_F(SurfaceReader, meshes_and_octrees_that_are_bad_are_told) {
+TEST_F(SurfaceReader, ReportsBadMeshesAndOctrees) {
   folder_.write("wall.stl", triangle_stl);
   folder_.write("bad.stl", "solid s\nvertx\n");
   // Empty, or the actual message.

@@ -32,7 +32,7 @@ std::string flat(const YamlNode& node) {
 
 YamlNode parse(const std::string& text) { return parse_yaml(text, "f.yaml"); }
 
-TEST(YamlTree, keeps_order_kinds_and_lines) {
+TEST(YamlTree, KeepsOrderKindsAndLines) {
   const YamlNode node = parse("b: 1\na:\n  - x\n  - {c: '2', d: }\n");
   EXPECT_EQ(flat(node), "{b: 1, a: [x, {c: 2, d: ~}]}");
   EXPECT_EQ(node.entries[1].written.line, 2);
@@ -42,11 +42,11 @@ TEST(YamlTree, keeps_order_kinds_and_lines) {
   EXPECT_EQ(node.find("a")->items[1].find("d"), nullptr) << "nothing written is the same as no key";
 }
 
-TEST(YamlTree, anchors_are_copied_to_where_they_are_used) {
+TEST(YamlTree, CopiesAnchorsToTheirAliases) {
   EXPECT_EQ(flat(parse("a: &x {c: 1}\nb: *x\n")), "{a: {c: 1}, b: {c: 1}}");
 }
 
-TEST(YamlTree, a_merged_map_gives_the_keys_that_are_not_there) {
+TEST(YamlTree, MergeKeyAddsMissingKeys) {
   EXPECT_EQ(flat(parse("a: &x {c: 1, d: 2}\nb: {<<: *x, d: 3, e: 4}\n")), "{a: {c: 1, d: 2}, b: {d: 3, e: 4, c: 1}}");
   EXPECT_EQ(flat(parse("a: &x {c: 1}\ny: &y {c: 2, d: 2}\nb: {<<: [*x, *y]}\n")),
             "{a: {c: 1}, y: {c: 2, d: 2}, b: {c: 1, d: 2}}")
@@ -58,7 +58,7 @@ TEST(YamlTree, a_merged_map_gives_the_keys_that_are_not_there) {
             "f.yaml:1: key '<<' is given twice: expected a list of maps");
 }
 
-TEST(YamlTree, a_key_given_twice_is_found_among_many) {
+TEST(YamlTree, FindsADuplicateAmongManyKeys) {
   std::string text;
   for (int i = 0; i < 100; ++i) text += "k" + std::to_string(i) + ": " + std::to_string(i) + "\n";
   EXPECT_EQ(message_of<BadInput>([&] { parse(text + "k10: 1\n"); }),
@@ -67,7 +67,7 @@ TEST(YamlTree, a_key_given_twice_is_found_among_many) {
             "f.yaml:101: key 'k70' is given twice, first at f.yaml:71");
 }
 
-TEST(YamlTree, aliases_count_as_deep_as_their_anchors) {
+TEST(YamlTree, CountsNestingThroughAliases) {
   std::string text = "a: &a ";
   for (int i = 0; i < 20; ++i) text += "[";
   text += std::string(20, ']') + "\nb: ";
@@ -77,7 +77,7 @@ TEST(YamlTree, aliases_count_as_deep_as_their_anchors) {
             "f.yaml:2: values are nested more than 32 deep");
 }
 
-TEST(YamlTree, many_lines_that_share_an_anchor_are_read) {
+TEST(YamlTree, ReadsManyAliasesOfOneAnchor) {
   std::string text = "kind: &kind {a: 1, b: [2, 3], c: {d: 4, e: 5}, f: 6}\nrobots:\n";
   constexpr int robots = 20'000;
   for (int i = 0; i < robots; ++i) text += "  - {<<: *kind, name: r" + std::to_string(i) + ", start: [1.5, 2.5, 90]}\n";
@@ -87,7 +87,7 @@ TEST(YamlTree, many_lines_that_share_an_anchor_are_read) {
             "{name: r19999, start: [1.5, 2.5, 90], a: 1, b: [2, 3], c: {d: 4, e: 5}, f: 6}");
 }
 
-TEST(YamlTree, a_document_that_multiplies_itself_is_refused) {
+TEST(YamlTree, RefusesExponentialAliases) {
   std::string text = "a0: &a0 [x, x, x, x, x, x, x, x, x, x]\n";
   for (int i = 1; i < 12; ++i) {
     text += fmt::format("a{0}: &a{0} [*a{1}, *a{1}, *a{1}, *a{1}, *a{1}, *a{1}]\n", i, i - 1);
@@ -95,32 +95,32 @@ TEST(YamlTree, a_document_that_multiplies_itself_is_refused) {
   EXPECT_NE(message_of<BadInput>([&] { parse(text); }).find("an anchor that multiplies itself?"), std::string::npos);
 }
 
-TEST(YamlTree, a_document_that_contains_itself_is_refused) {
+TEST(YamlTree, RefusesRecursiveAliases) {
   EXPECT_EQ(message_of<BadInput>([] { parse("a: &x [*x]\n"); }),
             "f.yaml:1: expected no alias inside of its own anchor");
 }
 
-TEST(YamlTree, a_second_document_is_refused) {
+TEST(YamlTree, RefusesASecondDocument) {
   EXPECT_EQ(message_of<BadInput>([] { parse("a: 1\n---\nb: 2\n"); }),
             "f.yaml:3: expected one YAML document, found a second");
   EXPECT_EQ(flat(parse("---\na: 1\n---\n")), "{a: 1}") << "nothing is in the second";
 }
 
-TEST(YamlTree, text_that_the_parser_takes_for_documents_without_end_is_refused) {
+TEST(YamlTree, RefusesEndlessDocuments) {
   EXPECT_EQ(message_of<BadInput>([] { parse(",1"); }), "f.yaml:1: expected one YAML document, found a second");
 }
 
-TEST(YamlTree, a_key_that_is_no_word_is_refused) {
+TEST(YamlTree, RefusesKeysThatAreNotScalars) {
   EXPECT_EQ(message_of<BadInput>([] { parse("a: 1\n[x, y]: 2\n"); }), "f.yaml:2: expected a word as key");
 }
 
-TEST(YamlTree, a_folder_is_no_file) {
+TEST(YamlTree, RefusesAFolder) {
   const TemporaryFolder folder;
   EXPECT_EQ(message_of<BadInput>([&] { load_yaml(folder.path()); }),
             folder.path().string() + ": is a folder, expected a file");
 }
 
-TEST(YamlTree, a_file_nested_deeply_cut_short_or_of_junk_is_refused) {
+TEST(YamlTree, RefusesDeepTruncatedAndJunkFiles) {
   for (const char* open : {"[", "{a: ", "- ", "? "})
     EXPECT_THROW(parse([&] {
                    std::string text;
@@ -134,30 +134,30 @@ TEST(YamlTree, a_file_nested_deeply_cut_short_or_of_junk_is_refused) {
   EXPECT_THROW(parse(std::string("a: \0\x01\xff\n b", 9)), BadInput);
 }
 
-TEST(YamlTree, a_file_without_end_is_refused) {
+TEST(YamlTree, RefusesAnEndlessFile) {
   if (!std::filesystem::exists("/dev/zero")) GTEST_SKIP() << "no /dev/zero";
   EXPECT_EQ(message_of<BadInput>([] { load_yaml("/dev/zero"); }), "/dev/zero: expected a file of at most 64 MiB");
 }
 
-TEST(YamlOverride, maps_are_merged_key_by_key) {
+TEST(YamlOverride, MergesMapsByKey) {
   EXPECT_EQ(flat(laid_over(parse("{a: 1, b: {c: 2, d: 3}}"), parse("{b: {d: 4}, e: 5}"))),
             "{a: 1, b: {c: 2, d: 4}, e: 5}");
 }
 
-TEST(YamlOverride, lists_of_named_elements_are_merged_by_name_others_replaced) {
+TEST(YamlOverride, MergesListsOfNamedElementsByName) {
   const YamlNode base = parse("{l: [{name: a, x: 1}, {name: b, x: 2}], p: [1, 2, 3]}");
   EXPECT_EQ(flat(laid_over(base, parse("{l: [{name: b, y: 5}, {name: c}], p: [4]}"))),
             "{l: [{name: a, x: 1}, {name: b, x: 2, y: 5}, {name: c}], p: [4]}");
   EXPECT_EQ(flat(laid_over(base, parse("{l: []}"))), "{l: [], p: [1, 2, 3]}");
 }
 
-TEST(YamlOverride, what_is_laid_over_brings_its_own_lines) {
+TEST(YamlOverride, KeepsTheLinesOfOverridingValues) {
   const YamlNode node = laid_over(parse("a: 1\nb: 2\n"), parse_yaml("\n\nb: 3\n", "g.yaml"));
   EXPECT_EQ(node.find("a")->written.text(), "f.yaml:1");
   EXPECT_EQ(node.find("b")->written.text(), "g.yaml:3");
 }
 
-TEST(YamlOverride, an_assignment_reaches_into_lists_and_makes_maps) {
+TEST(YamlOverride, AssignmentReachesIntoListsAndMakesMaps) {
   YamlNode node = parse("{l: [{name: a, x: 1}, 7]}");
   assign(node, Assignment("l.a.x=2"));
   assign(node, Assignment("l.1=[8, 9]"));

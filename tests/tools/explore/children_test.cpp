@@ -33,7 +33,7 @@ std::string carry_out(std::string_view job) {
   return job == "process" ? std::to_string(getpid()) : std::string(job);
 }
 
-TEST(Children, give_back_what_they_came_to_or_how_they_died) {
+TEST(Children, ReturnTheirResultOrTheirDeath) {
   Children children(carry_out, {});
   children.start(1, "bytes");
   children.start(2, "die");
@@ -43,7 +43,7 @@ TEST(Children, give_back_what_they_came_to_or_how_they_died) {
   EXPECT_EQ(death_of(ended.at(2)), "the process was killed by signal 9 (Killed), with standard error:\nlast words");
 }
 
-TEST(Children, do_one_job_each_or_any_number_until_they_die) {
+TEST(Children, ServeOneJobOrManyUntilTheyDie) {
   for (const bool is_reused : {false, true}) {
     Children children(carry_out, {.is_reused = is_reused});
     std::set<std::string> processes;
@@ -59,7 +59,7 @@ TEST(Children, do_one_job_each_or_any_number_until_they_die) {
   }
 }
 
-TEST(Children, that_compute_or_wait_for_too_long_are_ended) {
+TEST(Children, AreKilledAtTheirTimeLimits) {
   Children children(carry_out, {.wall_s = 12});
   children.start(1, "compute");
   children.start(2, "wait");
@@ -68,7 +68,7 @@ TEST(Children, that_compute_or_wait_for_too_long_are_ended) {
   EXPECT_EQ(death_of(ended.at(2)), "blocked for 10 s outside the simulation (a real lock or input); process killed");
 }
 
-TEST(Children, of_which_it_is_expected_may_wait) {
+TEST(Children, SleepPastTheIdleLimitIfTheyDoNotCompute) {
   Children children(carry_out, {.wall_s = 0, .computes = false});
   children.start(1, "sleep");
   EXPECT_EQ(all_of(children).at(1).bytes, "sleep");

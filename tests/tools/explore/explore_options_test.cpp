@@ -33,7 +33,7 @@ class ExploreCommandLine : public ::testing::Test {
   }
 };
 
-TEST_F(ExploreCommandLine, a_scenario_alone_has_the_defaults) {
+TEST_F(ExploreCommandLine, ScenarioAloneHasDefaults) {
   const ExploreOptions options = explore({"office.yaml"});
   EXPECT_EQ(options.scenario, "office.yaml");
   EXPECT_EQ(options.strategy, "portfolio");
@@ -47,7 +47,7 @@ TEST_F(ExploreCommandLine, a_scenario_alone_has_the_defaults) {
   EXPECT_FALSE(options.until || options.from || options.results || options.trace || options.schedule);
 }
 
-TEST_F(ExploreCommandLine, every_option_arrives) {
+TEST_F(ExploreCommandLine, ReadsEveryOption) {
   const ExploreOptions options = explore({"--strategy",    "pct:3",
                                           "--iterations",  "7",
                                           "--time-limit",  "1.5",
@@ -78,7 +78,7 @@ TEST_F(ExploreCommandLine, every_option_arrives) {
   EXPECT_FALSE(options.minimize);
 }
 
-TEST_F(ExploreCommandLine, the_environment_says_what_the_command_line_does_not) {
+TEST_F(ExploreCommandLine, EnvironmentFillsMissingOptions) {
   setenv("WAITPOINT_SEED", "4", 1);
   setenv("WAITPOINT_STRATEGY", "random", 1);
   setenv("WAITPOINT_ITERATIONS", "11", 1);
@@ -95,12 +95,12 @@ TEST_F(ExploreCommandLine, the_environment_says_what_the_command_line_does_not) 
   EXPECT_EQ(refusal({"a"}), "WAITPOINT_ITERATIONS: expected a positive whole number, found 'many'");
 }
 
-TEST_F(ExploreCommandLine, a_time_limit_alone_is_the_only_limit) {
+TEST_F(ExploreCommandLine, TimeLimitAloneIsTheOnlyLimit) {
   EXPECT_EQ(explore({"a", "--time-limit", "1"}).iterations, ~std::uint64_t{0});
   EXPECT_EQ(explore({"a", "--time-limit", "1", "--iterations", "3"}).iterations, 3u);
 }
 
-TEST_F(ExploreCommandLine, what_cannot_be_meant_is_one_clear_line) {
+TEST_F(ExploreCommandLine, ContradictionsAreReportedInOneLine) {
   EXPECT_EQ(refusal({"a", "--property", "colisions=0"}),
             "--property colisions=0: unknown key 'colisions', did you mean 'collisions'?; there are goals_reached, "
             "collisions, position_error_max_m, plans, node_failures, service_call_max_s, topics, tests");
@@ -138,7 +138,7 @@ TEST_F(ExploreCommandLine, what_cannot_be_meant_is_one_clear_line) {
   EXPECT_EQ(refusal({"a", "--replay", "f", "--results", "r"}), "--replay: cannot be used together with --results");
 }
 
-TEST_F(ExploreCommandLine, help_names_options_strategies_and_exit_statuses) {
+TEST_F(ExploreCommandLine, HelpNamesOptionsStrategiesAndExitStatuses) {
   const std::string help = std::get<ShownText>(read(words({"--help"}))).text;
   for (const char* word : {"--strategy", "--iterations", "--time-limit", "--schedule-limit", "--jobs", "--seed",
                            "--property", "--until", "--from", "--set", "--shard", "--results", "--replay", "--schedule",

@@ -30,7 +30,7 @@ const std::string sample_text =
     "task 00000000000000aa 12 00000000000000bb 7\n"
     "computing 00000000000000aa 13 62\n";
 
-TEST(ScheduleFile, is_text_that_reads_as_it_was_written) {
+TEST(ScheduleFile, ReadsBackAsWritten) {
   EXPECT_EQ(to_text(sample()), sample_text);
   const Folder folder;
   folder.write("s", sample_text);
@@ -58,7 +58,7 @@ std::string message(const std::string& from, const std::string& to) {
   return "";
 }
 
-TEST(ScheduleFile, what_is_none_is_refused_with_its_line) {
+TEST(ScheduleFile, RefusesOtherFilesWithTheirLine) {
   EXPECT_EQ(message("schedule 1", "schedule 2"), ":1: expected 'waitpoint schedule 1'");
   EXPECT_EQ(message("waitpoint", "robots:"), ":1: expected 'waitpoint schedule 1'");
   EXPECT_EQ(message("scenario 9", "scenario x"), ":2: expected the scenario's digest as hexadecimal digits");
@@ -74,7 +74,7 @@ TEST(ScheduleFile, what_is_none_is_refused_with_its_line) {
   EXPECT_EQ(message(sample_text, "waitpoint schedule 1\n"), ":2: expected 'scenario' and the digest of the scenario");
 }
 
-TEST(ScheduleFile, that_is_not_there_is_bad_input) { EXPECT_THROW((void)read_schedule("no such file"), BadInput); }
+TEST(ScheduleFile, MissingIsBadInput) { EXPECT_THROW((void)read_schedule("no such file"), BadInput); }
 
 }  // namespace
 }  // namespace waitpoint::tools

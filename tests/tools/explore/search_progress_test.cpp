@@ -30,7 +30,7 @@ std::string a_minute(bool terminal) {
   return output;
 }
 
-TEST(SearchProgress, away_from_a_terminal_is_a_line_now_and_then) {
+TEST(SearchProgress, PrintsOccasionalLinesWithoutATerminal) {
   const std::string output = a_minute(false);
   EXPECT_GE(std::count(output.begin(), output.end(), '\n'), 5);
   EXPECT_LE(std::count(output.begin(), output.end(), '\n'), 6);
@@ -38,7 +38,7 @@ TEST(SearchProgress, away_from_a_terminal_is_a_line_now_and_then) {
   EXPECT_EQ(output.find('\r'), std::string::npos);
 }
 
-TEST(SearchProgress, on_a_terminal_is_one_line_that_is_gone_at_the_end) {
+TEST(SearchProgress, ClearsItsLineOnATerminal) {
   const std::string output = a_minute(true);
   EXPECT_EQ(output.find('\n'), std::string::npos);
   EXPECT_GE(std::count(output.begin(), output.end(), '\r'), 100);

@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-TEST(OutputFile, takes_its_name_only_when_it_is_whole) {
+TEST(OutputFile, IsRenamedIntoPlaceWhenComplete) {
   const Folder folder;
   OutputFile file(folder / "out.txt");
   file.write("one\n");
@@ -28,7 +28,7 @@ TEST(OutputFile, takes_its_name_only_when_it_is_whole) {
   EXPECT_EQ(folder.count(), 1u) << "no temporary file is left";
 }
 
-TEST(OutputFile, that_is_given_up_leaves_what_was_there) {
+TEST(OutputFile, AbandonedKeepsTheOldFile) {
   const Folder folder;
   folder.write("out.txt", "old");
   {
@@ -39,7 +39,7 @@ TEST(OutputFile, that_is_given_up_leaves_what_was_there) {
   EXPECT_EQ(folder.count(), 1u);
 }
 
-TEST(OutputFile, replaces_what_was_there) {
+TEST(OutputFile, ReplacesAnExistingFile) {
   const Folder folder;
   folder.write("out.txt", "a longer old text");
   OutputFile file(folder / "out.txt");
@@ -48,7 +48,7 @@ TEST(OutputFile, replaces_what_was_there) {
   EXPECT_EQ(folder.read("out.txt"), "new");
 }
 
-TEST(OutputFile, writes_to_what_a_link_points_to) {
+TEST(OutputFile, FollowsSymbolicLinks) {
   const Folder folder;
   folder.write("real.txt", "old");
   fs::create_symlink("real.txt", folder / "link.txt");
@@ -59,14 +59,14 @@ TEST(OutputFile, writes_to_what_a_link_points_to) {
   EXPECT_EQ(folder.read("real.txt"), "new");
 }
 
-TEST(OutputFile, leaves_a_device_a_device) {
+TEST(OutputFile, WritesDevicesInPlace) {
   OutputFile file("/dev/null");
   file.write("gone");
   file.commit();
   EXPECT_TRUE(fs::is_character_file("/dev/null"));
 }
 
-TEST(OutputFile, that_cannot_be_written_is_told_at_once) {
+TEST(OutputFile, RefusesAnUnwritablePathAtOnce) {
   const Folder folder;
   const auto message = [&](const fs::path& path) -> std::string {
     try {
@@ -81,7 +81,7 @@ TEST(OutputFile, that_cannot_be_written_is_told_at_once) {
   EXPECT_EQ(message(folder / "."), (folder / ".").string() + ": cannot be written: it is a folder");
 }
 
-TEST(OutputFile, has_the_permissions_of_any_new_file) {
+TEST(OutputFile, HasThePermissionsOfANewFile) {
   const Folder folder;
   folder.write("usual", "");
   OutputFile file(folder / "out.txt");
@@ -89,7 +89,7 @@ TEST(OutputFile, has_the_permissions_of_any_new_file) {
   EXPECT_EQ(fs::status(folder / "out.txt").permissions(), fs::status(folder / "usual").permissions());
 }
 
-TEST(OutputFile, is_found_by_other_processes_once_it_is_flushed) {
+TEST(OutputFile, IsVisibleToOtherProcessesAfterFlush) {
   const Folder folder;
   OutputFile file(folder / "out.txt");
   file.write("so far");
@@ -97,7 +97,7 @@ TEST(OutputFile, is_found_by_other_processes_once_it_is_flushed) {
   EXPECT_EQ(folder.read(file.written_to().filename()), "so far");
 }
 
-TEST(OutputFile, of_one_name_may_be_written_twice_at_once) {
+TEST(OutputFile, LastOfTwoWritersOfOneNameWins) {
   const Folder folder;
   OutputFile one(folder / "out.txt"), other(folder / "out.txt");
   one.write("one");
@@ -108,7 +108,7 @@ TEST(OutputFile, of_one_name_may_be_written_twice_at_once) {
   EXPECT_EQ(folder.count(), 1u);
 }
 
-TEST(OutputFile, removes_the_temporary_files_of_killed_processes_and_nothing_else) {
+TEST(OutputFile, RemovesOnlyTemporaryFilesOfKilledProcesses) {
   const Folder folder;
   const std::vector<std::string> others = {"k.waitpoint-readme.txt", "k.waitpoint-1",    "k.waitpoint-1-",
                                            "k.waitpoint-1-2.txt",    "k.waitpoint--1-2", "other.waitpoint-1-2"};
@@ -136,7 +136,7 @@ int status_of_copy(Function function) {
   return status;
 }
 
-TEST(OutputFile, of_a_forked_copy_is_left_alone) {
+TEST(OutputFile, IgnoresForkedCopies) {
   const Folder folder;
   OutputFile written(folder / "written"), given_up(folder / "given_up");
   written.write("before ");
@@ -155,7 +155,7 @@ TEST(OutputFile, of_a_forked_copy_is_left_alone) {
   EXPECT_EQ(folder.read("given_up"), "after");
 }
 
-TEST(OutputFile, is_completed_by_a_forked_copy_that_takes_it_over) {
+TEST(OutputFile, IsCompletedByAForkedCopyThatTakesItOver) {
   const Folder folder;
   OutputFile file(folder / "out.txt");
   file.write("one ");
@@ -168,7 +168,7 @@ TEST(OutputFile, is_completed_by_a_forked_copy_that_takes_it_over) {
   EXPECT_EQ(folder.read("out.txt"), "one two");
 }
 
-TEST(OutputFile, on_a_full_medium_is_told) {
+TEST(OutputFile, ReportsAFullDisk) {
   if (!fs::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
   OutputFile file("/dev/full");
   file.write("x");
@@ -208,7 +208,7 @@ class NonBlockingOutput {
   int saved_;
 };
 
-TEST(StandardOutput, that_does_not_block_is_waited_for) {
+TEST(StandardOutput, WaitsForANonBlockingDescriptor) {
   const std::string text(1 << 20, 'x');
   std::string read, failure;
   NonBlockingOutput output;

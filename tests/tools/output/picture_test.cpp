@@ -24,7 +24,7 @@ std::vector<Obstacle> boxes(std::size_t count) {
   return obstacles;
 }
 
-TEST(Picture, is_well_formed_whatever_the_names) {
+TEST(Picture, IsWellFormedForAnyNames) {
   const std::string svg = picture_svg(boxes(3), sample_result(2));
   const XmlCheck check(svg);
   EXPECT_EQ(check.problem(), "");
@@ -32,7 +32,7 @@ TEST(Picture, is_well_formed_whatever_the_names) {
   EXPECT_NE(svg.find("a &lt;small&gt; &quot;run&quot; &amp; more"), std::string::npos);
 }
 
-TEST(Picture, shows_three_paths_and_two_goals_for_each_robot) {
+TEST(Picture, ShowsThreePathsAndTwoGoalsPerRobot) {
   EXPECT_EQ(XmlCheck(picture_svg(boxes(3), sample_result(1))).count("polyline"), 3u);
   EXPECT_EQ(XmlCheck(picture_svg(boxes(3), sample_result(2))).count("polyline"), 6u);
   const std::string svg = picture_svg(boxes(3), sample_result(1));
@@ -44,11 +44,11 @@ TEST(Picture, shows_three_paths_and_two_goals_for_each_robot) {
   }
 }
 
-TEST(Picture, is_the_same_text_for_the_same_run) {
+TEST(Picture, EqualRunsGiveEqualText) {
   EXPECT_EQ(picture_svg(boxes(9), sample_result(2)), picture_svg(boxes(9), sample_result(2)));
 }
 
-TEST(Picture, of_thousands_of_boxes_stays_small) {
+TEST(Picture, StaysSmallWithThousandsOfBoxes) {
   const std::string svg = picture_svg(boxes(5000), sample_result(1));
   const XmlCheck check(svg);
   EXPECT_EQ(check.problem(), "");
@@ -56,14 +56,14 @@ TEST(Picture, of_thousands_of_boxes_stays_small) {
   EXPECT_LT(check.count("path"), 20u) << "one path for all boxes of a kind";
 }
 
-TEST(Picture, of_an_empty_run_is_still_a_picture) {
+TEST(Picture, EmptyRunGivesAPicture) {
   bridge::RunResult nothing;
   EXPECT_EQ(XmlCheck(picture_svg({}, nothing)).problem(), "");
   nothing.robots.resize(1);
   EXPECT_EQ(XmlCheck(picture_svg({}, nothing)).problem(), "");
 }
 
-TEST(Svg, numbers_have_two_decimals_at_most) {
+TEST(Svg, NumbersHaveAtMostTwoDecimals) {
   EXPECT_EQ(svg_number(1), "1");
   EXPECT_EQ(svg_number(0.5), "0.5");
   EXPECT_EQ(svg_number(2.678), "2.68");
@@ -71,11 +71,11 @@ TEST(Svg, numbers_have_two_decimals_at_most) {
   EXPECT_EQ(svg_number(100), "100");
 }
 
-TEST(Svg, reserved_characters_are_escaped_and_control_characters_left_out) {
+TEST(Svg, EscapesReservedAndDropsControlCharacters) {
   EXPECT_EQ(xml_escaped("a<b & \"c\">\x01é"), "a&lt;b &amp; &quot;c&quot;&gt;é");
 }
 
-TEST(XmlCheck, finds_what_is_wrong) {
+TEST(XmlCheck, FindsErrors) {
   EXPECT_EQ(XmlCheck("<a b=\"1\"><c/>x &amp; y</a>").problem(), "");
   for (const char* bad : {"<a>", "<a></b>", "<a b=1/>", "<a b=\"<\"/>", "<a>&</a>", "<a b=\"1\" b=\"2\"/>", "<a/>x"}) {
     EXPECT_NE(XmlCheck(bad).problem(), "") << bad;

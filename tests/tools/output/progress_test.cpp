@@ -31,7 +31,7 @@ std::string output_of(Shown&& shown) {
 
 Time at(Duration d) { return Time() + d; }
 
-TEST(Progress, away_from_a_terminal_is_a_line_every_simulated_minute) {
+TEST(Progress, PrintsALineEachSimulatedMinuteWithoutATerminal) {
   const std::string output = output_of([](std::FILE* stream) {
     Progress progress(stream, false, 10min);
     for (int second = 0; second <= 150; ++second) progress.update(at(second * Duration(1s)), 1, 3);
@@ -40,7 +40,7 @@ TEST(Progress, away_from_a_terminal_is_a_line_every_simulated_minute) {
   EXPECT_EQ(output, "    60 s of 600 s  1 of 3 goals\n   120 s of 600 s  1 of 3 goals\n");
 }
 
-TEST(Progress, on_a_terminal_redraws_a_bar_at_most_ten_times_a_second) {
+TEST(Progress, RedrawsItsBarAtMostTenTimesASecond) {
   fake_now_s = 100;
   const std::string output = output_of([](std::FILE* stream) {
     Progress progress(stream, true, 100s, &fake_clock);
@@ -56,7 +56,7 @@ TEST(Progress, on_a_terminal_redraws_a_bar_at_most_ten_times_a_second) {
   EXPECT_NE(output.find("x real time"), std::string::npos);
 }
 
-TEST(Progress, the_bar_is_full_at_the_end) {
+TEST(Progress, BarIsFullAtTheEnd) {
   fake_now_s = 0;
   const std::string output = output_of([](std::FILE* stream) {
     Progress progress(stream, true, 100s, &fake_clock);
@@ -67,7 +67,7 @@ TEST(Progress, the_bar_is_full_at_the_end) {
   EXPECT_NE(output.find("█ 100 s of 100 s  3 of 3 goals  50.0 x real time"), std::string::npos) << output;
 }
 
-TEST(Progress, a_message_takes_the_bar_away_and_bears_the_virtual_time) {
+TEST(Progress, MessageClearsTheBarAndHasTheVirtualTime) {
   fake_now_s = 0;
   const std::string output = output_of([](std::FILE* stream) {
     Progress progress(stream, true, 100s, &fake_clock);

@@ -12,7 +12,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-TEST(SummaryJson, has_every_promised_key_with_its_value) {
+TEST(SummaryJson, HasEveryDocumentedKey) {
   const Json json = Json::parse(summary_json(sample_result(2)));
   EXPECT_EQ(json.at("digest"), to_string(Digest(1)));
   EXPECT_EQ(json.at("goals"), 4);
@@ -32,7 +32,7 @@ TEST(SummaryJson, has_every_promised_key_with_its_value) {
   EXPECT_FALSE(json.contains("deadlock"));
 }
 
-TEST(SummaryJson, has_the_same_figures_for_each_robot) {
+TEST(SummaryJson, HasTheSameFiguresForEachRobot) {
   const Json robots = Json::parse(summary_json(sample_result(2))).at("robots");
   ASSERT_EQ(robots.size(), 2u);
   EXPECT_EQ(robots[1].at("name"), "second");
@@ -45,7 +45,7 @@ TEST(SummaryJson, has_the_same_figures_for_each_robot) {
   EXPECT_EQ(robots[0].at("goal_reports").at(1).at("report"), "no way");
 }
 
-TEST(SummaryJson, has_the_batteries_that_count) {
+TEST(SummaryJson, HasSimulatedBatteriesOnly) {
   bridge::RunResult result = sample_result(2);
   result.robots[0].battery = {.charge = 0.25, .volts = 23.5};
   result.robots[1].battery = {.charge = 0, .volts = 22, .empty_at = Time::from_ns(7'200'000'000)};
@@ -60,7 +60,7 @@ TEST(SummaryJson, has_the_batteries_that_count) {
   EXPECT_NE(text.find("second: battery empty at 7.2 s, off since then\n"), std::string::npos) << text;
 }
 
-TEST(Summary, leaves_out_figures_that_no_robot_has) {
+TEST(Summary, OmitsFiguresThatNoRobotHas) {
   bridge::RunResult result = sample_result(1);
   result.robots[0].goals.clear();
   result.robots[0].present = {.motion = false, .position = false, .odometry = false};
@@ -80,7 +80,7 @@ TEST(Summary, leaves_out_figures_that_no_robot_has) {
                 to_string(Digest(1)) + "\n");
 }
 
-TEST(Summary, a_robot_without_base_and_position_does_not_count_in_means) {
+TEST(Summary, ExcludesRobotsWithoutPositionFromMeans) {
   bridge::RunResult result = sample_result(2);
   bridge::RobotResult bystander;
   bystander.name = "second";
@@ -95,7 +95,7 @@ TEST(Summary, a_robot_without_base_and_position_does_not_count_in_means) {
   EXPECT_EQ(Json::parse(summary_json(result)).at("position_error_mean_m"), 0.03);
 }
 
-TEST(Summary, counts_the_visits_of_all_rounds) {
+TEST(Summary, CountsTheVisitsOfAllRounds) {
   bridge::RunResult result = sample_result(1);
   result.robots[0].goals = {{{3, 1}, "shelf", 50, 50, Time::from_ns(90'000'000'000), "reached"},
                             {{5, 4}, "", 50, 49, Time::from_ns(40'000'000'000), "no way"}};
@@ -109,20 +109,20 @@ TEST(Summary, counts_the_visits_of_all_rounds) {
   EXPECT_EQ(goal.at("reached"), false);
 }
 
-TEST(SummaryJson, of_several_runs_is_a_list) {
+TEST(SummaryJson, SeveralRunsGiveAList) {
   const std::vector<bridge::RunResult> results = {sample_result(1), sample_result(2)};
   const Json json = Json::parse(summary_json(std::span<const bridge::RunResult>(results)));
   EXPECT_EQ(json.at("runs").size(), 2u);
   EXPECT_EQ(json.at("runs").at(1).at("robots").size(), 2u);
 }
 
-TEST(SummaryJson, bytes_that_are_no_utf8_do_not_lose_the_summary) {
+TEST(SummaryJson, ReplacesInvalidUtf8) {
   bridge::RunResult result = sample_result(1);
   result.scenario = "caf\xe9";
   EXPECT_TRUE(Json::accept(summary_json(result)));
 }
 
-TEST(Summary, of_a_paced_run_tells_its_lag) {
+TEST(Summary, PacedRunReportsItsLag) {
   bridge::RunResult result = sample_result(1);
   EXPECT_FALSE(Json::parse(summary_json(result)).contains("lag_max_s"));
   EXPECT_EQ(summary_text(result).find("lag"), std::string::npos);
@@ -132,7 +132,7 @@ TEST(Summary, of_a_paced_run_tells_its_lag) {
   EXPECT_NE(summary_text(result).find("mean 125.0 ms, greatest 2500.0 ms behind the wall clock"), std::string::npos);
 }
 
-TEST(SummaryText, tells_the_figures_and_ends_with_the_digest) {
+TEST(SummaryText, PrintsFiguresAndEndsWithTheDigest) {
   const std::string text = summary_text(sample_result(1));
   for (const char* part : {"seed 7: time limit after 40.0 s", "1 of 2", "10.5 m", "mean 0.030 m, greatest 0.125 m",
                            "greatest 1.50 m, at the end 1.25 m", "12345", "80.0 times real time",
@@ -143,12 +143,12 @@ TEST(SummaryText, tells_the_figures_and_ends_with_the_digest) {
   EXPECT_EQ(text.find("collisions  "), text.rfind("collisions  ")) << "no table for one robot";
 }
 
-TEST(SummaryText, has_a_row_for_each_of_several_robots) {
+TEST(SummaryText, HasARowPerRobot) {
   const std::string text = summary_text(sample_result(2));
   EXPECT_NE(text.find("second      1/2     10.5 m"), std::string::npos) << text;
 }
 
-TEST(SummaryText, tells_warnings_and_the_deadlock) {
+TEST(SummaryText, PrintsWarningsAndTheDeadlock) {
   bridge::RunResult result = sample_result(1);
   result.warnings = {"the step is coarse"};
   result.trouble = "a waits for b";
@@ -157,7 +157,7 @@ TEST(SummaryText, tells_warnings_and_the_deadlock) {
   EXPECT_NE(text.find("\na waits for b\n"), std::string::npos);
 }
 
-TEST(Summary, a_run_without_progress_is_no_deadlock) {
+TEST(Summary, NoProgressIsDistinctFromDeadlock) {
   bridge::RunResult result = sample_result(1);
   result.outcome = bridge::Outcome::no_progress;
   result.trouble = "no progress: a spins";
@@ -172,7 +172,7 @@ TEST(Summary, a_run_without_progress_is_no_deadlock) {
   EXPECT_EQ(Json::parse(summary_json(result)).at("deadlock"), "no progress: a spins");
 }
 
-TEST(Summary, tells_the_tasks_that_missed_deadlines_and_only_them) {
+TEST(Summary, ListsOnlyTasksThatMissedDeadlines) {
   bridge::RunResult result = sample_result(2);
   EXPECT_EQ(summary_text(result).find("deadline"), std::string::npos);
   EXPECT_FALSE(Json::parse(summary_json(result)).at("robots").at(0).contains("late_tasks"));
@@ -189,7 +189,7 @@ TEST(Summary, tells_the_tasks_that_missed_deadlines_and_only_them) {
   EXPECT_EQ(task.at("greatest_lateness_ms"), 1.5);
 }
 
-TEST(SeedsTable, head_and_rows_have_the_same_columns) {
+TEST(SeedsTable, HeadAndRowsHaveTheSameColumns) {
   const std::string head = seeds_head(), row = seeds_row(sample_result(1));
   EXPECT_EQ(head.find("outcome") + 7, row.find("time limit") + 10);
   EXPECT_EQ(head.find("digest"), row.find("wp1:"));

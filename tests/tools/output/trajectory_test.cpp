@@ -17,11 +17,11 @@ std::size_t line_count(const std::string& text) {
   return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
 }
 
-TEST(Trajectory, a_line_has_time_position_and_quaternion) {
+TEST(Trajectory, LineHasTimePositionAndQuaternion) {
   EXPECT_EQ(tum_line({Time::from_ns(1'500'000'000), {1, -2.5, 0}}), "1.500000000 1 -2.5 0 0 0 0 1\n");
 }
 
-TEST(Trajectory, the_quaternion_turns_by_the_heading) {
+TEST(Trajectory, QuaternionRotatesByTheHeading) {
   for (const double heading : {0.3, -1.2, 3.0, exact::pi}) {
     std::istringstream line(tum_line({Time(), {0, 0, heading}}));
     double t, x, y, z, qx, qy, qz, qw;
@@ -39,7 +39,7 @@ void drive(bridge::PathSink& sink, double y) {
     sink.add(kind, {Time(), {1, y, 0}});
 }
 
-TEST(Trajectory, one_robot_has_the_name_that_was_asked_for_and_two_beside_it) {
+TEST(Trajectory, OneRobotGivesTheNamedFileAndTwoBesideIt) {
   const Folder folder;
   const std::vector<std::string> names = {"one"};
   TrajectoryFiles files(folder / "out.tum", names);
@@ -51,7 +51,7 @@ TEST(Trajectory, one_robot_has_the_name_that_was_asked_for_and_two_beside_it) {
   EXPECT_EQ(folder.count(), 3u);
 }
 
-TEST(Trajectory, several_robots_have_files_of_their_own) {
+TEST(Trajectory, SeveralRobotsGiveFilesEach) {
   const Folder folder;
   const std::vector<std::string> names = {"one", "second"};
   TrajectoryFiles files(folder / "out.tum", names);
@@ -64,7 +64,7 @@ TEST(Trajectory, several_robots_have_files_of_their_own) {
   EXPECT_EQ(folder.count(), 6u);
 }
 
-TEST(Trajectory, files_of_a_death_end_with_its_reason) {
+TEST(Trajectory, CutOffFilesEndWithTheReason) {
   const Folder folder;
   const std::vector<std::string> names = {"one"};
   TrajectoryFiles files(folder / "out.tum", names);
@@ -74,14 +74,14 @@ TEST(Trajectory, files_of_a_death_end_with_its_reason) {
   EXPECT_TRUE(folder.read("out.tum").ends_with("\n# cut off: killed\n"));
 }
 
-TEST(Trajectory, a_medium_that_is_full_during_the_run_is_an_error_at_its_end) {
+TEST(Trajectory, FullDiskDuringTheRunFailsAtItsEnd) {
   const std::vector<std::string> names = {"one"};
   TrajectoryFiles files("/dev/full", names);
   for (int i = 0; i < 1000; ++i) drive(files.sink(0), 2);
   EXPECT_THROW(files.finish(), BadInput);
 }
 
-TEST(Trajectory, nothing_is_left_of_a_run_that_did_not_end) {
+TEST(Trajectory, UnfinishedRunLeavesNoFiles) {
   const Folder folder;
   const std::vector<std::string> names = {"one"};
   { TrajectoryFiles files(folder / "out.tum", names); }

@@ -15,7 +15,7 @@ const auto never = [] { return false; };
 // Ends a wait at once, as a signal does.
 const auto at_once = [] { return true; };
 
-TEST(Pacing, tells_the_lag_of_each_wait) {
+TEST(Pacing, ReportsTheLagOfEachWait) {
   fake_now_s = 10;
   Pacing pacing(2, fake_clock);
   EXPECT_FALSE(pacing.lag());
@@ -30,7 +30,7 @@ TEST(Pacing, tells_the_lag_of_each_wait) {
   EXPECT_DOUBLE_EQ(pacing.lag()->mean_s, 0.25);
 }
 
-TEST(Pacing, at_another_speed_or_after_a_pause_begins_anew) {
+TEST(Pacing, RestartsAtAnotherSpeedOrAfterAPause) {
   fake_now_s = 0;
   Pacing pacing(1, fake_clock);
   fake_now_s = 100;
@@ -44,13 +44,13 @@ TEST(Pacing, at_another_speed_or_after_a_pause_begins_anew) {
   EXPECT_DOUBLE_EQ(pacing.lag()->max_s, 0.5);
 }
 
-TEST(Pacing, a_run_that_is_not_held_back_has_no_lag) {
+TEST(Pacing, UnpacedRunHasNoLag) {
   Pacing pacing(0, fake_clock);
   pacing.wait_for(at_s(1000), never);
   EXPECT_FALSE(pacing.lag());
 }
 
-TEST(Pacing, who_is_asked_during_a_wait_may_let_it_go_on_at_full_speed) {
+TEST(Pacing, PollDuringAWaitCanLiftThePace) {
   const double start_s = wall_clock_s();
   Pacing pacing(0.001);
   pacing.wait_for(at_s(1), [&] {
