@@ -4,9 +4,9 @@
 #include <map>
 #include <optional>
 
-#include "modules/logs/byte_reader.hpp"
 #include "modules/logs/decompression.hpp"
 #include "modules/logs/topic_log.hpp"
+#include "modules/messages/byte_reader.hpp"
 
 namespace waitpoint::logs {
 namespace {
@@ -75,9 +75,14 @@ class McapParser {
   void take_message(ByteReader& record) {
     const auto found = channels_.find(record.number<std::uint16_t>());
     if (found == channels_.end()) record.reject("the channel of a message before it");
-    record.take(sizeof(std::uint32_t) + 2 * sizeof(std::uint64_t));  // number and times
+    record.take(sizeof(std::uint32_t));  // its number
+    const auto received_ns = record.number<std::uint64_t>();
+    if (received_ns > std::uint64_t{INT64_MAX}) record.reject("the time of a message before the year 2262");
+    record.take(sizeof(std::uint64_t));  // when it was published
     const Channel& of = found->second;
-    if (of.encoding) topics_.add(of.topic, of.type, *of.encoding, record.take(record.left()));
+    if (of.encoding)
+      topics_.add({Time::from_ns(static_cast<std::int64_t>(received_ns)), of.topic, of.type, *of.encoding,
+                   record.take(record.left())});
   }
 
   const std::string& name_;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "core/error.hpp"
 
@@ -17,6 +18,7 @@ constexpr double way_max_m = 1e7;
 
 struct Entry {
   Time stamp;  // then the date
+  Time received;
   std::uint64_t place;
   const LoggedScan* scan;          // or null
   const LoggedOdometry* odometry;  // or null
@@ -24,9 +26,12 @@ struct Entry {
 
 std::vector<Entry> in_order_of_the_log(const SensorLog& log) {
   std::vector<Entry> entries;
-  for (const LoggedScan& scan : log.scans) entries.push_back({scan.stamp, scan.place, &scan, nullptr});
-  for (const LoggedOdometry& report : log.odometry) entries.push_back({report.stamp, report.place, nullptr, &report});
-  std::sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) { return a.place < b.place; });
+  for (const LoggedScan& scan : log.scans) entries.push_back({scan.stamp, scan.received, scan.place, &scan, nullptr});
+  for (const LoggedOdometry& report : log.odometry)
+    entries.push_back({report.stamp, report.received, report.place, nullptr, &report});
+  std::sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) {
+    return std::tie(a.received, a.place) < std::tie(b.received, b.place);
+  });
   return entries;
 }
 

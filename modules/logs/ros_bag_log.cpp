@@ -3,9 +3,9 @@
 
 #include <map>
 
-#include "modules/logs/byte_reader.hpp"
 #include "modules/logs/decompression.hpp"
 #include "modules/logs/topic_log.hpp"
+#include "modules/messages/byte_reader.hpp"
 
 namespace waitpoint::logs {
 namespace {
@@ -19,6 +19,9 @@ using Fields = std::map<std::string, std::string_view, std::less<>>;
 struct Connection {
   std::string topic, type;
 };
+
+// Some recorders leave the slash out.
+std::string global_name(std::string_view topic) { return (topic.starts_with('/') ? "" : "/") + std::string(topic); }
 
 class BagParser {
  public:
@@ -55,6 +58,12 @@ class BagParser {
     return ByteReader(name_, field(header, key)).number<Number>();
   }
 
+  Time time(const Fields& header) const {
+    ByteReader bytes(name_, field(header, "time"));
+    const auto sec = bytes.number<std::uint32_t>(), nsec = bytes.number<std::uint32_t>();
+    return messages::time_of({sec, nsec});
+  }
+
   void take(const Fields& header, std::string_view data, bool is_in_chunk) {
     switch (number<std::uint8_t>(header, "op")) {
       case chunk: {
@@ -65,14 +74,15 @@ class BagParser {
       }
       case connection: {
         const Fields described = fields(data);
-        connections_[number<std::uint32_t>(header, "conn")] = {std::string(field(header, "topic")),
+        connections_[number<std::uint32_t>(header, "conn")] = {global_name(field(header, "topic")),
                                                                std::string(field(described, "type"))};
         return;
       }
       case message_data: {
         const auto found = connections_.find(number<std::uint32_t>(header, "conn"));
         if (found == connections_.end()) throw BadInput(name_, "expected the connection of a message before it");
-        return topics_.add(found->second.topic, found->second.type, Encoding::ros1, data);
+        const auto [topic, type] = found->second;
+        return topics_.add({time(header), topic, type, Encoding::ros1, data});
       }
       case bag_header:
       case index_data:

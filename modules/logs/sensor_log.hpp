@@ -23,12 +23,14 @@ struct LoggedScan {
   double range_max_m = 0;  ///< readings from here on are no echoes
   std::vector<float> range_m = {};
   std::optional<Pose> odometry = {};  ///< recorded with the scan
+  Time received = {};                 ///< by the recorder's clock, which orders the records before `place`; or unknown
 };
 
 struct LoggedOdometry {
   Time stamp;
   std::uint64_t place = 0;  ///< its position among all records of the log
   Pose pose;
+  Time received = {};  ///< as that of a scan
 };
 
 struct SensorLog {

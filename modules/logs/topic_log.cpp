@@ -10,34 +10,23 @@
 #include "core/error.hpp"
 #include "core/nearest_name.hpp"
 #include "core/printable_line.hpp"
+#include "modules/logs/message_values.hpp"
+#include "modules/messages/poses.hpp"
 
 namespace waitpoint::logs {
 namespace {
 
-bool is_scan(const std::string& type) {
-  return type == "sensor_msgs/LaserScan" || type == "sensor_msgs/msg/LaserScan" || type == "foxglove.LaserScan";
-}
-
-bool is_odometry(const std::string& topic, const std::string& type) {
-  if (type == "foxglove.PoseInFrame") return topic.ends_with("odometry");
-  return type == "nav_msgs/Odometry" || type == "nav_msgs/msg/Odometry";
-}
-
-bool is_frames(const std::string& type) {
-  return type == "tf2_msgs/TFMessage" || type == "tf/tfMessage" || type == "tf2_msgs/msg/TFMessage" ||
-         type == "foxglove.FrameTransform";
-}
-
 // ROS 1 knew names of frames with and without a slash.
 std::string without_slash(const std::string& frame) { return frame.starts_with('/') ? frame.substr(1) : frame; }
 
-Eigen::Isometry3d transform_of(const SpaceFrame& frame) {
+Eigen::Isometry3d isometry_of(const messages::geometry_msgs::Transform& transform) {
+  const messages::geometry_msgs::Quaternion& turn = transform.rotation;
   const double length =
-      std::sqrt(exact::square(frame.qw) + exact::square(frame.qx) + exact::square(frame.qy) + exact::square(frame.qz));
-  const Eigen::Quaterniond turn =
-      length > 0 ? Eigen::Quaterniond(frame.qw / length, frame.qx / length, frame.qy / length, frame.qz / length)
+      std::sqrt(exact::square(turn.w) + exact::square(turn.x) + exact::square(turn.y) + exact::square(turn.z));
+  const Eigen::Quaterniond rotation =
+      length > 0 ? Eigen::Quaterniond(turn.w / length, turn.x / length, turn.y / length, turn.z / length)
                  : Eigen::Quaterniond::Identity();
-  return Eigen::Translation3d(frame.x, frame.y, frame.z) * turn;
+  return Eigen::Translation3d(transform.translation.x, transform.translation.y, transform.translation.z) * rotation;
 }
 
 /// The topic that was chosen among those of a map, or else the only one.
@@ -73,53 +62,70 @@ void turn_over(LoggedScan& scan) {
 
 }  // namespace
 
-void TopicLog::add(const std::string& topic, const std::string& type, Encoding encoding, std::string_view message) {
-  const bool is_of_scans = is_scan(type), is_of_odometry = is_odometry(topic, type), is_of_frames = is_frames(type);
-  if (!is_of_scans && !is_of_odometry && !is_of_frames) {
-    ++others_[printable_line(topic)];
-    return;
-  }
-  const std::string place =
-      name_ + ": message " + std::to_string(++messages_[topic]) + " of '" + printable_line(topic) + "'";
-  if (is_of_scans) add_scan(place, topic, encoding, message);
-  if (is_of_odometry) add_odometry(place, topic, encoding, message);
-  if (is_of_frames) add_frames(place, encoding, message);
+std::string TopicLog::next_place(const std::string& topic) {
+  return name_ + ": message " + std::to_string(++messages_[topic]) + " of '" + printable_line(topic) + "'";
 }
 
-void TopicLog::add_scan(const std::string& place, const std::string& topic, Encoding encoding,
-                        std::string_view message) {
-  ScanMessage read = parse_scan(place, encoding, message);
-  if (read.range_m.empty()) return;
-  Scans& of = scans_[topic];
-  of.frame = without_slash(read.frame);
-  for (float& range : read.range_m)
-    if (std::isnan(range) || range < read.range_min_m) range = std::numeric_limits<float>::infinity();
-  of.scans.push_back({read.stamp, places_++, read.first_angle_rad, read.angle_step_rad, read.range_max_m,
-                      std::move(read.range_m), std::nullopt});
-}
-
-void TopicLog::add_odometry(const std::string& place, const std::string& topic, Encoding encoding,
-                            std::string_view message) {
-  const OdometryMessage read = parse_odometry(place, encoding, message);
-  Odometry& of = odometry_[topic];
-  of.child = without_slash(read.child);
-  of.reports.push_back({read.stamp, places_++, read.pose});
-}
-
-void TopicLog::add_frames(const std::string& place, Encoding encoding, std::string_view message) {
-  for (FrameMessage& read : parse_frames(place, encoding, message)) {
-    read.frame.parent = without_slash(read.frame.parent);
-    add_frame(read.stamp, without_slash(read.child), read.frame);
+void TopicLog::add(const RecordedMessage& message) {
+  namespace foxglove = messages::foxglove;
+  if (message.is<messages::sensor_msgs::LaserScan>()) {
+    const std::string place = next_place(message.topic);
+    const auto read = message.read<messages::sensor_msgs::LaserScan>(place);
+    add_scan(message, read.header.frame_id, scan_of(place, read));
+  } else if (message.is<foxglove::LaserScan>()) {
+    const std::string place = next_place(message.topic);
+    const auto read = message.read<foxglove::LaserScan>(place);
+    add_scan(message, read.frame_id, scan_of(place, read));
+  } else if (message.is<messages::nav_msgs::Odometry>()) {
+    const std::string place = next_place(message.topic);
+    const auto read = message.read<messages::nav_msgs::Odometry>(place);
+    add_odometry(message, read.child_frame_id, time_of(read.header.stamp),
+                 messages::pose_of(checked(place, read.pose.pose)));
+  } else if (message.is<foxglove::PoseInFrame>() && message.topic.ends_with("odometry")) {
+    const std::string place = next_place(message.topic);
+    const auto read = message.read<foxglove::PoseInFrame>(place);
+    add_odometry(message, "", time_of(read.timestamp), messages::pose_of(checked(place, read.pose)));
+  } else if (message.is<messages::tf2_msgs::TFMessage>() || message.type == "tf/tfMessage") {
+    const std::string place = next_place(message.topic);
+    for (const auto& frame : message.read<messages::tf2_msgs::TFMessage>(place).transforms)
+      add_frame(message, place, frame);
+  } else if (message.is<foxglove::FrameTransform>()) {
+    const std::string place = next_place(message.topic);
+    const auto read = message.read<foxglove::FrameTransform>(place);
+    add_frame(message, place,
+              {{0, read.timestamp, read.parent_frame_id}, read.child_frame_id, {read.translation, read.rotation}});
+  } else {
+    ++others_[printable_line(message.topic)];
   }
 }
 
-void TopicLog::add_frame(Time stamp, const std::string& child, const SpaceFrame& frame) {
-  if (frame.parent == "odom") {
+void TopicLog::add_scan(const RecordedMessage& message, const std::string& frame, LoggedScan scan) {
+  if (scan.range_m.empty()) return;
+  Scans& of = scans_[message.topic];
+  of.frame = without_slash(frame);
+  scan.received = message.received;
+  scan.place = places_++;
+  of.scans.push_back(std::move(scan));
+}
+
+void TopicLog::add_odometry(const RecordedMessage& message, const std::string& child, Time stamp, const Pose& pose) {
+  Odometry& of = odometry_[message.topic];
+  of.child = without_slash(child);
+  of.reports.push_back({stamp, places_++, pose, message.received});
+}
+
+void TopicLog::add_frame(const RecordedMessage& message, const std::string& place,
+                         const messages::geometry_msgs::TransformStamped& frame) {
+  const messages::geometry_msgs::Transform& transform = checked(place, frame.transform);
+  const std::string parent = without_slash(frame.header.frame_id), child = without_slash(frame.child_frame_id);
+  if (parent == "odom") {
     Odometry& of = odometry_of_frames_["odom -> " + child];
     of.child = child;
-    of.reports.push_back({stamp, places_++, {frame.x, frame.y, heading_of(frame.qx, frame.qy, frame.qz, frame.qw)}});
+    const Pose pose{transform.translation.x, transform.translation.y, messages::heading_of(transform.rotation)};
+    of.reports.push_back({time_of(frame.header.stamp), places_++, pose, message.received});
   }
-  frames_.try_emplace(child, frame);
+  const auto [known, is_new] = frames_.try_emplace(child, Frame{message.received, parent, transform});
+  if (!is_new && message.received < known->second.received) known->second = {message.received, parent, transform};
 }
 
 void TopicLog::find_mount(const Scans& scans, const std::string& base, SensorLog& log) const {
@@ -129,7 +135,7 @@ void TopicLog::find_mount(const Scans& scans, const std::string& base, SensorLog
   for (std::size_t steps = 0; steps < frames_.size() && !on_base; ++steps) {
     const auto above = frames_.find(frame);
     if (above == frames_.end()) break;
-    laser = transform_of(above->second) * laser;
+    laser = isometry_of(above->second.transform) * laser;
     frame = above->second.parent;
     if (!on_parent) on_parent = laser;
     if (frame == base) on_base = laser;

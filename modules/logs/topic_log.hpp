@@ -8,16 +8,18 @@
 //   mount       the frames from that of the odometry's child down to the laser's; where they do not lead there, the one
 //               frame above the laser's
 //
-// A laser that is upside down or turns clockwise has its beams in the other order. Ranges below the least, above the
-// greatest and such as are no numbers are no echoes.
+// Messages are in the order in which the recorder got them, as `rosbag play` has it; the order in the file, in which
+// chunks may overlap, decides among those of one time. A laser that is upside down or turns clockwise has its beams in
+// the other order. Ranges below the least, above the greatest and such as are no numbers are no echoes.
 #pragma once
 
 #include <map>
 #include <string>
 #include <string_view>
 
-#include "modules/logs/messages.hpp"
+#include "modules/logs/recorded_message.hpp"
 #include "modules/logs/sensor_log.hpp"
+#include "modules/messages/tf2_msgs.hpp"
 
 namespace waitpoint::logs {
 
@@ -28,7 +30,7 @@ class TopicLog {
 
   /// BadInput, naming topic and number of the message, if it is cut off or damaged. Messages of other types are
   /// counted.
-  void add(const std::string& topic, const std::string& type, Encoding encoding, std::string_view message);
+  void add(const RecordedMessage& message);
   /// BadInput if there are no scans or no odometry, or several topics and `choice` does not name one of them.
   SensorLog finish(const std::string& format, const LogChoice& choice);
 
@@ -42,16 +44,23 @@ class TopicLog {
     std::vector<LoggedOdometry> reports;
   };
 
-  void add_scan(const std::string& place, const std::string& topic, Encoding encoding, std::string_view message);
-  void add_odometry(const std::string& place, const std::string& topic, Encoding encoding, std::string_view message);
-  void add_frames(const std::string& place, Encoding encoding, std::string_view message);
-  void add_frame(Time stamp, const std::string& child, const SpaceFrame& frame);
+  struct Frame {
+    Time received;
+    std::string parent;
+    messages::geometry_msgs::Transform transform;
+  };
+
+  std::string next_place(const std::string& topic);
+  void add_scan(const RecordedMessage& message, const std::string& frame, LoggedScan scan);
+  void add_odometry(const RecordedMessage& message, const std::string& child, Time stamp, const Pose& pose);
+  void add_frame(const RecordedMessage& message, const std::string& place,
+                 const messages::geometry_msgs::TransformStamped& frame);
   void find_mount(const Scans& scans, const std::string& base, SensorLog& log) const;
 
   const std::string& name_;
   std::map<std::string, Scans> scans_;
   std::map<std::string, Odometry> odometry_, odometry_of_frames_;
-  std::map<std::string, SpaceFrame> frames_;  // by child: the first
+  std::map<std::string, Frame> frames_;  // by child: the first
   std::map<std::string, std::uint64_t> others_;
   std::map<std::string, std::uint64_t> messages_;  // by topic: their number so far
   std::uint64_t places_ = 0;

@@ -4,31 +4,33 @@
 #include <exception>
 
 #include "core/error.hpp"
-#include "core/exact_math.hpp"
+#include "modules/messages/poses.hpp"
+#include "modules/messages/readings.hpp"
+#include "modules/messages/rosgraph_msgs.hpp"
+#include "modules/messages/tf2_msgs.hpp"
+#include "modules/messages/visualization_msgs.hpp"
+#include "modules/messages/wire.hpp"
 
 namespace waitpoint::tools {
 namespace {
 
-RosBagFile::Place place(Time time, const std::string& frame, const Pose& pose, double z_m = 0) {
-  const auto [sin_half, cos_half] = exact::sincos(pose.heading / 2);
-  return {time.ns(), frame, pose.x, pose.y, z_m, sin_half, cos_half};
-}
+using messages::visualization_msgs::Marker;
 
-RosBagFile::Solid solid(const world::Shape& shape, const std::string& frame) {
+/// A grey box, or an upright cylinder.
+Marker marker_of(const world::Shape& shape, const std::string& frame) {
+  Marker marker;
+  marker.header = messages::header_of(Time(), frame);
+  marker.pose = messages::pose_message(shape.pose, (shape.z_low_m + shape.z_high_m) / 2);
   const double height_m = shape.z_high_m - shape.z_low_m;
-  const RosBagFile::Place middle = place(Time(), frame, shape.pose, (shape.z_low_m + shape.z_high_m) / 2);
-  if (shape.kind == world::Shape::Kind::cylinder)
-    return {false, middle, {2 * shape.radius_m, 2 * shape.radius_m, height_m}};
-  return {true, middle, {shape.length_m, shape.width_m, height_m}};
-}
-
-RosBagFile::Grid grid(Time time, const std::string& frame, const OccupancyGrid& of) {
-  constexpr std::int8_t free = 0, occupied = 100, unknown = -1;
-  RosBagFile::Grid all{place(time, frame, of.origin()), of.width(), of.height(), of.resolution_m(), {}};
-  all.cells.reserve(of.cells().size());
-  for (const Cell cell : of.cells())
-    all.cells.push_back(cell == Cell::free ? free : cell == Cell::occupied ? occupied : unknown);
-  return all;
+  if (shape.kind == world::Shape::Kind::cylinder) {
+    marker.type = messages::constant<Marker>("CYLINDER");
+    marker.scale = {2 * shape.radius_m, 2 * shape.radius_m, height_m};
+  } else {
+    marker.type = messages::constant<Marker>("CUBE");
+    marker.scale = {shape.length_m, shape.width_m, height_m};
+  }
+  marker.color = {0.6f, 0.6f, 0.6f, 1};
+  return marker;
 }
 
 }  // namespace
@@ -44,64 +46,82 @@ RosBagRecording::RosBagRecording(const std::filesystem::path& path, const scenar
   }
 }
 
+template <messages::Message M>
+void RosBagRecording::write(const std::string& topic, const M& message) {
+  bag_->write(topic, messages::stamp_of(now_), messages::ros1_type<M>(),
+              messages::encode<messages::Wire::ros1>(message));
+}
+
+void RosBagRecording::write_clock() { write("/clock", messages::rosgraph_msgs::Clock{messages::stamp_of(now_)}); }
+
 void RosBagRecording::write_obstacles(const std::vector<world::Shape>& shapes) {
-  std::vector<RosBagFile::Solid> solids;
-  solids.reserve(shapes.size());
-  for (const world::Shape& shape : shapes) solids.push_back(solid(shape, root));
-  bag_->write_solids("/world", solids);
+  messages::visualization_msgs::MarkerArray all;
+  for (const world::Shape& shape : shapes) {
+    Marker& marker = all.markers.emplace_back(marker_of(shape, root));
+    marker.ns = "/world";
+    marker.id = static_cast<std::int32_t>(all.markers.size() - 1);
+  }
+  write("/world", all);
 }
 
 void RosBagRecording::write_transform(Time date, const std::string& parent, const std::string& child, const Pose& pose,
                                       double height_m) {
-  bag_->write_transform(place(date, parent, pose, height_m), child);
+  write("/tf", messages::tf2_msgs::TFMessage{{messages::transform_message(date, parent, child, pose, height_m)}});
 }
 
 void RosBagRecording::write_truth(const OfRobot& robot, Time date, const Pose& pose, double height_m) {
-  bag_->write_pose("/" + robot.name + "/truth", place(date, root, pose, height_m));
+  write("/" + robot.name + "/truth", messages::pose_message(date, root, pose, height_m));
 }
 
 void RosBagRecording::write_odometry(const OfRobot& robot, const posters::Odometry& odometry) {
-  const posters::PositionEstimate& position = odometry.position;
-  bag_->write_odometry("/" + robot.name + "/odometry", place(position.date, root, position.pose, odometry.height_m),
-                       position.covariance, robot.name, odometry.v_m_s, odometry.w_rad_s);
+  write("/" + robot.name + "/odometry", messages::message_of(odometry, root, robot.name));
 }
 
 void RosBagRecording::write_position(const OfRobot& robot, const posters::PositionEstimate& position) {
-  bag_->write_pose("/" + robot.name + "/position", place(position.date, root, position.pose), position.covariance);
+  write("/" + robot.name + "/position", messages::message_of(position, root));
 }
 
 void RosBagRecording::write_scan(const OfRobot&, std::size_t, const std::string& frame,
                                  const posters::LaserReading& scan) {
-  bag_->write_scan("/" + frame, {scan.date.ns(),
-                                 frame,
-                                 scan.first_angle_rad,
-                                 scan.angle_step_rad,
-                                 scan.range_max_m,
-                                 {scan.range_m.begin(), scan.range_m.end()}});
+  write("/" + frame, messages::message_of(scan, frame));
 }
 
 void RosBagRecording::write_shown(const nodes::ShownMessage& message, const std::string& frame) {
-  if (message.kind == nodes::ShownMessage::Kind::grid) {
-    if (message.grid) bag_->write_grid(message.topic, grid(message.date, frame, *message.grid));
-    return;
+  switch (message.kind) {
+    case nodes::ShownMessage::Kind::grid:
+      if (message.grid) write(message.topic, messages::message_of(*message.grid, message.date, frame));
+      return;
+    case nodes::ShownMessage::Kind::path: {
+      messages::nav_msgs::Path path{messages::header_of(message.date, frame), {}};
+      for (const Pose& pose : message.poses) path.poses.push_back(messages::pose_message(message.date, frame, pose));
+      return write(message.topic, path);
+    }
+    case nodes::ShownMessage::Kind::cloud: {
+      messages::geometry_msgs::PoseArray cloud{messages::header_of(message.date, frame), {}};
+      for (const Pose& pose : message.poses) cloud.poses.push_back(messages::pose_message(pose));
+      return write(message.topic, cloud);
+    }
   }
-  std::vector<RosBagFile::Place> places;
-  places.reserve(message.poses.size());
-  for (const Pose& pose : message.poses) places.push_back(place(message.date, frame, pose));
-  if (message.kind == nodes::ShownMessage::Kind::path)
-    bag_->write_path(message.topic, message.date.ns(), frame, places);
-  else
-    bag_->write_poses(message.topic, message.date.ns(), frame, places);
+}
+
+void RosBagRecording::write_line(const std::string& topic, Time date, const std::string& writer,
+                                 const std::string& text, bool is_warning) {
+  using messages::rosgraph_msgs::Log;
+  Log log;
+  log.header = messages::header_of(date, "");
+  log.level = is_warning ? messages::constant<Log>("WARN") : messages::constant<Log>("INFO");
+  log.name = writer;
+  log.msg = text;
+  write(topic, log);
 }
 
 void RosBagRecording::write_log(const OfRobot& robot, const ModuleLog::Line& line) {
-  bag_->write_log("/" + robot.name + "/modules", line.date.ns(), robot.name + "/" + line.module, line.text,
-                  line.is_bad);
+  write_line("/" + robot.name + "/modules", line.date, robot.name + "/" + line.module, line.text, line.is_bad);
 }
 
 void RosBagRecording::close(const bridge::RunResult& result) {
   if (result.outcome == bridge::Outcome::crashed)
-    bag_->write_log("/waitpoint", result.simulated.ns(), "waitpoint", "cut off: " + result.trouble, true);
+    write_line("/waitpoint", Time() + result.simulated, "waitpoint", "cut off: " + result.trouble, true);
   bag_->close();
   file_.commit();
 }

@@ -25,8 +25,8 @@ class RosBagRecording final : public ViewerRecording {
   RosBagRecording(const std::filesystem::path& path, const scenario::Scenario& scenario);
 
  private:
-  void set_time(Time now) override { bag_->set_time(now.ns()); }
-  void write_clock() override { bag_->write_clock(); }
+  void set_time(Time now) override { now_ = now; }
+  void write_clock() override;
   void write_obstacles(const std::vector<world::Shape>& shapes) override;
   void write_transform(Time date, const std::string& parent, const std::string& child, const Pose& pose,
                        double height_m) override;
@@ -39,8 +39,14 @@ class RosBagRecording final : public ViewerRecording {
   void write_log(const OfRobot& robot, const ModuleLog::Line& line) override;
   void close(const bridge::RunResult& result) override;
 
+  template <messages::Message M>
+  void write(const std::string& topic, const M& message);
+  void write_line(const std::string& topic, Time date, const std::string& writer, const std::string& text,
+                  bool is_warning);
+
   OutputFile file_;
   std::unique_ptr<RosBagFile> bag_;
+  Time now_;  // at which the following messages are received
 };
 
 }  // namespace waitpoint::tools

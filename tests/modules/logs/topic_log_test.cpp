@@ -8,6 +8,7 @@
 
 #include "core/error.hpp"
 #include "modules/logs/log_file.hpp"
+#include "modules/logs/playing_order.hpp"
 
 namespace waitpoint::logs {
 namespace {
@@ -73,7 +74,9 @@ std::string scan(bool is_cdr, double stamp_s, float first, float step, const std
 
 std::string odometry(bool is_cdr, double stamp_s, double x) {
   Message message(is_cdr);
-  return message.header(stamp_s, "odom").add(std::string("base")).place(x, quarter).bytes();
+  message.header(stamp_s, "odom").add(std::string("base")).place(x, quarter);
+  for (int i = 0; i < 36 + 6 + 36; ++i) message.add(0.0);  // covariances, velocities
+  return message.bytes();
 }
 
 /// One transform, from its parent to its child.
@@ -92,8 +95,8 @@ class Mcap {
     record(4, raw(number) + raw(number) + text(topic) + text(encoding) + text(""));
     return number;
   }
-  void message(std::uint16_t channel, const std::string& of) {
-    record(5, raw(channel) + raw(std::uint32_t{0}) + raw(std::uint64_t{0}) + raw(std::uint64_t{0}) + of);
+  void message(std::uint16_t channel, const std::string& of, std::uint64_t received_ns = 0) {
+    record(5, raw(channel) + raw(std::uint32_t{0}) + raw(received_ns) + raw(std::uint64_t{0}) + of);
   }
   std::string bytes() { return bytes_ + '\x0f' + raw(std::uint64_t{4}) + raw(std::uint32_t{0}); }
 
@@ -110,8 +113,8 @@ std::string record(const std::string& header, const std::string& data) { return 
 std::string connection(std::uint32_t number, const std::string& topic, const std::string& type) {
   return record(field("op", "\7") + field("conn", raw(number)) + field("topic", topic), field("type", type));
 }
-std::string message(std::uint32_t number, const std::string& of) {
-  return record(field("op", "\2") + field("conn", raw(number)) + field("time", raw(std::uint64_t{0})), of);
+std::string message(std::uint32_t number, const std::string& of, std::uint32_t received_s = 0) {
+  return record(field("op", "\2") + field("conn", raw(number)) + field("time", raw(std::uint64_t{received_s})), of);
 }
 std::string bag(const std::string& chunk, const std::string& compression = "none") {
   return "#ROSBAG V2.0\n" + record(field("op", "\3"), std::string(100, ' ')) +
@@ -174,6 +177,30 @@ TEST(TopicLog, ABagHasTheSameMessagesInRos1) {
   EXPECT_EQ(log.odometry.at(0).pose.x, 2);
   EXPECT_EQ(log.mount, Pose());
   EXPECT_EQ(log.left_out.at("/chatter"), 1u);
+}
+
+TEST(TopicLog, MessagesAreInTheOrderInWhichTheRecorderGotThem) {
+  const auto is_in_order = [](const std::string& bytes) {
+    const SensorLog log = parse_log("a", bytes, {});
+    const PlayingOrder order = playing_order(log);
+    return order.late == 0 && order.records.size() == 3 && log.scans.at(0).range_m.at(0) == 2 &&
+           order.records[0].scan == 1u && order.records[2].scan == 0u;
+  };
+  EXPECT_TRUE(is_in_order(bag(connection(0, "scan", "sensor_msgs/LaserScan") +
+                              message(0, scan(false, 12, 0, 1, {2}), 12) + message(0, scan(false, 10, 0, 1, {1}), 10) +
+                              connection(1, "/odom", "nav_msgs/Odometry") + message(1, odometry(false, 11, 2), 11))));
+  Mcap mcap;
+  const auto scans = mcap.channel("/scan", "sensor_msgs/msg/LaserScan");
+  mcap.message(scans, scan(true, 12, 0, 1, {2}), 12);
+  mcap.message(scans, scan(true, 10, 0, 1, {1}), 10);
+  mcap.message(mcap.channel("/odom", "nav_msgs/msg/Odometry"), odometry(true, 11, 2), 11);
+  EXPECT_TRUE(is_in_order(mcap.bytes()));
+}
+
+TEST(TopicLog, ATopicOfABagWithoutASlashIsGlobal) {
+  const std::string chunk = connection(0, "scan", "sensor_msgs/LaserScan") + message(0, scan(false, 1, 0, 1, {1})) +
+                            connection(1, "odom", "nav_msgs/Odometry") + message(1, odometry(false, 1, 2));
+  EXPECT_EQ(parse_log("a", bag(chunk), {.scan = "/scan"}).laser, "/scan");
 }
 
 TEST(TopicLog, WithoutOdometryTheFramesOfOdomAreTaken) {

@@ -11,7 +11,7 @@
 
 #include "core/error.hpp"
 
-namespace waitpoint::logs {
+namespace waitpoint {
 
 class ByteReader {
  public:
@@ -49,4 +49,4 @@ class ByteReader {
   std::size_t at_ = 0;
 };
 
-}  // namespace waitpoint::logs
+}  // namespace waitpoint
