@@ -22,7 +22,7 @@ std::string complaint(const std::function<void()>& read) {
   return "";
 }
 
-TEST(FileContents, OfAPipeThatInputNamesAreRefusedUnopened) {
+TEST(FileContents, RefusesAPipeNamedByInputWithoutOpeningIt) {
   std::string folder = std::filesystem::temp_directory_path() / "contents-XXXXXX";
   ASSERT_NE(mkdtemp(folder.data()), nullptr);
   const std::string pipe = folder + "/pipe";
@@ -31,7 +31,7 @@ TEST(FileContents, OfAPipeThatInputNamesAreRefusedUnopened) {
   std::filesystem::remove_all(folder);
 }
 
-TEST(FileContents, OfAPipeThatTheUserNamesAreRead) {
+TEST(FileContents, ReadsAPipeNamedByTheUser) {
   int ends[2];
   ASSERT_EQ(pipe(ends), 0);
   ASSERT_EQ(write(ends[1], "text", 4), 4);

@@ -13,7 +13,7 @@ namespace {
 // 0.8 m x 0.4 m, 0.1 m ahead of the origin.
 const std::array<Point, 4> ahead = {{{0.5, 0.2}, {-0.3, 0.2}, {-0.3, -0.2}, {0.5, -0.2}}};
 
-TEST(Footprint, OfAPolygonHasTheReachOfItsHullInEachDirection) {
+TEST(Footprint, PolygonHasTheReachOfItsHullInEachDirection) {
   const Footprint footprint(ahead, 0.6);
   EXPECT_FALSE(footprint.is_disc());
   EXPECT_NEAR(footprint.inner_radius_m(), 0.2, 1e-12);

@@ -23,14 +23,14 @@ class AddressSpace : public testing::Test {
   }
 };
 
-TEST_F(AddressSpace, OfFourGigabytesIsEnough) {
+TEST_F(AddressSpace, FourGigabytesSuffice) {
   const Outcome usual = outcome_of(run_command("office-10.yaml", "2")), limited = run_with_kib("4000000");
   ASSERT_NE(usual.digest(), "") << usual.errors;
   EXPECT_EQ(limited.digest(), usual.digest()) << limited.errors;
   EXPECT_EQ(limited.status, usual.status);
 }
 
-TEST_F(AddressSpace, OfTooLittleIsToldInOneLine) {
+TEST_F(AddressSpace, TooLittleIsReportedInOneLine) {
   const Outcome outcome = run_with_kib("250000");
   EXPECT_EQ(outcome.status, 1);
   EXPECT_EQ(outcome.output, "");

@@ -62,7 +62,7 @@ TEST_F(DynamicWorlds, TheOfficesFirstGoalsAreReached) {
   EXPECT_LT(result.robots[0].position_error_max_m, 0.3);
 }
 
-TEST_F(DynamicWorlds, ParcelsThatNobodySawArePushedOutOfTheWay) {
+TEST_F(DynamicWorlds, UnmappedParcelsArePushedAside) {
   const scenario::Scenario scenario = shipped("office-dynamic.yaml");
   run::Experiment experiment(scenario, tools::papers_modules(), {1, kernel::Order::fifo, ""});
   const std::vector<world::Obstacle> before = experiment.world().description().obstacles;
@@ -84,7 +84,7 @@ TEST_F(DynamicWorlds, RepeatInThisProcessAndInANewOne) {
   EXPECT_NE(to_string(run(scenario, first_seconds, 2).digest), digest);
 }
 
-TEST_F(DynamicWorlds, WhatIsLooseIsInTheDigest) {
+TEST_F(DynamicWorlds, DigestCoversLooseBodies) {
   const auto digest = [this](const std::string& low_m) {
     return run(scenario_with("{name: box, centre_m: [5, 0], size_m: [1, 1], mass_kg: 4, low_m: " + low_m + "}"),
                Duration(1s))

@@ -113,7 +113,7 @@ class ExploreScenario : public ::testing::Test {
   tools::Folder folder_;
 };
 
-TEST_F(ExploreScenario, WhatNoScheduleFailsPasses) {
+TEST_F(ExploreScenario, PassesIfNoScheduleFails) {
   const Told told = explore(options(0));
   EXPECT_EQ(told.status, 0) << told.output << told.errors;
   EXPECT_TRUE(told.output.starts_with("pair: 300 schedules, ")) << told.output;
@@ -171,7 +171,7 @@ TEST_F(ExploreScenario, AFindingHasBothRunsWithTheirFloorAndTheEventsWhoseOrderM
   EXPECT_EQ(finding["marks"][0]["words"], found(told.output, "first in the failing run: +(at .*)"));
 }
 
-TEST_F(ExploreScenario, ALackOfProgressIsFoundAndSaysWhoSpins) {
+TEST_F(ExploreScenario, FindsALackOfProgressAndNamesTheSpinningTask) {
   const Told told = explore(options(2));
   EXPECT_EQ(told.status, 1);
   EXPECT_NE(told.output.find("no progress"), std::string::npos) << told.output;
@@ -269,7 +269,7 @@ TEST_F(ExploreScenario, ARecordOfAnotherRunIsTold) {
   EXPECT_NE(contradicted.errors.find("--seed: expected 1, that of "), std::string::npos) << contradicted.errors;
 }
 
-TEST_F(ExploreScenario, WhatTheDefaultOrderFailsIsToldAtOnce) {
+TEST_F(ExploreScenario, FailureOfTheDefaultOrderIsReportedAtOnce) {
   const Told told = explore(options(1, {"robots.0.modules.pair.turns=0"}));
   EXPECT_EQ(told.status, 1);
   EXPECT_TRUE(told.output.starts_with("the default order, with the scenario's own noise, failed at ")) << told.output;

@@ -196,7 +196,7 @@ TEST(MediumOfAScenario, LosesAndDelaysAsWithAnotherSeedFromAnInstantOn) {
   EXPECT_NE(transmit(medium, 1, "", 2).digests, transmit(medium, 1).digests);
 }
 
-TEST(MediumOfAScenario, ARobotThatNobodyTalksToIsNotNoticed) {
+TEST(MediumOfAScenario, RobotWithoutMessagesChangesNoOther) {
   const std::string medium = "medium: {latency_ms: [5, 60], loss: 0.3}\n";
   const Transmission all = transmit(medium), without = transmit(medium, 1, "far");
   ASSERT_EQ(all.digests.size(), 3u);

@@ -133,7 +133,7 @@ TEST(MotionSensors, OdometryTurnsByACalibratedGyroWhereItsWheelsErr) {
 }
 
 // 0.02 Ah at 10 A: 7.2 s.
-TEST(Battery, ThatIsEmptyLeavesTheRobotStandingAndItsPostersGrowOld) {
+TEST(Battery, EmptyStopsTheRobotAndItsPosters) {
   const scenario::Scenario scenario = circling(
       "", {"robot_types.rackham.battery={capacity_ah: 0.02, rated_h: 1, peukert: 1, idle_a: 10, drive_a_per_m_s: 0, "
            "turn_a_per_rad_s: 0}"});
@@ -159,7 +159,7 @@ TEST(Battery, IsLowByItsChargeToo) {
   EXPECT_TRUE(CirclingRun(circling("", {one, low}), 1).shown<posters::Battery>("rflex.battery").low);
 }
 
-TEST(MotionSensors, ThatNobodyReadsChangeNothing) {
+TEST(MotionSensors, UnreadOnesChangeNothing) {
   const std::vector<std::string> quiet = {"robots.0.goals=[]"};
   std::vector<std::string> equipped = quiet;
   equipped.push_back("robot_types.rackham.imu={gyro_rad_s: {bias: 0.01, drift: 0.01}}");

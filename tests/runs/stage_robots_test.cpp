@@ -141,7 +141,7 @@ TEST_F(StageRobots, MoveAsTheirDriveCan) {
   EXPECT_NEAR(widest_m, 2 * 0.5, 0.15) << "a circle of the least radius: the wheelbase, at 45 degrees";
 }
 
-TEST_F(StageRobots, WhatNoRowIsForIsLeftOutAndTold) {
+TEST_F(StageRobots, PositionsWithoutARowAreSkippedAndReported) {
   const std::string map =
       write("two.world", "define a position()\ndefine b position()\na( pose [0 0] )\nb( pose [3 0] )\n");
   const scenario::Scenario scenario =

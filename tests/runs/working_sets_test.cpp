@@ -16,7 +16,7 @@ std::size_t lines_of(const kernel::Task& task) {
   return lines;
 }
 
-TEST(WorkingSets, OfTasksAreSmall) {
+TEST(WorkingSets, TasksHaveSmallOnes) {
   constexpr std::size_t lines_max = 128;
   const std::vector<genom::ModuleType> types = tools::papers_modules();
   const scenario::Scenario scenario = shipped("office-10.yaml");

@@ -52,7 +52,7 @@ TEST(WorldChanges, OthersSeeAMovedBodyAndRunIntoIt) {
   EXPECT_EQ(world->body(other).pose, (Pose{2, 0, 0}));
 }
 
-TEST(WorldChanges, WhatIsInTheWayIsNamedAndNothingIsChanged) {
+TEST(WorldChanges, NameTheObstacleAndChangeNothing) {
   const auto world = make_kinematic_world(two_and_a_wall(), 1);
   EXPECT_EQ(world->move_body(robot, {4.8, 0, 0}), "wall");
   EXPECT_EQ(world->move_body(robot, {0.2, 3.2, 0}), "other");

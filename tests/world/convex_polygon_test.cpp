@@ -61,7 +61,7 @@ TEST(ConvexPolygon, HoldsAllPointsAndHasNoOtherCorners) {
   }
 }
 
-TEST(ConvexPolygon, OfABoxHasFourCornersAboutItsMiddle) {
+TEST(ConvexPolygon, BoxHasFourCornersAboutItsCentre) {
   std::vector<Point> points;
   for (int i = 0; i <= 10; ++i)
     for (int j = 0; j <= 10; ++j) points.push_back(transform({1, 2, 0.3}, {0.1 * i, 0.05 * j}));
@@ -73,7 +73,7 @@ TEST(ConvexPolygon, OfABoxHasFourCornersAboutItsMiddle) {
   EXPECT_NEAR(hull->polygon->mean_square_m2(), (1 + 0.25) / 12, 1e-9);
 }
 
-TEST(ConvexPolygon, OfManyCornersIsEnclosedByFewer) {
+TEST(ConvexPolygon, ManyCornersAreEnclosedByFewer) {
   for (const std::size_t count :
        {ConvexPolygon::corners_max, ConvexPolygon::corners_max + 1, std::size_t{360}, std::size_t{5000}}) {
     const std::vector<Point> points = circle(count, 0.25);
@@ -85,7 +85,7 @@ TEST(ConvexPolygon, OfManyCornersIsEnclosedByFewer) {
   }
 }
 
-TEST(ConvexPolygon, OfPointsOnALineIsNone) {
+TEST(ConvexPolygon, CollinearPointsGiveNone) {
   EXPECT_FALSE(hull_of({}, 0));
   EXPECT_FALSE(hull_of({{1, 1}}, 0));
   EXPECT_FALSE(hull_of({{1, 1}, {2, 3}, {3, 5}, {1, 1}}, 0));

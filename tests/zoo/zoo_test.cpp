@@ -67,7 +67,7 @@ TEST(Zoo, ThePortfolioFindsEachAndItIsCutShort) {
   EXPECT_LE(longer * 10, failures);
 }
 
-TEST(Zoo, WhatWasChosenRepeatsTheFailure) {
+TEST(Zoo, RecordedChoicesRepeatTheFailure) {
   exploration::Fifo rest;
   for (const Specimen& specimen : specimens()) {
     if (specimen.is_rare) continue;

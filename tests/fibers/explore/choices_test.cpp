@@ -19,7 +19,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-TEST(Explore, WhatIsChosenBesideTasksIsToldInWords) {
+TEST(Explore, ReportsWakeUpsTimeoutsAndDurationsInWords) {
   const ExploreReport slow = explore([] {
     thread worker({.name = "worker"}, [] {
       compute(1ms, 3ms);
@@ -50,7 +50,7 @@ TEST(Explore, WhatIsChosenBesideTasksIsToldInWords) {
   EXPECT_TRUE(contains(woken.text, "waiter#1, about to wait condition variable #2, wakes up spuriously")) << woken;
 }
 
-TEST(Explore, WhatIsChosenBesideTasks) {
+TEST(Explore, ChoosesWakeUpsTimeoutsAndDurations) {
   // The waiter to wake; a spurious wake-up; a timeout or a wake-up at one instant; a computing time.
   const auto can_fail = [](std::function<void()> body) { return !explore(std::move(body)).passed; };
   EXPECT_TRUE(can_fail([] {

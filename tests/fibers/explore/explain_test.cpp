@@ -55,7 +55,7 @@ TEST(Explain, NamesTheTwoEventsAtOneObjectWhoseOrderMatters) {
 
 // The other task must not lock between the first task's two critical sections: the lock matters, not the unlock in
 // between.
-TEST(Explain, OfLocksNamesWhoLocksNext) {
+TEST(Explain, NamesTheNextHolderOfALock) {
   const ExploreReport report = explore([] {
     mutex account;
     int balance = 0;

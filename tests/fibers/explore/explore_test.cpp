@@ -20,7 +20,7 @@ using faulty::count_to_three;
 using faulty::lose_a_wake_up;
 using namespace std::chrono_literals;
 
-TEST(Explore, WhatHoldsInAllSchedulesPasses) {
+TEST(Explore, PassesIfEverySchedulePasses) {
   const ExploreReport report = explore([] { count_to_three(1); });
   EXPECT_TRUE(report.passed) << report;
   EXPECT_EQ(report.distinct,
@@ -45,7 +45,7 @@ TEST(Explore, ALostWakeUpIsFoundMinimizedAndExplained) {
 }
 
 // Running other tasks while one polls is the default order, not a switch away from it.
-TEST(Explore, WhoPollsAddsNoSwitchesToAFailure) {
+TEST(Explore, PollingAddsNoSwitchesToAFailure) {
   const ExploreReport report = explore([] {
     atomic<int> written{0}, done{0};
     thread polling([&] {

@@ -31,7 +31,7 @@ void meet_after_many_sleeps() {
   reader.join();
 }
 
-TEST(Polling, WhoSleepsAgainAndAgainIsInTheOrderLikeAllOthers) {
+TEST(Polling, RepeatedSleepsAreOrderedLikeOtherEvents) {
   EXPECT_TRUE(simulate(meet_after_many_sleeps).passed);
   EXPECT_TRUE(explore(meet_after_many_sleeps, {.strategy = "fifo", .iterations = 1}).passed);
   for (const char* strategy : {"portfolio", "random", "pos", "dfs", "dpor"}) {
@@ -89,7 +89,7 @@ TEST(Polling, ExhaustiveStrategiesSayWhatTheyNeverTried) {
 }
 
 // A loop that polls a number of times and then does something else, as those of semaphores do before they sleep.
-TEST(Polling, WhoGivesUpPollingIsThereBeforeTheOthersAct) {
+TEST(Polling, TaskThatStopsPollingRunsBeforeOthersAtTheInstant) {
   for (const bool yields : {false, true}) {
     const auto give_up = [yields] {
       atomic<bool> given{false};
@@ -109,7 +109,7 @@ TEST(Polling, WhoGivesUpPollingIsThereBeforeTheOthersAct) {
   }
 }
 
-TEST(Polling, WhatDoesNotEndIsToldInSeconds) {
+TEST(Polling, EndlessSchedulesAreReportedInSeconds) {
   const ExploreReport sleeping = explore([] {
     for (;;) this_thread::sleep_for(100ms);
   });

@@ -93,7 +93,7 @@ TEST(Explore, AScheduleThatComputesForEverIsEndedWithoutProc) {
   EXPECT_EXIT(compute_for_ever(), ended, "the replayed schedule exceeded the limit of 2 s: process terminated\n");
 }
 
-TEST(Explore, AScheduleThatWaitsForWhatIsNotSimulatedIsEndedWithItsToken) {
+TEST(Explore, BlockingOutsideTheSimulationEndsTheScheduleWithItsToken) {
 #ifdef __SANITIZE_THREAD__
   GTEST_SKIP() << "ThreadSanitizer tells of the real lock too";
 #endif

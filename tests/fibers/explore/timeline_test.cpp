@@ -97,7 +97,7 @@ TEST(Timeline, ALivelockIsToldInFewLines) {
   EXPECT_TRUE(std::regex_search(report.text, std::regex("\\.\\.\\. \\d+ lines repeated \\d{2,} times\n"))) << report;
 }
 
-TEST(Timeline, WhatIsRepeatedStandsThereOnceWithHowOften) {
+TEST(Timeline, RepetitionsArePrintedOnceWithACount) {
   using kernel::Operation;
   exploration::Timeline timeline;
   timeline.tasks = {{"a#1"}};
@@ -117,7 +117,7 @@ TEST(Timeline, WhatIsRepeatedStandsThereOnceWithHowOften) {
   EXPECT_EQ(to_text(timeline, 1), "  ... 4 earlier lines\n  0.000000000   a#1  end\n");
 }
 
-TEST(Timeline, WhatIsRepeatedWithinWhatIsRepeatedStandsThereOnceToo) {
+TEST(Timeline, NestedRepetitionsArePrintedOnce) {
   using kernel::Operation;
   exploration::Timeline timeline;
   timeline.tasks = {{"a#1"}, {"b#2"}};

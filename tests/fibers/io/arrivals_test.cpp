@@ -96,7 +96,7 @@ void expect_choice(const std::function<Wait(Network&)>& receive,
   EXPECT_EQ(orders.size(), 6u);
 }
 
-TEST(Arrivals, ServeTheFirstWhoWaitsAndInSeededOrdersAny) {
+TEST(Arrivals, ServeTheFirstWaiterAndAnyInSeededOrders) {
   expect_choice(receive_datagrams, send_datagrams);
   expect_choice(receive_letters, send_letters);
   expect_choice(accept_connections, ask_for_connections);

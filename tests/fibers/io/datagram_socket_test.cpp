@@ -67,7 +67,7 @@ TEST(DatagramSocket, AFullQueueDropsAndCounts) {
   });
 }
 
-TEST(DatagramSocket, WhatCannotBeSentIsAValue) {
+TEST(DatagramSocket, FailureToSendIsAReturnValue) {
   in_order([] {
     Network network;
     datagram_socket a(network, {.message_bytes_max = 8}), b(network);
@@ -139,7 +139,7 @@ TEST(DatagramSocket, EachOfSeveralReceiversGetsOne) {
   });
 }
 
-TEST(DatagramSocket, ACloseIsNoticedByWhoWaitsAndByWhoPolls) {
+TEST(DatagramSocket, CloseWakesWaitersAndPollers) {
   in_every_order([] {
     Network network;
     datagram_socket in(network);
@@ -158,7 +158,7 @@ TEST(DatagramSocket, ACloseIsNoticedByWhoWaitsAndByWhoPolls) {
   });
 }
 
-TEST(DatagramSocket, WhatIsSentIsInTheDigest) {
+TEST(DatagramSocket, DigestCoversSentMessages) {
   const auto digest = [](const char* to, const char* text) {
     return to_string(in_order([=] {
                        Network network;

@@ -155,7 +155,7 @@ TEST(Mailbox, ServesTheFirstWaiterFirst) {
   });
 }
 
-TEST(Mailbox, ACloseIsNoticedByAllWhoWait) {
+TEST(Mailbox, CloseWakesAllWaiters) {
   in_every_order([] {
     mailbox<int> empty(1), full(1);
     EXPECT_EQ(full.send(1), Status::ok);

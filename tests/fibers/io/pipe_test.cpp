@@ -136,7 +136,7 @@ TEST(Pipe, EndsWhenTheLastCopyOfItsWriterIsClosed) {
   });
 }
 
-TEST(Pipe, AWriteToNobodySaysSo) {
+TEST(Pipe, WriteWithoutAReaderReportsIt) {
   in_every_order([] {
     auto [reader, writer] = make_pipe(8);
     thread other([writer = writer]() mutable {

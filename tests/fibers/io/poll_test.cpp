@@ -96,7 +96,7 @@ TEST(Poll, ReadyAtTheInstantOfTheDeadlineIsToldByThisPollOrTheNext) {
   });
 }
 
-TEST(Poll, AllWhoPollAreToldAndOneGetsIt) {
+TEST(Poll, WakesAllPollersAndOneTakesTheMessage) {
   in_every_order([] {
     mailbox<int> box(4);
     int told = 0, got = 0;

@@ -33,7 +33,7 @@ Status at_one_instant(const std::function<Status()>& wait, const std::function<v
   return status;
 }
 
-TEST(RoomAtTheDeadline, OfAPipe) {
+TEST(RoomAtTheDeadline, Pipe) {
   expect_both([] {
     PipeEnds pipe = make_pipe(4);
     EXPECT_TRUE(pipe.writer.write(bytes_of("full")));
@@ -44,7 +44,7 @@ TEST(RoomAtTheDeadline, OfAPipe) {
   });
 }
 
-TEST(RoomAtTheDeadline, OfAMailbox) {
+TEST(RoomAtTheDeadline, Mailbox) {
   expect_both([] {
     mailbox<int> box(1);
     EXPECT_EQ(box.send(1), Status::ok);
@@ -55,7 +55,7 @@ TEST(RoomAtTheDeadline, OfAMailbox) {
   });
 }
 
-TEST(RoomAtTheDeadline, OfAWindow) {
+TEST(RoomAtTheDeadline, MailboxWindow) {
   expect_both([] {
     Network network;
     mailbox<int> box(1);
@@ -69,7 +69,7 @@ TEST(RoomAtTheDeadline, OfAWindow) {
   });
 }
 
-TEST(RoomAtTheDeadline, OfAStream) {
+TEST(RoomAtTheDeadline, Stream) {
   expect_both([] {
     Network network;
     stream_listener door(network, {.stream = {.buffer_bytes = 4}});

@@ -89,7 +89,7 @@ TEST(StreamSocket, RefusedTakesARoundTripToo) {
   fleet.run();
 }
 
-TEST(StreamSocket, WhatIsUnderWayIsBoundedInMessagesToo) {
+TEST(StreamSocket, BoundsMessagesInFlight) {
   Fleet fleet({"ada", "bob"}, two_ms, {}, {.in_flight_max = 100'000});
   fleet.spawn("ada", [&] {
     stream_listener door(fleet.network);

@@ -106,7 +106,7 @@ TEST(StreamSocket, HalfCloseEndsOneDirectionOnly) {
   });
 }
 
-TEST(StreamSocket, WhatAPeerWroteBeforeItsCloseCanBeReadAndNothingWrittenBack) {
+TEST(StreamSocket, DataBeforeThePeersCloseIsReadAndWritesFail) {
   in_every_order([] {
     Connected c({.buffer_bytes = 8});
     EXPECT_TRUE(c.client.write(bytes_of("the last")));
@@ -124,7 +124,7 @@ TEST(StreamSocket, WhatAPeerWroteBeforeItsCloseCanBeReadAndNothingWrittenBack) {
   });
 }
 
-TEST(StreamSocket, ACloseIsNoticedByWhoWaitsAtThisEndAndByWhoPolls) {
+TEST(StreamSocket, CloseWakesWaitersAndPollersAtThisEnd) {
   in_every_order([] {
     Connected c({.buffer_bytes = 1});
     EXPECT_TRUE(c.client.write(bytes_of("x")));
@@ -147,7 +147,7 @@ TEST(StreamSocket, ACloseIsNoticedByWhoWaitsAtThisEndAndByWhoPolls) {
   });
 }
 
-TEST(StreamSocket, WhatCannotBeConnectedIsAValue) {
+TEST(StreamSocket, FailureToConnectIsAReturnValue) {
   in_every_order([] {
     Network network;
     EXPECT_EQ(io::connect(network, "door").status(), Status::refused) << "nobody listens";

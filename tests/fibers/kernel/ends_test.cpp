@@ -13,7 +13,7 @@ namespace waitpoint::kernel {
 namespace {
 
 // If the run ends while a task yields to its ties, unwinding it must not run another task.
-TEST(Ends, UnwindingFromAGivenTurnRunsNobodyElse) {
+TEST(Ends, UnwindingFromAGivenTurnRunsNoOtherTask) {
   TaskRun run;
   Object object("object");
   run.spawn([&] {

@@ -33,7 +33,7 @@ struct SetClock : LocalClock {
   Duration declared;
 };
 
-TEST(LocalClock, WhatASegmentConsumesIsInTheLocalTimeBeforeItsWaitpoint) {
+TEST(LocalClock, SegmentCostIsInTheLocalTimeBeforeItsWaitpoint) {
   TaskRun run;
   SetClock clock;
   Object object("object");

@@ -100,7 +100,7 @@ TEST(Scheduler, IsIdleWhenNothingCanRun) {
   EXPECT_EQ(run.trace, "");
 }
 
-TEST(Scheduler, WhoIsWokenTakesTheGlobalTime) {
+TEST(Scheduler, WokenTaskTakesTheGlobalTime) {
   TaskRun run;
   Object object("object");
   run.spawn([&] {
@@ -213,7 +213,7 @@ TEST(Scheduler, AWatchThatATaskSetsSeesTheNextEvent) {
   run.scheduler.run_before(Time::max());
 }
 
-TEST(Scheduler, WhatATaskHasInFlightStaysItsOwn) {
+TEST(Scheduler, ErrnoAndExceptionsInFlightAreKeptPerTask) {
   TaskRun run;
   Object object("object");
   std::string trace;

@@ -147,7 +147,7 @@ TEST(SemLib, BinaryAndCountingSemaphoresCountWithoutSaturating) {
   });
 }
 
-TEST(SemLib, AGiveServesWhoWaits) {
+TEST(SemLib, GiveServesAWaiter) {
   with_clock([] {
     const SEM_ID sem = semCCreate(SEM_Q_FIFO, 0);
     int served = 0;
@@ -185,7 +185,7 @@ TEST(SemLib, AFlushLetsAllGoOnAndKeepsTheCount) {
   });
 }
 
-TEST(SemLib, WhatIsDeletedLetsGoAndIsNoSemaphore) {
+TEST(SemLib, DeletionWakesWaitersAndInvalidatesTheSemaphore) {
   with_clock([] {
     const SEM_ID sem = semCCreate(SEM_Q_FIFO, 0);
     thread waiter([&] {

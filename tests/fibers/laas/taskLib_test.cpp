@@ -69,7 +69,7 @@ TEST(TaskLib, ADelayLastsSoManyTicksFromWhereItBegins) {
   });
 }
 
-TEST(TaskLib, WhoSuspendsItselfIsResumed) {
+TEST(TaskLib, ResumesATaskThatSuspendedItself) {
   with_clock([] {
     bool went_on = false;
     const long id = taskSpawn(nullptr, 100, 0, 20000, [&] {

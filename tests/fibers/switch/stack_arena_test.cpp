@@ -50,7 +50,7 @@ TEST(StackArena, TopsOfNeighboursLieAtDifferentOffsets) {
   EXPECT_NE(reinterpret_cast<std::uintptr_t>(a.high) % page, reinterpret_cast<std::uintptr_t>(b.high) % page);
 }
 
-TEST(StackArenaDeathTest, WhatRunsOverTheLowEndCrashes) {
+TEST(StackArenaDeathTest, OverflowAtTheLowEndCrashes) {
   for (const StackSize size : sizes) {
     StackArena arena;
     Stack first, second;

@@ -222,7 +222,7 @@ TEST(Atomic, ChangedAtTheInstantOfTheDeadlineIsSeenOrNotButNeverLost) {
   });
 }
 
-TEST(Atomic, WaitingForWhatNobodyChangesIsReported) {
+TEST(Atomic, WaitingForAConstantValueIsReported) {
   const Report blocked = simulate([] {
     const atomic<bool> ready(false, "ready");
     ready.wait(false);
@@ -238,7 +238,7 @@ TEST(Atomic, WaitingForWhatNobodyChangesIsReported) {
   EXPECT_NE(spins.text.find("atomic_test.cpp"), std::string::npos) << spins;
 }
 
-TEST(Atomic, WhoSpinsWhenTheRunEndsLeavesAndWhatDestructorsChangeIsChanged) {
+TEST(Atomic, SpinningTasksUnwindAndDestructorsTakeEffect) {
   static int released;
   released = 0;
   const Report report = simulate([] {
@@ -261,7 +261,7 @@ TEST(Atomic, WhoSpinsWhenTheRunEndsLeavesAndWhatDestructorsChangeIsChanged) {
   EXPECT_EQ(released, 3);
 }
 
-TEST(Atomic, OneThatARunLeavesBehindBeginsWithWhatItHadOutside) {
+TEST(Atomic, StartsEachRunWithItsValueOutside) {
   atomic<int> a(3);
   for (int run = 0; run < 2; ++run) {
     in_order([&] {

@@ -81,7 +81,7 @@ TEST(Barrier, ArrivingDoesNotWaitAndTheTokenIsGoodForThePhaseAndTheNext) {
   });
 }
 
-TEST(Barrier, WhoDropsOutIsExpectedNoMore) {
+TEST(Barrier, ArriveAndDropReducesTheExpectedCount) {
   in_every_order([] {
     barrier b(3);
     thread leaves([&] {
@@ -145,7 +145,7 @@ TEST(Barrier, CompletedAtTheInstantOfTheDeadlineBothAreSound) {
   });
 }
 
-TEST(Barrier, WhatAnotherRunLeftIsForgotten) {
+TEST(Barrier, StateOfAnotherRunIsForgotten) {
   static barrier<> left(2);
   for (int repeat = 0; repeat < 3; ++repeat) {
     Simulation simulation;

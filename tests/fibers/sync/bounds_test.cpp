@@ -48,7 +48,7 @@ TEST(Bounds, OneThreadTooManyIsASystemErrorThatNamesIt) {
   EXPECT_TRUE(report.passed) << report;
 }
 
-TEST(Bounds, ARefusalThatNobodyCatchesFailsTheRun) {
+TEST(Bounds, UncaughtRefusalFailsTheRun) {
   const Report report = simulate(
       [] {
         for (;;) thread([] { this_thread::sleep_for(1ms); }).detach();
@@ -58,7 +58,7 @@ TEST(Bounds, ARefusalThatNobodyCatchesFailsTheRun) {
   EXPECT_NE(report.text.find("the run has 10 tasks"), std::string::npos) << report;
 }
 
-TEST(Bounds, OfATaskFromOutsideToo) {
+TEST(Bounds, ApplyToTasksSpawnedFromOutside) {
   Simulation simulation(at_most(1));
   simulation.spawn(simulation.environment(), {}, [] {});
   EXPECT_NE(refusal([&] {

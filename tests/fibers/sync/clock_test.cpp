@@ -65,7 +65,7 @@ TEST(Clock, SleepsUntilTimePointsOfEitherClockInAnyUnit) {
   });
 }
 
-TEST(Clock, WhatIsPastTakesNoTime) {
+TEST(Clock, PastDeadlinesTakeNoTime) {
   in_every_order([] {
     sleep_for(1h);
     sleep_for(-1s);
@@ -98,7 +98,7 @@ TEST(Clock, FractionsOfANanosecondAreRoundedUp) {
 }
 
 // The only remaining event is at the end of time, before which a run stops.
-TEST(Clock, WhatIsBeyondTheRangeIsForEver) {
+TEST(Clock, DurationsBeyondTheRangeAreEndless) {
   const auto waits_for_ever = [](const std::function<void()>& wait) {
     const Report report = simulate([&] {
       sleep_for(1s);

@@ -243,7 +243,7 @@ TEST(ConditionVariableAny, UnwindingLeavesTheLockHeld) {
   EXPECT_TRUE(held);
 }
 
-TEST(ConditionVariableAny, WhatAnotherRunLeftIsForgotten) {
+TEST(ConditionVariableAny, StateOfAnotherRunIsForgotten) {
   static condition_variable_any left;
   for (int repeat = 0; repeat < 3; ++repeat) {
     Simulation simulation;

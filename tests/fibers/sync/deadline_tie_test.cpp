@@ -19,7 +19,7 @@ class DeadlineTie : public testing::Test {};
 using TimedMutexes = testing::Types<timed_mutex, recursive_timed_mutex, priority_mutex, shared_timed_mutex>;
 TYPED_TEST_SUITE(DeadlineTie, TimedMutexes);
 
-TYPED_TEST(DeadlineTie, WhoWaitsEitherGetsTheLockOrLeavesItFree) {
+TYPED_TEST(DeadlineTie, WaiterEitherTakesTheLockOrLeavesItFree) {
   expect_both([] {
     TypeParam m;
     m.lock();

@@ -82,7 +82,7 @@ TEST(Exceptions, ATaskThatWaitsInADestructorIsTheOnlyOneThatUnwinds) {
   });
 }
 
-TEST(Exceptions, OfTheContextThatRunsTheSimulationAreKeptApartToo) {
+TEST(Exceptions, ExceptionsOfTheCallingContextAreSeparate) {
   try {
     throw std::runtime_error("outside");
   } catch (const std::exception&) {

@@ -93,7 +93,7 @@ TEST(FiberLocal, AJoinedThreadHasLetGoOfItsOwn) {
   });
 }
 
-TEST(FiberLocal, WhatADestructorUsesForTheFirstTimeIsDestroyedToo) {
+TEST(FiberLocal, ValuesFirstUsedByADestructorAreDestroyed) {
   in_order([] {
     static std::string log;
     log.clear();

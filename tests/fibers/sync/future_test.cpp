@@ -45,7 +45,7 @@ TEST(Future, GetWaitsForWhatThePromiseIsGiven) {
   });
 }
 
-TEST(Future, WhatIsThereAlreadyIsHadAtOnce) {
+TEST(Future, ReadyValueIsTakenAtOnce) {
   in_every_order([] {
     promise<int> gives;
     gives.set_value(3);
@@ -211,7 +211,7 @@ TEST(Future, CanBeReadyAtTheEndOfAThread) {
   });
 }
 
-TEST(Future, WaitingForAPromiseThatNobodyKeepsIsReported) {
+TEST(Future, WaitingForAnUnkeptPromiseIsReported) {
   const Report report = simulate([] {
     promise<int> gives;
     gives.get_future().get();

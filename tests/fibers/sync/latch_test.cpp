@@ -96,7 +96,7 @@ TEST(Latch, CountedDownAtTheInstantOfTheDeadlineBothAreSound) {
   });
 }
 
-TEST(Latch, WhatAnotherRunLeftIsForgotten) {
+TEST(Latch, StateOfAnotherRunIsForgotten) {
   static latch left(2);
   for (int repeat = 0; repeat < 3; ++repeat)
     in_order([] {

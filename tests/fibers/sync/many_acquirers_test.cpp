@@ -9,7 +9,7 @@
 namespace waitpoint {
 namespace {
 
-TEST(RealSemaphore, GivesEveryUnitToOneOfManyWhoWait) {
+TEST(RealSemaphore, GivesEachUnitToOneOfManyWaiters) {
   for (int round = 0; round < 20; ++round) {
     threads::counting_semaphore<> semaphore(0);
     std::vector<threads::thread> all;

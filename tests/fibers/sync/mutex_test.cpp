@@ -160,7 +160,7 @@ TEST(TimedMutex, IsHadWhenItComesFreeInTime) {
   });
 }
 
-TEST(TimedMutex, WhoGaveUpIsNoWaiterAnyMore) {
+TEST(TimedMutex, TimedOutTaskIsNoWaiter) {
   in_every_order([] {
     timed_mutex m;
     m.lock();

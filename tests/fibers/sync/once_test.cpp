@@ -58,7 +58,7 @@ TEST(CallOnce, PassesArgumentsOn) {
   });
 }
 
-TEST(CallOnce, AfterAnExceptionAnotherOfThoseWhoWaitCalls) {
+TEST(CallOnce, AnotherWaiterCallsAfterAnException) {
   in_every_order([] {
     once_flag flag("camera");
     int calls = 0, caught = 0;

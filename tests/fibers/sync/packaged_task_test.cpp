@@ -111,7 +111,7 @@ TEST(Async, RunsAsAThreadOfItsOwn) {
   });
 }
 
-TEST(Async, WhoLetsItsLastFutureGoWaits) {
+TEST(Async, DestroyingTheLastFutureWaits) {
   in_every_order([] {
     (void)async(launch::async, [] { sleep_for(2ms); });
     EXPECT_EQ(now(), at(2ms));

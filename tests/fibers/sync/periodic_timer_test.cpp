@@ -158,7 +158,7 @@ TEST(PeriodicTimer, ChangesItsPeriodWhileTasksWait) {
   });
 }
 
-TEST(PeriodicTimer, AStoppedOneLetsGoWhoWaitsAndMayStartAgain) {
+TEST(PeriodicTimer, StopWakesWaitersAndTheTimerCanRestart) {
   in_every_order([] {
     periodic_timer timer(Period::every(10ms));
     thread other([&] {
@@ -179,7 +179,7 @@ TEST(PeriodicTimer, AStoppedOneLetsGoWhoWaitsAndMayStartAgain) {
 }
 
 // Ticks are not tasks: a run with nothing but timers is deadlocked.
-TEST(PeriodicTimer, ATimerNobodyWaitsForKeepsNoRunAlive) {
+TEST(PeriodicTimer, TimerWithoutWaitersKeepsNoRunAlive) {
   const Report report = simulate([] {
     periodic_timer timer(Period::hertz(50));
     timer.wait();

@@ -113,7 +113,7 @@ TEST(RecursiveTimedMutex, TimesOutOrIsHadInTimeAndItsOwnerNeverWaits) {
   });
 }
 
-TEST(RecursiveMutex, WhatAnotherRunLeftIsForgotten) {
+TEST(RecursiveMutex, StateOfAnotherRunIsForgotten) {
   static recursive_mutex left;
   for (int repeat = 0; repeat < 2; ++repeat) {
     {

@@ -21,7 +21,7 @@ namespace {
 using namespace std::chrono_literals;
 using this_thread::sleep_for;
 
-TEST(SeveralLocks, PhilosophersWhoTakeBothForksAtOnceAllEat) {
+TEST(SeveralLocks, PhilosophersTakingBothForksAtOnceAllEat) {
   in_every_order([] {
     constexpr std::size_t count = 5;
     std::vector<std::unique_ptr<mutex>> forks;
@@ -50,7 +50,7 @@ TEST(SeveralLocks, PhilosophersWhoTakeBothForksAtOnceAllEat) {
 }
 
 // The same four in opposite orders.
-TEST(SeveralLocks, OfAllKindsInAnyOrder) {
+TEST(SeveralLocks, LocksAllKindsInAnyOrder) {
   in_every_order([] {
     mutex plain;
     recursive_timed_mutex recursive;

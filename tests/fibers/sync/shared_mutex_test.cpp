@@ -113,7 +113,7 @@ TEST(SharedMutex, ReadersAndWritersTakeTurnsInTheDefaultOrder) {
   EXPECT_EQ(order_of("rwwr"), "r0@0 w1@10 r3@20 w2@30 ");
 }
 
-TEST(SharedMutex, WhoComesInIsAChoiceInSeededOrders) {
+TEST(SharedMutex, SeededOrdersChooseTheNextHolder) {
   std::set<std::string> orders;
   for (std::uint64_t seed = 1; seed <= 80; ++seed) {
     std::string order = order_of("wrwrw", order_number(seed)), who;
@@ -173,7 +173,7 @@ TEST(SharedMutex, AStreamOfReadersDoesNotStarveAWriterNorTheOtherWayRound) {
   });
 }
 
-TEST(SharedMutex, WhatAnotherRunLeftIsForgotten) {
+TEST(SharedMutex, StateOfAnotherRunIsForgotten) {
   static shared_mutex left;
   for (int repeat = 0; repeat < 4; ++repeat) {
     {

@@ -40,7 +40,7 @@ TEST(Signals, AreDeliveredAtTheNextWaitpointAndNotAmidstComputing) {
   });
 }
 
-TEST(Signals, WaitUntilWhoBlocksGoesOn) {
+TEST(Signals, WaitUntilABlockingTaskContinues) {
   in_every_order([] {
     counting_semaphore<> units(0);
     std::vector<Time> handled;
@@ -189,7 +189,7 @@ TEST(Signals, ATimerSendsThem) {
   });
 }
 
-TEST(Signals, WhatAHandlerThrowsEndsTheRun) {
+TEST(Signals, ExceptionOfAHandlerEndsTheRun) {
   const Report report = simulate([] {
     mutex m;
     handle_signal(1, [](int) { throw std::runtime_error("from a handler"); });

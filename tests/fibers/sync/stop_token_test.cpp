@@ -50,7 +50,7 @@ TEST(StopToken, CopiesShareOneStateAndOthersDoNot) {
   });
 }
 
-TEST(StopToken, WithoutAStateOrASourceNobodyCanAsk) {
+TEST(StopToken, WithoutAStateOrASourceStopIsImpossible) {
   in_order([] {
     EXPECT_FALSE(stop_token().stop_possible());
     EXPECT_FALSE(stop_token().stop_requested());
@@ -74,7 +74,7 @@ TEST(StopToken, WithoutAStateOrASourceNobodyCanAsk) {
   });
 }
 
-TEST(StopToken, CallbacksAreCalledByWhoAsksInTheOrderOfTheirMaking) {
+TEST(StopToken, RequesterRunsCallbacksInTheirOrderOfRegistration) {
   in_every_order([] {
     stop_source source;
     std::string order;
@@ -196,7 +196,7 @@ TEST(StopToken, ACallbackWhoseEndTwoTasksAwaitFromEachOtherIsADeadlock) {
   EXPECT_NE(report.text.find("for stop state"), std::string::npos) << report;
 }
 
-TEST(StopToken, WhoAsksForEverIsSeenToMakeNoProgress) {
+TEST(StopToken, EndlessPollingIsNoProgress) {
   const Report report = simulate([] {
     const stop_source source;
     while (!source.stop_requested()) {

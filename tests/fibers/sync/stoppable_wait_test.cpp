@@ -83,7 +83,7 @@ TEST(StoppableWait, ReturnsWhatThePredicateSaysInTheEnd) {
   });
 }
 
-TEST(StoppableWait, ARequestWakesNobodyElse) {
+TEST(StoppableWait, RequestWakesNoOtherWaiter) {
   in_every_order([] {
     mutex m;
     condition_variable_any changed;

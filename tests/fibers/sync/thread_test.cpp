@@ -138,7 +138,7 @@ TEST(Thread, AnExceptionThatEscapesEndsTheRunAndIsReported) {
   EXPECT_NE(of_main.text.find("unknown type"), std::string::npos) << of_main;
 }
 
-TEST(Thread, AnEscapedExceptionIsRethrownToWhoRuns) {
+TEST(Thread, EscapedExceptionIsRethrownToTheCallerOfRun) {
   Simulation simulation;
   simulation.spawn(simulation.environment(), {}, [] {
     sleep_for(3ms);

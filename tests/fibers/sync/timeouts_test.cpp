@@ -129,7 +129,7 @@ void expect_each(Span span, Duration held, bool in_time, Duration takes) {
   }
 }
 
-TEST(Timeouts, WhatIsPastDoesNotWait) {
+TEST(Timeouts, PastDeadlinesDoNotWait) {
   expect_each(0s, 1h, false, Duration());
   expect_each(-1ms, 1h, false, Duration());
   expect_each(-1000h, 1h, false, Duration());

@@ -162,7 +162,7 @@ TEST(Timer, GoesOnWhileATaskSleepsLong) {
   });
 }
 
-TEST(Timer, WhatItDoesIsPartOfTheDigestAndRepeats) {
+TEST(Timer, EventsArePartOfTheDigestAndRepeat) {
   const auto run = [](std::uint64_t number, std::chrono::microseconds delay) {
     return simulate(
                [&] {

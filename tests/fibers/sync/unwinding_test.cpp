@@ -242,7 +242,7 @@ TEST(Unwinding, DestructorsMayReleaseAndMayCallWhatBlocks) {
   EXPECT_EQ(done, 1);
 }
 
-TEST(Unwinding, IsThrownAgainToWhoCatchesEverything) {
+TEST(Unwinding, IsRethrownThroughCatchAll) {
   int caught = 0;
   EXPECT_EQ(break_off([&] {
               const Counted local;

@@ -63,7 +63,7 @@ TEST(RobotOutline, IsADiscForACylinderAndTheCornersOfABoxAboutTheRobotsOrigin) {
     EXPECT_GT(cross(outline.corners[i] - Point{0.1, 0}, outline.corners[(i + 1) % 4] - outline.corners[i]), 0);
 }
 
-TEST(DerivedSettings, OfNddAreTheRobotsOutline) {
+TEST(DerivedSettings, NddGetsTheRobotsOutline) {
   const scenario::RobotScenario robot = robot_with_laser_at({});
   genom::Settings settings;
   derive_settings(robot, module("ndd", "ndd"), settings);
@@ -72,7 +72,7 @@ TEST(DerivedSettings, OfNddAreTheRobotsOutline) {
   EXPECT_NEAR(std::abs(number(settings, "footprint.3.y")), 0.215, 1e-12);
 }
 
-TEST(DerivedSettings, OfSickAreTheMountOfTheLaserThatTheBridgeConnects) {
+TEST(DerivedSettings, SickGetsTheMountOfItsConnectedLaser) {
   const scenario::RobotScenario robot = robot_with_laser_at({0.2, -0.1, exact::pi / 2});
   genom::Settings settings;
   derive_settings(robot, module("sick", "sick"), settings);

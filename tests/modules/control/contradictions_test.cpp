@@ -62,7 +62,7 @@ TEST(Contradictions, AreToldInOneLine) {
 }
 
 // Together these conditions are too large for a diagram; what a single check says is still searched.
-TEST(Contradictions, OfSingleChecksAreFoundInLargeRules) {
+TEST(Contradictions, SingleContradictoryChecksAreFoundInLargeRules) {
   std::string checks;
   for (int i = 0; i < 45; ++i) {
     const auto text = [](int n) { return std::to_string(n); };

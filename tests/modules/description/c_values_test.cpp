@@ -52,7 +52,7 @@ TEST(CValues, BecomeFieldsAndBack) {
   EXPECT_EQ(back.inner[1].ratio, 0.25F);
 }
 
-TEST(CValues, OfTextsEndAtTheNul) {
+TEST(CValues, TextsEndAtTheNul) {
   char name[8];
   std::memset(name, 'x', sizeof name);
   std::memcpy(name, "ab", 3);
@@ -64,7 +64,7 @@ TEST(CValues, OfTextsEndAtTheNul) {
   EXPECT_EQ(text[7], '\0') << "without a NUL the last letter is one";
 }
 
-TEST(CValues, OfAnyKindAreCopied) {
+TEST(CValues, AnyKindIsCopied) {
   const Value from{"mast", {{1, 2}, {3, 4}}, green, {{0.5F}, {0.25F}}};
   Value to{};
   copy_c(to.table, from.table);

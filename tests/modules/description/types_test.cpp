@@ -101,7 +101,7 @@ TEST(DescribedType, WithoutMeaningElsewhereIsRefused) {
             "demo.gen:2: column 27: expected a number of C (no long double), found 'long double'");
 }
 
-TEST(DescribedType, ThatIsWrongIsRefusedAtItsPlace) {
+TEST(DescribedType, InvalidIsRefusedAtItsPlace) {
   EXPECT_EQ(refusal(module_with("doubel x;")),
             "demo.gen:2: column 27: expected a type, found the unknown name 'doubel'");
   EXPECT_EQ(refusal("typedef struct POINT { double x; } POINT;\n" + module_with("POIMT x;")),

@@ -55,7 +55,7 @@ TEST(FreeSpace, InflationIsExactToHalfACellsDiagonal) {
   }
 }
 
-TEST(FreeSpace, UnknownCellsAreClosedButPushNobodyAway) {
+TEST(FreeSpace, UnknownCellsAreClosedWithoutClearance) {
   OccupancyGrid grid = box(40, 10, 0.05);
   fill(grid, {20, 0}, {20, 9}, Cell::unknown);
   const FreeSpace space(grid, {});

@@ -159,7 +159,7 @@ TEST(RoutePlanner, FromBeyondTheEdgeOfTheMapTheRouteBeginsAtItsNearestCell) {
   EXPECT_GT(plan.length_m, 3.2);
 }
 
-TEST(RoutePlanner, WhatRemainsOfARouteCostsTheLessTheFartherTheRobotIs) {
+TEST(RoutePlanner, RemainingCostFallsAlongTheRoute) {
   RoutePlanner planner(test::drawn_map(two_rooms(20), 0.05), {});
   Plan plan;
   planner.plan({0.625, 2.525}, {5.525, 0.725}, plan);

@@ -50,7 +50,7 @@ TEST_F(SeenMapTest, BeamsWithoutAnEchoAreFreeUpToTheRange) {
   EXPECT_TRUE(seen.ever_occupied().empty());
 }
 
-TEST_F(SeenMapTest, WhatHasMovedAwayIsGoneAfterSomeScans) {
+TEST_F(SeenMapTest, MovedObstaclesDisappearAfterSomeScans) {
   for (int i = 0; i < 20; ++i) see(wall_at_2_m);
   see(nothing);
   EXPECT_TRUE(seen.occupied(at({2.52, 2.52})));

@@ -102,7 +102,7 @@ TEST(Activity, CallsOneCodelAtEachWakeUp) {
   });
 }
 
-TEST(Activity, OfAnAperiodicTaskRunsOnWithoutDelay) {
+TEST(Activity, AperiodicTaskRunsOnWithoutDelay) {
   GoRobot robot(Plan{{State::start, {State::exec}}, {State::exec, {State::exec, State::exec, State::end}}}, {});
   robot.run([&] {
     sleep_for(7ms);

@@ -107,7 +107,7 @@ TEST(TaskComputing, AModulesLocksMakeForPriorityInversion) {
   EXPECT_EQ(replied_at(50ms), Time() + Duration(64ms));
 }
 
-TEST(TaskComputing, WhatCannotBeIsNamedWithItsLine) {
+TEST(TaskComputing, InvalidSettingsAreReportedWithTheirLine) {
   const auto complaint = [](const std::vector<std::pair<std::string, std::string>>& written) -> std::string {
     std::vector<Setting> settings;
     for (const auto& [key, text] : written)

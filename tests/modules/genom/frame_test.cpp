@@ -37,7 +37,7 @@ struct EchoRobot : FrameRobot {
   }
 };
 
-TEST(Client, RepliesGoToWhoAsked) {
+TEST(Client, RepliesGoToTheSender) {
   on_threads([] {
     EchoRobot robot;
     robot.run([&] {

@@ -58,7 +58,7 @@ TEST(Client, IsToldWhenTheModulesMailboxIsFull) {
   });
 }
 
-TEST(Client, ThatDoesNotReadLosesRepliesAndHoldsUpNobody) {
+TEST(Client, NotReadingLosesRepliesAndBlocksNoOther) {
   MailboxRobot robot;
   robot.run([&] {
     for (int i = 0; i < 100; ++i) {

@@ -65,7 +65,7 @@ TEST(Poster, IsDatedAndSeenWhenTheCodelThatWroteItHasCostItsTime) {
   });
 }
 
-TEST(Poster, OfAPermanentCodelIsDatedAfterThatCodelsCost) {
+TEST(Poster, PermanentCodelDatesItAfterTheCodelsCost) {
   TestRobot robot;
   ExecutionTask& task = robot.module.add_task("main", {.period_ms = 10ms, .cost_us = 300us});
   OutputPoster<Number>& poster = robot.module.add_poster<Number>("number", task);
@@ -122,7 +122,7 @@ TEST(Poster, ReadersNeverSeeHalfAValue) {
   }
 }
 
-TEST(Poster, WhatIsWrittenIsPartOfTheDigest) {
+TEST(Poster, WrittenValuesArePartOfTheDigest) {
   const auto digest = [](std::int32_t value, const char* name) {
     TestRobot robot;
     ExecutionTask& task = robot.module.add_task("main", {.period_ms = 10ms});
@@ -135,7 +135,7 @@ TEST(Poster, WhatIsWrittenIsPartOfTheDigest) {
   EXPECT_NE(digest(1, "p"), digest(1, "q"));
 }
 
-TEST(PosterLink, ToWhatNobodyWritesIsBadInput) {
+TEST(PosterLink, RequiredPosterWithoutAWriterIsBadInput) {
   TestRobot robot;
   robot.module.read_poster<Number>("rflex.odometry");
   expect_bad_input([&] { robot.module.connect(); },
@@ -150,7 +150,7 @@ TEST(PosterLink, ToAnotherTypeIsBadInput) {
                    "reads poster 'rflex.odometry' as another type than 'rflex' writes");
 }
 
-TEST(PosterLink, ThatIsNotRequiredReadsAsEmptyWhereThereIsNone) {
+TEST(PosterLink, OptionalPosterWithoutAWriterReadsAsEmpty) {
   TestRobot robot;
   PosterLink<Number>& link = robot.module.read_poster<Number>("sick.echoes", false);
   robot.run([&] {
@@ -178,7 +178,7 @@ TEST(NameSpace, TwoPostersOrModulesOfOneNameAreBadInput) {
   EXPECT_EQ(robot.names.find_module("n"), nullptr);
 }
 
-TEST(NameSpace, OfOneRobotKnowsNothingOfAnother) {
+TEST(NameSpace, RobotsHaveSeparateNameSpaces) {
   TestRobot one, two;
   EXPECT_NE(one.names.find_module("m"), two.names.find_module("m"));
   EXPECT_NE(one.names.find_poster("m.control"), two.names.find_poster("m.control"));

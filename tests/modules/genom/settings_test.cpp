@@ -74,7 +74,7 @@ TEST(Settings, DurationsBearTheUnitOfTheirKey) {
   EXPECT_EQ(read("pause_s", "0").pause_s, Duration());
 }
 
-TEST(Settings, WhatIsNotSetKeepsItsValue) {
+TEST(Settings, UnsetFieldsKeepTheirValues) {
   const Parameters parameters = read("count", "1");
   EXPECT_EQ(parameters.gain, 0.5);
   EXPECT_EQ(parameters.label, "none");

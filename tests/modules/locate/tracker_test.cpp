@@ -51,7 +51,7 @@ TEST(Tracker, IsLostWhenTheMapDoesNotExplainItsScans) {
   EXPECT_TRUE(tracker.lost());
 }
 
-TEST(MapSurface, OfASlantingWallIsItsLine) {
+TEST(MapSurface, FitsTheLineOfASlantingWall) {
   OccupancyGrid map(120, 120, 0.05, {1, 2, 0.3}, Cell::free);
   for (int y = 0; y < 120; ++y)
     for (int x = 0; x < 120; ++x)

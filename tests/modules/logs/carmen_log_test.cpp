@@ -73,7 +73,7 @@ TEST(CarmenLog, TheLasersPoseOnTheRobotIsThatBetweenTheTwoPosesOfItsRecords) {
   EXPECT_NEAR(log.mount.y, 0, 1e-5);
 }
 
-TEST(CarmenLog, OfACorrectedLogItIsThatOfTheParameters) {
+TEST(CarmenLog, CorrectedLogsTakeTheMountFromParameters) {
   const SensorLog log =
       parsed("PARAM robot_frontlaser_offset 0.1\nFLASER 1 2 0 0 0 0 0 0 1 h 1\nFLASER 1 2 5 1 1 1 1 0 2 h 2\n");
   EXPECT_EQ(log.mount, (Pose{0.1, 0, 0}));
@@ -88,7 +88,7 @@ TEST(CarmenLog, AnotherLaserCanBeChosen) {
             "--scan: expected a type of CARMEN's records with scans, found 'RLASSER', did you mean 'RLASER'?");
 }
 
-TEST(CarmenLog, OfSeveralRobotsOneMustBeNamed) {
+TEST(CarmenLog, LogsOfSeveralRobotsNeedARobotsName) {
   const std::string text = "FLASER 1 2 0 0 0 0 0 0 1 ada 1\nFLASER 1 3 0 0 0 0 0 0 1 bob 1\n";
   EXPECT_EQ(message(text), "--robot: expected a name, since the log has scans of several robots: 'ada', 'bob'");
   EXPECT_EQ(parsed(text, {.robot = "bob"}).scans.front().range_m.front(), 3);

@@ -42,7 +42,7 @@ SurfaceMap map_of(const std::vector<SurfacePoint>& points) {
   return map;
 }
 
-TEST(Surface, OfAWallHasItsNormalTowardsTheObserver) {
+TEST(Surface, NormalOfAWallPointsToTheObserver) {
   posters::Echoes echoes;
   echoes.mount = {0.1, 0, 0};
   echoes.scan.first_angle_rad = -0.5;

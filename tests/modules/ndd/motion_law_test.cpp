@@ -51,7 +51,7 @@ TEST(SpeedLimiter, StandsAtTheEmergencyDistanceButMayTurn) {
   EXPECT_EQ(speeds.w_rad_s, 1.0);
 }
 
-TEST(SpeedLimiter, WhatIsBehindDoesNotMatter) {
+TEST(SpeedLimiter, IgnoresObstaclesBehind) {
   SpeedLimiter limiter(parameters);
   EXPECT_EQ(limiter.limit({0.9, 0}, {}, std::vector<Point>{{-0.28, 0}, {-0.1, 0.27}}).v_m_s, 0.9);
 }

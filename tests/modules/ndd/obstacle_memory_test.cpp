@@ -38,7 +38,7 @@ TEST_F(ObstacleMemoryTest, EchoesStandWhereTheObstacleIsInTheRobotsFrame) {
   EXPECT_LT(nearest(points, between(moved, {2, 0, 0}).position()), 0.02);
 }
 
-TEST_F(ObstacleMemoryTest, WhatLeavesTheViewIsRemembered) {
+TEST_F(ObstacleMemoryTest, RemembersObstaclesOutOfView) {
   shapes.wall(1, -0.5, 1.2, 0.5);
   memory.see({0, 0, 0}, scan_from(shapes, {0, 0, 0}, ms(100)));
   const Pose turned = {0, 0, 3.0};
@@ -48,7 +48,7 @@ TEST_F(ObstacleMemoryTest, WhatLeavesTheViewIsRemembered) {
   EXPECT_LT(nearest(points, between(turned, {1, 0, 0}).position()), 0.03);
 }
 
-TEST_F(ObstacleMemoryTest, WhatIsSeenThroughIsForgotten) {
+TEST_F(ObstacleMemoryTest, ForgetsObstaclesThatBeamsPass) {
   shapes.discs.push_back({{1.5, 0}, 0.26});
   memory.see({0, 0, 0}, scan_from(shapes, {0, 0, 0}, ms(100)));
   memory.see({0, 0, 3.0}, scan_from(shapes, {0, 0, 3.0}, ms(200)));
@@ -58,7 +58,7 @@ TEST_F(ObstacleMemoryTest, WhatIsSeenThroughIsForgotten) {
   EXPECT_EQ(memory.remembered(), 0u);
 }
 
-TEST_F(ObstacleMemoryTest, WhatIsHiddenIsKept) {
+TEST_F(ObstacleMemoryTest, KeepsHiddenObstacles) {
   shapes.wall(2, -0.3, 2.2, 0.3);
   memory.see({0, 0, 0}, scan_from(shapes, {0, 0, 0}, ms(100)));
   shapes.discs.push_back({{1, 0}, 0.3});

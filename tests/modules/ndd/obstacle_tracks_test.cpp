@@ -37,7 +37,7 @@ TEST_F(ObstacleTracksTest, TheVelocityOfADiscIsFoundFromAMovingRobot) {
   EXPECT_NEAR(track.radius_m, 0.2, 0.03);
 }
 
-TEST_F(ObstacleTracksTest, WhatStandsDoesNotMoveWhereverTheRobotDrives) {
+TEST_F(ObstacleTracksTest, StandingObstaclesHaveNoSpeedWhileTheRobotDrives) {
   test::Disc disc = {{2, 0.6}, 0.2};
   shapes.wall(-5, 2, 5, 2.2);
   watch(30, {}, 1.5, disc, {});

@@ -116,7 +116,7 @@ TEST(NodeProcesses, AreMissedIfTheyDoNotRegister) {
   EXPECT_EQ(news.front().text, "has not registered with the master in 10 s");
 }
 
-TEST(NodeProcesses, ThatAreNotThereAreFaults) {
+TEST(NodeProcesses, MissingProgramsAreFaults) {
   // qemu's vfork() is a fork(): the parent does not learn what exec() answers, but the status 127.
   if (test::is_emulated()) GTEST_SKIP() << "posix_spawn() of an emulator does not report errors";
   FakeMaster master;

@@ -9,7 +9,7 @@ namespace {
 using namespace std::chrono_literals;
 using Kind = SourceClock::Kind;
 
-TEST(SourceClock, OfItsOwnOriginDatesFromTheReportWithTheLeastLag) {
+TEST(SourceClock, OwnOriginIsDatedByTheReportWithTheLeastLag) {
   SourceClock clock;
   EXPECT_DOUBLE_EQ(clock.date(1000, Time() + 5s, 0).date_s, 5);
   EXPECT_DOUBLE_EQ(clock.date(1001, Time() + 6500ms, 0).date_s, 6) << "half a second late";
@@ -17,7 +17,7 @@ TEST(SourceClock, OfItsOwnOriginDatesFromTheReportWithTheLeastLag) {
   EXPECT_DOUBLE_EQ(clock.date(1004, Time() + 9s, 0).date_s, 8);
 }
 
-TEST(SourceClock, OfAKnownOriginDatesByIt) {
+TEST(SourceClock, KnownOriginIsUsedAsItIs) {
   SourceClock unix(Kind::unix), run(Kind::run);
   EXPECT_DOUBLE_EQ(unix.date(1e9 - 0.25, Time() + 5s, 1e9).date_s, 4.75);
   EXPECT_DOUBLE_EQ(run.date(4.5, Time() + 5s, 1e9).date_s, 4.5);

@@ -69,7 +69,7 @@ TEST(PositionFix, TheWayBetweenFixesTellsTheHeading) {
   EXPECT_EQ(now.state, posters::FusionState::good);
 }
 
-TEST(PositionFix, WhatFixesHaveInCommonDoesNotAverageOut) {
+TEST(PositionFix, CommonErrorOfFixesDoesNotAverageOut) {
   UncertainPose pose = {{}, diagonal(100, 100, 0.01)};
   pose = fuse(pose, {{5, 5}, {}, 0.09, 0.25});
   EXPECT_NEAR(pose.pose.x, 5, 0.03) << "the first counts in full";
@@ -123,7 +123,7 @@ TEST(PositionFix, WhenItComesMakesNoDifference) {
   EXPECT_EQ(a.position.covariance, b.position.covariance);
 }
 
-TEST(PositionFix, ThatContradictsIsLeftOutAndToldAsSuch) {
+TEST(PositionFix, ContradictoryFixIsRejectedAndReported) {
   PositionFusion fusion({}, {{}, diagonal(0.04, 0.04, 0.01)});
   for (int tick = 0; tick <= 60; ++tick) fusion.add_odometry(driven(tick, 0));
   const Pose before = fusion.at(ms(1200)).position.pose;

@@ -146,7 +146,7 @@ TEST(PositionReport, IsReadWithTheBitsThatWereWritten) {
               1e-12);
 }
 
-TEST(PositionReport, WhatIsNoneIsOneLineAtItsPlace) {
+TEST(PositionReport, MalformedIsReportedInOneLineAtItsPlace) {
   EXPECT_EQ(complaint("stamp_s=1 x_m=nan y_m=0 heading_rad=0"),
             "connection:7: expected 'x_m' to be a number of at most 100000, found 'nan'");
   EXPECT_EQ(complaint("stamp_s=1 x_m=0 y_m=1e6 heading_rad=0"),

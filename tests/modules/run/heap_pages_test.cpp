@@ -63,7 +63,7 @@ bool system_collapses_pages() {
 }
 
 // Large pages at allocation are off: else the system could supply them before the call.
-TEST(HeapPages, WhatWasAllocatedIsOnLargePages) {
+TEST(HeapPages, AllocatedMemoryMovesToLargePages) {
   if (!system_collapses_pages()) GTEST_SKIP() << "the system has no MADV_COLLAPSE";
   malloc_trim(0);  // what earlier tests have freed may be on large pages already
   ASSERT_EQ(prctl(PR_SET_THP_DISABLE, 1, 0, 0, 0), 0);
@@ -76,7 +76,7 @@ TEST(HeapPages, WhatWasAllocatedIsOnLargePages) {
   EXPECT_GE(heap_on_large_pages_kib(), before_kib + pieces_kib / 2);
 }
 
-TEST(HeapPages, WhatIsAllocatedAfterGrowthIsOnLargePages) {
+TEST(HeapPages, LaterAllocationsAreOnLargePagesAfterGrowth) {
   if (!system_collapses_pages()) GTEST_SKIP() << "the system has no large pages on request";
   constexpr std::uint64_t pieces_kib = pieces_count * sizeof(Piece) / 1024;
   grow_heap_on_large_pages(2 * pieces_kib * 1024);
@@ -85,7 +85,7 @@ TEST(HeapPages, WhatIsAllocatedAfterGrowthIsOnLargePages) {
   EXPECT_GE(heap_on_large_pages_kib(), before_kib + pieces_kib / 2);
 }
 
-TEST(HeapPages, WhatWasAllocatedStaysAsItWas) {
+TEST(HeapPages, ContentsAreUnchanged) {
   const auto pieces = allocated_pieces();
   for (int times = 0; times < 2; ++times) put_heap_on_large_pages();
   for (std::uint64_t i = 0; i < pieces_count; ++i)

@@ -58,7 +58,7 @@ TEST(Intervention, ASeedIsAWholeNumberOf64Bits) {
   EXPECT_EQ(complaint("seed 1 2"), "run.journal:7: expected the end of the line, found '2'");
 }
 
-TEST(Intervention, WhatIsNoneIsOneLineAtItsPlace) {
+TEST(Intervention, MalformedIsReportedInOneLineAtItsPlace) {
   EXPECT_EQ(complaint("mve rackham 1 2"), "run.journal:7: unknown intervention 'mve', did you mean 'move'?");
   EXPECT_EQ(complaint("move rackham 1"), "run.journal:7: expected a place, X Y [HEADING_DEG], found ''");
   EXPECT_EQ(complaint("move rackham 1,5 2"), "run.journal:7: expected a place, X Y [HEADING_DEG], found '1,5'");

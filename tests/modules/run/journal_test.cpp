@@ -23,7 +23,7 @@ class JournalTest : public ::testing::Test {
   JournalHead head_{"office", Digest(5), 3, kernel::Order::seeded};
 };
 
-TEST_F(JournalTest, WhatIsWrittenIsRead) {
+TEST_F(JournalTest, ReadsBackAsWritten) {
   const Intervention move = parse_intervention("move rackham 1 2", {"prompt", 0});
   const Time date = Time::from_ns(12'340'000'001);
   const Journal journal =
@@ -38,7 +38,7 @@ TEST_F(JournalTest, WhatIsWrittenIsRead) {
   EXPECT_FALSE(read(to_text(head_)).end);
 }
 
-TEST_F(JournalTest, OfARunThatWasCutOffItHasTheReason) {
+TEST_F(JournalTest, CutOffRunHasItsReason) {
   const std::string lines = to_text(head_) + "at 1 move rackham 1 2\n" + cut_off_line("the process dies\nof SIGFPE");
   const Journal journal = read(lines);
   EXPECT_EQ(journal.interventions.size(), 1u);
@@ -57,7 +57,7 @@ TEST_F(JournalTest, LinesMayEndAsOnOtherSystems) {
   EXPECT_EQ(journal.end->digest, "wp1:00");
 }
 
-TEST_F(JournalTest, OfAnotherRunItIsNamed) {
+TEST_F(JournalTest, RefusesAJournalOfAnotherRun) {
   JournalHead other = head_;
   other.fingerprint = Digest(6);
   EXPECT_EQ(complaint(to_text(other)).find(":2: the journal of another scenario: expected "), 0u);
@@ -69,7 +69,7 @@ TEST_F(JournalTest, OfAnotherRunItIsNamed) {
   EXPECT_EQ(complaint(to_text(other)), ":4: the journal of another order: expected 'order seeded', found 'order fifo'");
 }
 
-TEST_F(JournalTest, WhatCannotBeReadIsNamedWithItsLine) {
+TEST_F(JournalTest, ReportsMalformedLinesWithTheirNumber) {
   const std::string head = to_text(head_);
   EXPECT_EQ(complaint("format: 1\n"), ":1: this is no journal: expected 'waitpoint journal 1', found 'format: 1'");
   EXPECT_EQ(complaint("\x7f"

@@ -54,7 +54,7 @@ TEST(KnownMap, AnObjectFarFromEveryRobotIsNotOnIt) {
   EXPECT_EQ(obstacles_beyond(map, scenario, nullptr), 1u);
 }
 
-TEST(KnownMap, OfAMapThatRobotsDoNotKnowOnlyTheExtentIsKnown) {
+TEST(KnownMap, UnknownMapGivesItsExtentOnly) {
   world::WorldFile file;
   file.obstacles.push_back(box({5, 5}, 10, 10));
   file.obstacles.front().shape.z_high_m = 1;

@@ -31,7 +31,7 @@ TEST_F(LogReader, AFileAloneIsRelativeToTheScenarioAndHasNoLimit) {
   EXPECT_EQ(read("log: a.clf\nuntil_s: 7\nrobots: [{name: r}]\n").until, Duration::from_seconds(7));
 }
 
-TEST_F(LogReader, WhatIsTakenFromTheLogAndWhatIsKnownBetterIsRead) {
+TEST_F(LogReader, ReadsSelectionsAndCorrections) {
   const Scenario scenario = read(
       "log: {file: a.bag, scan: /front, odometry: /odom, robot: red, field_of_view_deg: 180,\n"
       "      mount: [0.1, -0.2, 90], range_max_m: 30}\nrobots: [{name: r}]\n");
@@ -58,7 +58,7 @@ TEST_F(LogReader, TheRobotHasModulesAndProcessorsOfItsTypeAndItsOwnButNoPrograms
   EXPECT_TRUE(robot.programs.empty());
 }
 
-TEST_F(LogReader, WhatContradictsALogIsToldWithItsLine) {
+TEST_F(LogReader, ReportsKeysThatContradictALogAtTheirLine) {
   const std::string robots = "robots:\n  - name: r\n";
   EXPECT_EQ(complaint("log: a.clf\nworld: {step_ms: 5}\n" + robots),
             "s.yaml:3: expected no 'world' beside a log, which is in place of a world");

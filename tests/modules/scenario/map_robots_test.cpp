@@ -73,7 +73,7 @@ TEST_F(RobotsFromMap, AllOfThemAreOfTheTypeAndHaveOfTheFileWhatItLeavesOut) {
   EXPECT_EQ(scenario.map->robots_taken, 3u);
 }
 
-TEST_F(RobotsFromMap, WhatATypeSaysIsNotTheFiles) {
+TEST_F(RobotsFromMap, KeysOfTheTypeOverrideTheFile) {
   const Scenario scenario = read("robots_from_map: tall\n");
   const world::BodyDescription& body = scenario.robots.at(0).body;
   EXPECT_EQ(body.shape.kind, world::Shape::Kind::cylinder);
@@ -119,7 +119,7 @@ TEST_F(RobotsFromMap, ALaserHasAsManyBeamsAsAModuleTakes) {
                                      ":1: a laser of more than 721 beams is taken with 721 (2 times)"});
 }
 
-TEST_F(RobotsFromMap, WhatDoesNotFitIsOneLine) {
+TEST_F(RobotsFromMap, MismatchesAreReportedInOneLine) {
   EXPECT_EQ(complaint("robots_from_map: scout\n", "world: {}"), "s.yaml:12: expected a world.map for robots_from_map");
   EXPECT_EQ(complaint("robots_from_map: scuot\n"), "s.yaml:12: there is no robot type 'scuot', did you mean 'scout'?");
   EXPECT_EQ(complaint("robots_from_map: []\n"), "s.yaml:12: expected robots_from_map to have a row");

@@ -90,7 +90,7 @@ TEST(JointUpdate, IsTheTextbooksUpdateRowByRow) {
   }
 }
 
-TEST(JointUpdate, WhatIsKnownAlreadyTeachesLittle) {
+TEST(JointUpdate, RepeatedMeasurementsAddLittleInformation) {
   Covariance p = positive(5);
   JointUpdate joint(40);
   joint.clear(p);

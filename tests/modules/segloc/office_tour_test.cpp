@@ -104,7 +104,7 @@ TEST(RasterTour, FewWallsOfCellsHoldThePose) {
 }
 
 // A hall of 3 cm cells with slightly turned shelves, and a stretch of 20 m with only one wall in range.
-TEST(RasterTour, WhereLinesAreFewTheFilterDegradesToTheOdometryAndRecovers) {
+TEST(RasterTour, DegradesToOdometryWithFewLinesAndRecovers) {
   Raster raster(0.03, {-2, -2}, 54, 34);
   raster.draw({0, 0}, {50, 0.4});
   raster.draw({50, 0.4}, {49.8, 30});

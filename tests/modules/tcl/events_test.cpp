@@ -31,7 +31,7 @@ TEST(Update, RunsWhatIsDueWithoutWaiting) {
             "now");
 }
 
-TEST(Update, OfIdletasksRunsThoseThatThereAreAlone) {
+TEST(Update, IdletasksRunsPresentIdleEventsOnly) {
   ScriptedRobot robot;
   EXPECT_EQ(robot
                 .run("set log {}; after idle {lappend log idle; after idle {lappend log again}}; "
@@ -48,7 +48,7 @@ TEST(Vwait, IsAnErrorWhereNothingCanHappen) {
   EXPECT_EQ(outcome.text, "can't wait for variable \"never\": would wait forever");
 }
 
-TEST(Interpreters, OfOneThreadHaveEventsOfTheirOwn) {
+TEST(Interpreters, HaveSeparateEventsInOneThread) {
   ScriptedRobot robot;
   std::string first, second;
   robot.genom::TestRobot::run([&] {

@@ -71,7 +71,7 @@ TEST(Mission, WithASyntaxErrorIsBadInput) {
   }
 }
 
-TEST(Mission, ThatFailsEndsTheRunWithItsPlace) {
+TEST(Mission, FailureEndsTheRunWithItsPlace) {
   const scenario::Scenario scenario = with_script("after 2500\nlm rflex\nrflex::PosterRead nothing\n");
   try {
     result_of(scenario);

@@ -142,7 +142,7 @@ actions:
   EXPECT_EQ(log(robot), "start of stay|stop of stay|start of check|end of check|completed|");
 }
 
-TEST_F(ProceduresBelowPlan, OfBadCallsAreBadInput) {
+TEST_F(ProceduresBelowPlan, BadCallsAreBadInput) {
   const std::string place = "procedures_plan.yaml:4: ";
   EXPECT_EQ(refusal("actions: [{name: a, tcl: vist 1 2}]"),
             place + "the script has no procedure 'vist', did you mean 'visit'?");

@@ -37,7 +37,7 @@ TEST(Request, BlocksTheScriptForItsVirtualTime) {
             "1");
 }
 
-TEST(Request, ThatFailsIsAnErrorWithItsReport) {
+TEST(Request, FailureIsAnErrorWithItsReport) {
   EXPECT_EQ(result("catch {m::Count 13} message; list $message $::errorCode"),
             "{m::Count: own report 107} {WAITPOINT REPORT m::Count {own report 107}}");
 }

@@ -35,7 +35,7 @@ TEST(Interruption, ASecondSignalEndsTheProcess) {
   EXPECT_EXIT(impatient(), testing::KilledBySignal(SIGTERM), "");
 }
 
-TEST(Interruption, WhatIsForgottenComesFirstAgain) {
+TEST(Interruption, NextSignalAfterForgettingIsTheFirst) {
   const auto forgetful = [] {
     heed_signals();
     std::raise(SIGINT);

@@ -19,12 +19,12 @@ Batches of_short_schedules() {
   return batches;
 }
 
-TEST(Batches, OfShortSchedulesGrowUpToTheGreatestSize) {
+TEST(Batches, GrowToTheLimitForShortSchedules) {
   EXPECT_EQ(Batches(16).size(), 1u);
   EXPECT_EQ(of_short_schedules().size(), 16u);
 }
 
-TEST(Batches, OfASlowScheduleIsTheLastWithSeveral) {
+TEST(Batches, ShrinkToOneAfterASlowSchedule) {
   Batches batches = of_short_schedules();
   batches.start({0, 16}, 0);
   batches.end(0, 1, 0.1);
@@ -45,7 +45,7 @@ TEST(Batches, LeaveWhatFollowsASchedulesFailure) {
   EXPECT_FALSE(batches.take_left(any_place));
 }
 
-TEST(Batches, OfALostProcessAreRepeatedOneByOne) {
+TEST(Batches, RepeatOneByOneAfterALostProcess) {
   Batches batches = of_short_schedules();
   batches.start({20, 3}, 0);
   EXPECT_TRUE(batches.divide(20));

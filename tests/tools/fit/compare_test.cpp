@@ -17,7 +17,7 @@
 namespace waitpoint::tools {
 namespace {
 
-TEST(TwoSamples, OfOneDistributionAreProbableAndOfTwoAreNot) {
+TEST(TwoSamples, SeparateTwoDistributions) {
   RandomStream random(5, "samples", "normal");
   std::vector<double> a, b, shifted;
   for (std::uint64_t i = 0; i < 400; ++i) {

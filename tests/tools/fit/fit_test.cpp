@@ -108,7 +108,7 @@ TEST(Fit, TheLasersNoiseResolutionDropoutsAndTimesAreFound) {
 }
 
 // As many as a simulated laser can have.
-TEST(Fit, OfManyBeamsEveryNthIsFitted) {
+TEST(Fit, UsesEveryNthOfManyBeams) {
   logs::SensorLog log = scans_at_rest(0.007, 0.01, 0);
   for (logs::LoggedScan& scan : log.scans) {
     scan.range_m.resize(1081, 3);

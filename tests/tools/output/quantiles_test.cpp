@@ -24,7 +24,7 @@ TEST(Quantiles, AreValuesOfRuns) {
   EXPECT_DOUBLE_EQ(all.back().most, 10);
 }
 
-TEST(Quantiles, OfOneRunAreItsFigures) {
+TEST(Quantiles, OneRunGivesItsFigures) {
   const std::vector<bridge::RunResult> one{run_of(3)};
   const Quantiles time = quantiles_of(one).back();
   EXPECT_DOUBLE_EQ(time.least, 3);

@@ -61,7 +61,7 @@ TEST_F(LogScenario, TheScenarioSaysWhichModulesRun) {
   EXPECT_EQ(waitpoint({"check", "s.yaml"}).output, "s.yaml: good: 2 modules, 99 scans of run.log\n");
 }
 
-TEST_F(LogScenario, WhatIsKnownBetterThanByTheLogApplies) {
+TEST_F(LogScenario, KeysOfTheScenarioOverrideTheLog) {
   write("run.log");
   const json as_logged = summary({"run", "s.yaml"});
   for (const std::string given : {"mount: [0.2, 0, 5]", "field_of_view_deg: 90", "range_max_m: 3"}) {
@@ -114,7 +114,7 @@ TEST_F(LogScenario, ALimitOfTheScenarioHolds) {
   EXPECT_EQ(summary({"run", "s.yaml", "--until", "2"})["simulated_s"], 2);
 }
 
-TEST_F(LogScenario, WhatNeedsAWorldIsRefusedInOneLine) {
+TEST_F(LogScenario, RefusesOptionsThatNeedAWorld) {
   write("run.log");
   const auto refused = [&](const std::vector<std::string>& more) {
     std::vector<std::string> words = {"run", "s.yaml"};

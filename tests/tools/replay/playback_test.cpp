@@ -118,7 +118,7 @@ TEST(Playback, DeadReckoningComesToTheOdometryOfTheLogAtEveryScan) {
 }
 
 // Reports faster than the module's period replace one another, and dead reckoning still comes to each that it reads.
-TEST(Playback, ReportsThatNobodyReadDoNotBendTheOdometry) {
+TEST(Playback, UnreadReportsDoNotBendTheOdometry) {
   logs::SensorLog log = log_of_room();
   // A hundred after each scan, as fast as they come.
   for (std::uint64_t i = 0; i < 9500; ++i) {

@@ -174,7 +174,7 @@ TEST(Replay, RelationsOfWhichNoneIsUsedHaveNoErrors) {
       std::string::npos);
 }
 
-TEST(Replay, WhatIsWrongIsToldInOneLine) {
+TEST(Replay, ReportsErrorsInOneLine) {
   const Folder folder;
   folder.write("a.log", "FLASER 1 2 0 0 0 0 0 0 1 h 1\n");
   const std::string log = (folder / "a.log").string();

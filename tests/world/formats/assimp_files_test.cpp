@@ -113,7 +113,7 @@ TEST_F(AssimpFilesTest, AreOfLimitedSizeTogether) {
   EXPECT_TRUE(complains([&] { read(file); }, folder_.path("own/"), "at most 16 MiB in all files"));
 }
 
-TEST_F(AssimpFilesTest, OfMaterialsMayBeMissing) {
+TEST_F(AssimpFilesTest, MaterialFilesAreOptional) {
   LeftOut left_out;
   const std::string text = "mtllib none.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
   EXPECT_EQ(read_mesh_by_assimp(text, folder_.path("own/m.obj"), left_out).triangles.size(), 1u);

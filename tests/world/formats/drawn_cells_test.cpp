@@ -64,7 +64,7 @@ TEST(DrawnCells, ExactlyTheCellsThatAShapeReachesInto) {
   }
 }
 
-TEST(DrawnCells, WhatLiesOutsideIsLeftOut) {
+TEST(DrawnCells, SkipShapesOutsideTheGrid) {
   OccupancyGrid grid(10, 10, 0.1, {}, Cell::unknown);
   const std::vector<Shape> shapes = {box({5, 5, 0}, 1, 1), cylinder({-3, 0.5}, 0.5), box({1.2, 0.5, 0}, 0.4, 0.1)};
   draw(shapes, grid);

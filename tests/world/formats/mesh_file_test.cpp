@@ -66,14 +66,14 @@ TriangleMesh read_obj(const std::string& contents) {
   return parse_obj(contents, "m.obj", left_out);
 }
 
-TEST(Stl, OfTextIsRead) {
+TEST(Stl, ReadsText) {
   const TriangleMesh mesh = read_stl(one_facet);
   ASSERT_EQ(mesh.triangles.size(), 1u);
   EXPECT_EQ(mesh.triangle(0).corners[2].y, 2.5);
   EXPECT_EQ(read_stl("SOLID\n" + one_facet.substr(8)).triangles.size(), 1u);
 }
 
-TEST(Stl, OfBytesIsReadThoughItBeginsWithSolid) {
+TEST(Stl, ReadsBinaryThatBeginsWithSolid) {
   const TriangleMesh ball = lumpy_ball(*std::make_unique<Draws>(1), 2, 3);
   const TriangleMesh mesh = read_stl(stl_bytes(ball, 128));
   ASSERT_EQ(mesh.triangles.size(), 128u);

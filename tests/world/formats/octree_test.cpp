@@ -56,7 +56,7 @@ void expect_covers(const std::vector<Shape>& shapes, const Tree& tree) {
   EXPECT_GT(shapes.size(), 100u);
 }
 
-TEST(Octree, OfStatesCoversWhatIsOccupied) {
+TEST(Octree, BinaryTreeCoversOccupiedSpace) {
   octomap::OcTree tree(0.1);
   fill(tree, 1);
   std::ostringstream out;
@@ -64,7 +64,7 @@ TEST(Octree, OfStatesCoversWhatIsOccupied) {
   expect_covers(parse_octree(out.str(), "t.bt"), tree);
 }
 
-TEST(Octree, OfOddsCoversWhatIsOccupied) {
+TEST(Octree, OccupancyTreeCoversOccupiedSpace) {
   octomap::OcTree tree(0.1);
   fill(tree, 2);
   std::ostringstream out;
@@ -72,7 +72,7 @@ TEST(Octree, OfOddsCoversWhatIsOccupied) {
   expect_covers(parse_octree(out.str(), "t.ot"), tree);
 }
 
-TEST(Octree, OfColoursCoversWhatIsOccupied) {
+TEST(Octree, ColourTreeCoversOccupiedSpace) {
   octomap::ColorOcTree tree(0.1);
   fill(tree, 3);
   std::ostringstream out;

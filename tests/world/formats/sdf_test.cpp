@@ -94,7 +94,7 @@ TEST(Sdf, ABoxOnItsSideAndACylinderOnItsHeadAreExact) {
   EXPECT_TRUE(read.warnings.empty());
 }
 
-TEST(Sdf, WhatIsTiltedBecomesTheUprightBoxAboutItAndIsTold) {
+TEST(Sdf, ReplacesTiltedShapesByUprightBoxesAndReportsThem) {
   const Read read = parsed(world(model(plank, "1 2 1 0 0.6 0.5") + model(post, "0 0 1 0 1.5707963267948966 0") +
                                  model("<sphere><radius>0.5</radius></sphere>", "4 0 0.5 0 0 0")));
   ASSERT_EQ(read.obstacles.size(), 3u);
@@ -153,7 +153,7 @@ TEST(Sdf, NoPointOfATiltedSolidIsOutsideItsUprightShape) {
   }
 }
 
-TEST(Sdf, WhatIsLeftOutIsToldOnceForEachKind) {
+TEST(Sdf, ReportsEachIgnoredKindOnce) {
   const std::string visual = "<visual name='v'/>";
   const Read read = parsed(
       world("<light name='sun'/>\n<model name='ground'><static>1</static><link name='l'>" + visual +

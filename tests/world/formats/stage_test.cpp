@@ -100,7 +100,7 @@ TEST(Stage, BlocksFillTheModel) {
             std::vector<std::string>{"a.world:2: a 'block' that is no rectangle is taken as the box about it"});
 }
 
-TEST(Stage, WhatPassesBodiesAndBeamsIsNotThere) {
+TEST(Stage, SkipsModelsThatReturnNothing) {
   const ReadStage read = stage_world(
       "define zone model( obstacle_return 0 ranger_return -1 )\nzone()\nmodel( obstacle_return 0 )\n"
       "model( ranger_return -1 )\nmodel( ranger_return 0.5 )\n");
@@ -263,7 +263,7 @@ TEST(Stage, ARobotTellsWhereItStandsItsTypesAndItsRangersNames) {
   ASSERT_EQ(read.bodies[1].lasers.size(), 5u);
 }
 
-TEST(Stage, WhatIsLeftOutIsToldOnceForEachKind) {
+TEST(Stage, ReportsEachIgnoredKindOnce) {
   const ReadStage read = stage_world(
       "quit_time 60\nwindow( size [1 2] )\nposition( color \"red\" ctrl \"wander\" drive \"tank\"\n"
       "  fiducial() ranger( sensor( color_rgba [0 0 1 0.15] range [0.1 5] ) ) block( points 3 point[0] [0 0] point[1] "

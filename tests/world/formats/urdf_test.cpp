@@ -123,7 +123,7 @@ TEST(Urdf, ARoundRobotStaysRound) {
   EXPECT_NEAR(read.robot.shape.z_high_m, 0.35, 1e-12);
 }
 
-TEST(Urdf, WhatItDoesNotKnowIsTold) {
+TEST(Urdf, ReportsUnknownElements) {
   const ReadRobot read = robot_of("<material name='m'/>\n" + link("base", "<visual/><inertial/>" + collision(hull)) +
                                   link("arm", "\n" + collision("<mesh filename='arm.stl'/>")) + joint("base", "arm"));
   ASSERT_EQ(read.warnings.size(), 4u);

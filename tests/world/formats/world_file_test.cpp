@@ -21,7 +21,7 @@ TEST(WorldFile, ItsFirstWordsTellItsKind) {
   EXPECT_EQ(format_of("floorplan( size [1 1 1] )"), WorldFormat::stage);
 }
 
-TEST(WorldFile, WhatIsOfNoKindIsRefused) {
+TEST(WorldFile, RefusesUnknownFormats) {
   const Folder folder;
   const auto refuses = [&](const std::string& contents) {
     const std::string file = folder.write("some", contents);

@@ -49,7 +49,7 @@ void drive(World& world, Draws draw) {
     world.command(BodyId(i), {draw(-9, 9), draw(-9, 9), draw(-9, 9), draw(-9, 9)});
 }
 
-TEST(ExpectedScans, ReadWhatScansDoThatNobodyExpected) {
+TEST(ExpectedScans, EqualUnexpectedScans) {
   for (const Engine engine : {Engine::fcl, Engine::slice}) {
     const auto told = make_kinematic_world(crowd(engine), 7), untold = make_kinematic_world(crowd(engine), 7);
     for (std::uint64_t step = 1; step <= 20; ++step) {
@@ -77,7 +77,7 @@ TEST(ExpectedScans, ReadWhatScansDoThatNobodyExpected) {
   }
 }
 
-TEST(ExpectedScans, AreFoundByWhoAsksForThemUntilTheNextStep) {
+TEST(ExpectedScans, AreAvailableUntilTheNextStep) {
   ExpectedScans scans;
   scans.restart(3);
   EXPECT_FALSE(scans.begin()) << "nothing to make";

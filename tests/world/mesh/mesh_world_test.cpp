@@ -67,7 +67,7 @@ TEST(MeshWorld, AnOverhangIsMetAtTheBodysHeight) {
   EXPECT_NEAR(world->body(only).pose.x, 3.75 - 1e-6, 2e-9);
 }
 
-TEST(MeshWorld, WhatIsAboveOrInsideIsNotInTheWay) {
+TEST(MeshWorld, IgnoresSurfacesAboveAndInsideABody) {
   // A hall with its floor and ceiling, and a table top above the body.
   TriangleMesh mesh = box_mesh({-10, -10, 0}, {10, 10, 3});
   add_quad(mesh, {1, -1, 1}, {3, -1, 1}, {3, 1, 1}, {1, 1, 1});

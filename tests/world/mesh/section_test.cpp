@@ -36,7 +36,7 @@ TEST(Cut, CountsACornerAtItsHeightAsAbove) {
   EXPECT_FALSE(cut(level, 2).has_value());
 }
 
-TEST(Cut, OfAClosedSurfaceLetsNoBeamOut) {
+TEST(Cut, ClosedSurfaceStopsEveryBeam) {
   Draws draw(1);
   long beams = 0;
   for (int k = 0; k < 20; ++k) {
@@ -86,7 +86,7 @@ TEST(Cover, IsWhatLiesBetweenTheHeights) {
   EXPECT_FALSE(covers({-0.01, 1.5}));
 }
 
-TEST(Cover, OfWhatOnlyTouchesTheHeightsIsNothing) {
+TEST(Cover, TouchingTheHeightsGivesNothing) {
   std::vector<Outline> pieces;
   cover(upright, 2, 3, pieces);
   cover(upright, -1, 0, pieces);

@@ -124,7 +124,7 @@ TEST(ContactLoop, DrivenIntoFromBehindTheFrontOneGoesOn) {
   expect_apart(crowd, stop, 100);
 }
 
-TEST(ContactLoop, WhoStandsIsHitButDoesNotStop) {
+TEST(ContactLoop, StandingBodyIsHitButDoesNotStop) {
   const Shape disc = cylinder({0, 0}, 0.25);
   const Crowd crowd = {{disc, disc}, {{{0, 0, 0}, 5, 0}, {{1, 0.1, 2}, 0, 0}}, {}};
   const auto stop = stops(crowd, in_order(2));

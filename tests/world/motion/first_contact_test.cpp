@@ -169,7 +169,7 @@ TEST(FirstContact, InContactOnlyClosingIsRefused) {
   EXPECT_FALSE(contact_at(0.5 * exact::pi, 0.5, 0.5)) << "a curve away from the wall";
 }
 
-TEST(FirstContact, PushingForAYearGetsNobodyIntoTheWall) {
+TEST(FirstContact, PushingForAYearDoesNotPenetrateTheWall) {
   const Shape body = box({0.1, 0, 0}, 0.6, 0.4);
   const Mover wall(outline_of(box({1, 0, 0.3}, 0.5, 6)));
   Draws draw(4);

@@ -48,7 +48,7 @@ TEST(FlightContact, SinkingStopsAMicrometreAboveTheTableAtAnySpeed) {
 }
 
 // It reaches the wall after 1.75 of 4 m, and after 1.75 / 4 of its climb, which starts at 0.5 m.
-TEST(FlightContact, WhoHasClimbedEnoughPassesOverAWall) {
+TEST(FlightContact, ClimbingBodyPassesOverAWall) {
   const Mover wall = standing(between(box({2.0005, 0, 0}, 0.001, 10), 0, 1));
   const auto contact_at = [&](double climb_m) {
     return first_contact(flying(disc, {{0, 0, 0}, 4, 0, 0, climb_m}, 0.5), wall, 0);
@@ -62,7 +62,7 @@ TEST(FlightContact, WhoHasClimbedEnoughPassesOverAWall) {
   EXPECT_FALSE(contact_at(3));
 }
 
-TEST(FlightContact, WhoSinksOnTheFarSideOfAWallHitsItsTop) {
+TEST(FlightContact, SinkingBodyHitsTheTopOfAWall) {
   // It is over the wall, 2 m thick, from 1.75 m on, and touches its top after sinking 0.4 m.
   const Mover block = standing(between(box({3, 0, 0}, 2, 10), 0, 1));
   const auto contact = first_contact(flying(disc, {{0, 0, 0}, 4, 0, 0, -0.6}, 1.4), block, 0);
@@ -88,7 +88,7 @@ TEST(FlightContact, AlongAWallItClimbs) {
   EXPECT_TRUE(first_contact(flying(disc, {{x, 0, 0}, 0.1, 0, 0, 1}, 1), wall, 0));
 }
 
-TEST(FlightContact, WhoIsMetFromAboveIsNotStoppedByIt) {
+TEST(FlightContact, BodyHitFromAboveMovesOn) {
   const Mover below = flying(disc, {{0, 0, 0}, 0.1, 0}, 0);
   const auto contact = first_contact(flying(disc, {{0, 0.1, 0}, 0, 0, 0, -1}, 0.5), below, 0);
   ASSERT_TRUE(contact);

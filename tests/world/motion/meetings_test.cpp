@@ -95,7 +95,7 @@ Yard crowded_yard(Draws& draw, std::size_t bodies, double half_square_m) {
 }
 
 // With varying speeds, some bodies at rest, and occasional interventions that move one.
-TEST(Meetings, StopThoseWhomAskingAllAboutAllStopsToTheLastBit) {
+TEST(Meetings, StopTheSameBodiesAsAllPairsBitForBit) {
   std::size_t stopped = 0;
   for (std::uint64_t seed = 1; seed <= 12; ++seed) {
     Draws draw(seed);

@@ -74,7 +74,7 @@ TEST(Sonar, AnEdgeAnswersWeakly) {
   EXPECT_EQ(range(edge_at(1.5), 0.15), 3) << "in the cone, but not in its middle";
 }
 
-TEST(Sonar, WhatStandsBeforeItHidesIt) {
+TEST(Sonar, NearerObstacleHidesAnEcho) {
   // The tilted plate deflects the sound; the wall behind it gives no echo.
   const Shape wall = box({2.5, 0, 0}, 1, 20), plate = box({1.2, 0, 0.7}, 0.05, 3);
   EXPECT_EQ(range({wall, plate}, 0), 3);
@@ -166,7 +166,7 @@ TEST(Sonar, RingsOfOneBodyHearEachOther) {
   EXPECT_NEAR(with[6], 1.745, 1e-9) << "half of 1.75 m and 1.74 m";
 }
 
-TEST(Sonar, WhatHidesEitherWayHidesTheCrossEcho) {
+TEST(Sonar, ObstacleOnEitherPathHidesTheCrossEcho) {
   const SonarRingDescription ring = quiet_ring();
   const SonarCone a(ring, {0, 0, 0}), b(ring, {0, 0.2, 0});
   std::vector<CrossEcho> echoes;

@@ -259,7 +259,7 @@ TEST(DepthBuffer, NarrowFanAlongAWallStaysWithinItsBeams) {
       expect_as_asking_all(shapes, slice, OwnFan({0, -5 - gap_m}, turn_rad - exact::pi, 1e-5, 24), 30);
 }
 
-TEST(DepthBuffer, OfNothingAndOfOneShape) {
+TEST(DepthBuffer, HandlesNoShapeAndOneShape) {
   const OwnFan fan({0, 0}, 0, exact::pi, 181);
   for (const auto& shapes :
        {std::vector<Shape>{}, {cylinder({3, 0}, 1)}, {box({0, -3, 0.2}, 1, 1)}, {box({-3, 0, 0}, 1, 9)}})
@@ -349,7 +349,7 @@ TEST(DepthBuffer, MovingSolidsAreSeenWhereTheyAreAndNotByThemselves) {
   }
 }
 
-TEST(DepthBuffer, OfEquallyNearSolidsTheFirstIsHit) {
+TEST(DepthBuffer, FirstOfEquallyNearSolidsIsHit) {
   const std::vector<Shape> shapes(20, box({3, 0, 0.1}, 1, 1));
   DepthBuffer buffer;
   const OwnFan fan({0, 0}, 0, 0.2, 9);
@@ -360,7 +360,7 @@ TEST(DepthBuffer, OfEquallyNearSolidsTheFirstIsHit) {
   EXPECT_EQ(buffer.solids()[4], 0u);
 }
 
-TEST(DepthBuffer, WhatIsHitAtTheLimitIsNotHit) {
+TEST(DepthBuffer, HitAtTheLimitIsNone) {
   const std::vector<Shape> shapes = {cylinder({3, 0}, 1)};
   DepthBuffer buffer;
   const OwnFan fan({0, 0}, 0, 0, 1);

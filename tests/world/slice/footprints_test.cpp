@@ -72,7 +72,7 @@ TEST(Footprints, CollideWhereFclDoesOnAMillionPlacements) {
   EXPECT_GT(together, 100'000);
 }
 
-TEST(Footprints, OfNothingNothingIsNear) {
+TEST(Footprints, EmptySetHasNothingNear) {
   const Footprints footprints({});
   std::vector<std::uint32_t> found = {7};
   footprints.near({{-1, -1}, {1, 1}}, 0, 0, 1, found);

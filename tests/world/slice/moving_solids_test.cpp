@@ -54,7 +54,7 @@ TEST(MovingSolids, AreUnderTheirTreeWhereverTheyGo) {
   }
 }
 
-TEST(MovingSolids, NearAreThoseWhoseBoundsOverlap) {
+TEST(MovingSolids, NearSolidsHaveOverlappingBounds) {
   Draws draw(2);
   std::vector<Shape> shapes;
   for (int i = 0; i < 700; ++i) shapes.push_back(random_shape(draw, 20, 0.8));

@@ -92,7 +92,7 @@ TEST(Tree, IsFullAndFlatWhereSolidsAreSpreadEvenly) {
   EXPECT_EQ(found.nodes, 1 + 8 + 64 + 512);
 }
 
-TEST(Tree, OfNothingIsEmpty) { EXPECT_TRUE(Tree({}).nodes().empty()); }
+TEST(Tree, NoSolidsGiveAnEmptyTree) { EXPECT_TRUE(Tree({}).nodes().empty()); }
 
 TEST(Tree, NumbersByNodesAreThoseOfTheSameSolidsInTheOrderOfTheNodes) {
   std::vector<Bounds> solids;

@@ -127,7 +127,7 @@ TEST(Linearizable, APendingOperationMayHaveHadItsEffectOnce) {
   EXPECT_EQ(popped(2), "pop -> 1");
 }
 
-TEST(Linearizable, WhatAnExceptionLeavesIsPending) {
+TEST(Linearizable, OperationEndedByAnExceptionIsPending) {
   History<Stack> history;
   EXPECT_THROW(history.record({"push", 1}, [] { throw 1; }), int);
   EXPECT_FALSE(history.entries().front().result.has_value());

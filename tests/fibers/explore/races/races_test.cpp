@@ -65,7 +65,7 @@ TEST(Races, AreReportedAsTwoAccessesWithTheirCalls) {
   EXPECT_NE(text_of(races).find("first: write of 4 bytes by task ada#1"), std::string::npos) << text_of(races);
 }
 
-TEST(Races, OfOneVariableAndTwoLinesAreOne) {
+TEST(Races, TwoLinesAtOneVariableAreOneRace) {
   (void)simulate(count_twice_without_lock);  // a read and a write on each side
   EXPECT_EQ(found().size(), 1u) << text_of(found());
 }
@@ -76,7 +76,7 @@ TEST(Races, OnAStackNameItsTask) {
   EXPECT_EQ(found().front().memory, "the stack of task main");
 }
 
-TEST(Races, OfOneRunAreForgottenInTheNext) {
+TEST(Races, AreForgottenInTheNextRun) {
   ASSERT_TRUE(simulate(write_planted).passed);
   EXPECT_TRUE(any_found());
   ASSERT_TRUE(simulate([] {}).passed);
@@ -99,7 +99,7 @@ TEST(MemoryAccesses, AreSwitchPoints) {
   EXPECT_NE(report.text.find("an increment is lost"), std::string::npos) << report;
 }
 
-TEST(MemoryAccesses, ThatAreTheFirstAreSwitchPointsOnceTheirCodeIsKnown) {
+TEST(MemoryAccesses, FirstOnesAreSwitchPointsOnceTheirCodeIsKnown) {
   learn(true);
   const Report report = simulate(publish_in_two_steps);
   learn(false);
@@ -108,7 +108,7 @@ TEST(MemoryAccesses, ThatAreTheFirstAreSwitchPointsOnceTheirCodeIsKnown) {
   forget_learned();
 }
 
-TEST(MemoryAccesses, ThatAreTheFirstAreLeftOutByExhaustiveStrategies) {
+TEST(MemoryAccesses, FirstOnesAreNoSwitchPointsInExhaustiveSearch) {
   const ExploreReport report = explore(share_late, {.strategy = "dpor"});
   EXPECT_TRUE(report.passed) << report;
   EXPECT_FALSE(report.complete);
@@ -125,7 +125,7 @@ TEST(MemoryAccesses, DependOnNoAddress) {
   EXPECT_EQ(first.events, second.events);
 }
 
-TEST(MemoryAccesses, OfAHistorysRecordAreNeitherSwitchPointsNorRaces) {
+TEST(MemoryAccesses, RecordingAHistoryAddsNoSwitchPointsAndNoRaces) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     const auto run = [seed](bool records) {
       SimulationOptions options;
@@ -142,7 +142,7 @@ TEST(MemoryAccesses, OfAHistorysRecordAreNeitherSwitchPointsNorRaces) {
   }
 }
 
-TEST(MemoryAccesses, OfATaskThatSpinsGiveOthersATurn) {
+TEST(MemoryAccesses, SpinningYieldsToOtherTasks) {
   const Report report = simulate(wait_for_nobody);
   EXPECT_EQ(report.end, RunEnd::no_progress) << report;
 }

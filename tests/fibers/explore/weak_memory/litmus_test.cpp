@@ -159,7 +159,7 @@ TEST(Litmus, ReadModifyWritesReadTheLastStore) {
 
 // --- three and four threads ---
 
-TEST(Litmus, WhatAThreadHasReadIsKnownToThoseThatAcquireFromIt) {
+TEST(Litmus, CausalityIsTransitiveThroughAcquires) {
   const auto causality = [](std::memory_order loads, std::memory_order stores) -> Litmus {
     return {{store(x, 1, relaxed)}, {load(x, loads), store(y, 1, stores)}, {load(y, loads), load(x, relaxed)}};
   };

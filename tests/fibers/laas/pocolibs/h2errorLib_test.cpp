@@ -89,7 +89,7 @@ TEST(H2errorLib, MessagesBeginWithTheTasksName) {
             "arm: 42!\narm: moving: S_csLib_BAD_RQST_ID\narm: S_csLib_BAD_RQST_ID\narm: Unknown error\n");
 }
 
-TEST(H2errorLib, WhatIsRecordedIsListed) {
+TEST(H2errorLib, ListsRecordedMessages) {
   testing::internal::CaptureStdout();
   in_order([] {
     h2recordErrMsgs("test", "arm", 700, 2, arm_errors);

@@ -74,7 +74,7 @@ TEST(SmMemLib, BlocksAreZeroedAndLimited) {
   });
 }
 
-TEST(SmMemLib, WhatIsUsedIsLogged) {
+TEST(SmMemLib, LogsUsedMemory) {
   testing::internal::CaptureStderr();
   in_order([] {
     smMemMalloc(1000);

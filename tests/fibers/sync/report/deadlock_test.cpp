@@ -179,7 +179,7 @@ TEST(Deadlock, IsFoundWhereATimeoutLeavesACycleBehind) {
   EXPECT_TRUE(contains(report.text, "2 tasks wait for each other")) << report;
 }
 
-TEST(Deadlock, AConditionNobodySignals) {
+TEST(Deadlock, UnsignalledCondition) {
   int line = 0;
   const Report report = simulate([&] {
     mutex m;
@@ -244,7 +244,7 @@ TEST(Deadlock, ServicesThatWaitAreNoDeadlock) {
   EXPECT_EQ(report.end_time, Time() + Duration(1ms));
 }
 
-TEST(Deadlock, OfServicesAloneIsOneToo) {
+TEST(Deadlock, ServicesAloneCanDeadlock) {
   Simulation simulation;
   mutex m;
   simulation.spawn(simulation.environment(), {.name = "beacon", .service = true}, [&] {

@@ -64,7 +64,7 @@ TEST(LockDeadlock, ARecursiveMutexIsNoneForItsOwner) {
 }
 
 // A writer waits for every reader; one reader that waits for the writer suffices.
-TEST(LockDeadlock, AWriterThatWaitsForAReaderWhoWaitsForIt) {
+TEST(LockDeadlock, WriterAndReaderInACycle) {
   const Report report = simulate([] {
     shared_mutex map("map");
     mutex log("log");
@@ -104,7 +104,7 @@ TEST(LockDeadlock, WaitingForWhatOneHoldsOneself) {
 }
 
 // Two readers that both want to write wait for each other to unlock.
-TEST(LockDeadlock, TwoReadersWhoBothWantToWrite) {
+TEST(LockDeadlock, TwoReadersUpgradingToWriters) {
   const Report report = simulate([] {
     shared_mutex m("upgraded");
     const auto upgrade = [&] {

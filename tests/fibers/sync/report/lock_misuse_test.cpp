@@ -170,7 +170,7 @@ TEST(LockMisuse, ANullLabelOrNameIsNone) {
   EXPECT_EQ(report.end, RunEnd::deadlock);
 }
 
-TEST(LockMisuse, WhatARunLeftBehindMayBeDestroyed) {
+TEST(LockMisuse, ObjectsOfAnEndedRunCanBeDestroyed) {
   auto held = std::make_unique<mutex>();
   auto waited_for = std::make_unique<counting_semaphore<>>(0);
   {
@@ -189,7 +189,7 @@ TEST(LockMisuse, WhatARunLeftBehindMayBeDestroyed) {
 }
 
 // Destruction outside all tasks is not part of the run, and no task's mistake.
-TEST(LockMisuse, WhatIsDestroyedOutsideAnyTaskIsNotLookedAt) {
+TEST(LockMisuse, DestructionOutsideTasksIsUnchecked) {
   auto held = std::make_unique<mutex>();
   auto waited_for = std::make_unique<condition_variable>();
   {
@@ -245,7 +245,7 @@ TEST(LockMisuseDeathTest, WaitingOnOneConditionWithTwoMutexes) {
                "tasks wait on a condition variable with different mutexes: condition variable #[0-9]+ \"both\"");
 }
 
-TEST(LockMisuse, AConditionMayBeUsedWithAnotherMutexWhenNobodyWaits) {
+TEST(LockMisuse, ConditionCanChangeItsMutexWithoutWaiters) {
   in_every_order([] {
     condition_variable c;
     mutex m[2];

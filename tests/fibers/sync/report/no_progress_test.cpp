@@ -42,7 +42,7 @@ TEST(NoProgress, TasksThatSpinAtOneInstantAreNamed) {
   }
 }
 
-TEST(NoProgress, WhoPollsTheClockIsNamed) {
+TEST(NoProgress, NamesATaskThatPollsTheClock) {
   for (std::uint64_t number = 0; number <= 1; ++number) {
     const Report report = simulate(
         [] {
@@ -57,7 +57,7 @@ TEST(NoProgress, WhoPollsTheClockIsNamed) {
   }
 }
 
-TEST(NoProgress, WhoPollsTheClockLetsOthersGoOn) {
+TEST(NoProgress, PollingTheClockLetsOtherTasksRun) {
   in_every_order([] {
     bool done = false;
     thread other([&] {
@@ -203,7 +203,7 @@ TEST(NoProgress, ALongButFiniteInstantIsNone) {
   });
 }
 
-TEST(Endless, WhoSleepsForEverIsNamed) {
+TEST(Endless, NamesATaskThatSleepsForEver) {
   const Report report = simulate([] {
     thread sleeper({.name = "beauty"}, [] { sleep_for(std::chrono::hours::max()); });
     sleeper.join();

@@ -48,7 +48,7 @@ class SystemCallsDeathTest : public testing::Test {
   }
 };
 
-TEST_F(SystemCallsDeathTest, ThatStartSomethingInRealTimeAreNamed) {
+TEST_F(SystemCallsDeathTest, StartsOfRealThreadsAndProcessesAreNamed) {
   expect_told([] { std::thread([] {}).join(); }, "pthread_create", "runs in real time, and the run is not repeatable");
   expect_told(
       [] {
@@ -59,7 +59,7 @@ TEST_F(SystemCallsDeathTest, ThatStartSomethingInRealTimeAreNamed) {
       "fork", "runs in real time, and the run is not repeatable");
 }
 
-TEST_F(SystemCallsDeathTest, ThatSleepInRealTimeAreNamed) {
+TEST_F(SystemCallsDeathTest, SleepsInRealTimeAreNamed) {
   const char effect[] = "holds up all tasks of the run in real time";
   expect_told([] { std::this_thread::sleep_for(1ms); }, "(clock_)?nanosleep", effect);
   expect_told([] { ::usleep(100); }, "usleep", effect);
@@ -79,7 +79,7 @@ TEST_F(SystemCallsDeathTest, ThatSleepInRealTimeAreNamed) {
       "futex", effect);
 }
 
-TEST_F(SystemCallsDeathTest, OfAThreadOutsideOfTheRunAreItsOwnAffair) {
+TEST_F(SystemCallsDeathTest, CallsOfThreadsOutsideTheRunAreIgnored) {
   EXPECT_EXIT(
       {
         std::atomic<bool> ended = false;
@@ -97,7 +97,7 @@ TEST_F(SystemCallsDeathTest, OfAThreadOutsideOfTheRunAreItsOwnAffair) {
       testing::ExitedWithCode(0), "^quiet\n$");
 }
 
-TEST_F(SystemCallsDeathTest, ThatStartedAThreadBeforeTheRunAreNamedOnRequest) {
+TEST_F(SystemCallsDeathTest, ThreadsStartedBeforeTheRunAreNamedOnRequest) {
   EXPECT_EXIT(
       {
         std::thread([] {}).join();
@@ -122,7 +122,7 @@ void lock_what_another_task_holds() {
   });
 }
 
-TEST_F(SystemCallsDeathTest, ThatLockAMutexOfAnotherTaskEndTheRunAtOnce) {
+TEST_F(SystemCallsDeathTest, LockingASystemMutexOfAnotherTaskEndsTheRun) {
   EXPECT_EXIT(lock_what_another_task_holds(), testing::KilledBySignal(SIGABRT),
               "a task locks a mutex of the system, such as std::mutex, that a task holds already: no task can run\n"
               ".*in task taker of environment");
