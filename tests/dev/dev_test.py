@@ -47,7 +47,7 @@ class Dependencies(InATemporaryFolder):
     def includes(self, source, *headers):
         self.write(source, LICENCE + "".join(f"#include {header}\n" for header in headers))
 
-    def test_what_the_table_allows_passes(self):
+    def test_allowed_by_the_table_passes(self):
         self.includes("core/time.hpp", "<cstdint>")
         self.includes("fibers/switch/fiber.cpp", '"core/time.hpp"', "<boost/context/detail/fcontext.hpp>")
         self.includes("world/fcl/engine.cpp", '"core/time.hpp"', "<fcl/narrowphase/collision.h>")
@@ -308,7 +308,7 @@ class Counting(InATemporaryFolder):
         result = self.run_program("echo '[ RUN      ] S.A'; echo '[       OK ] S.A (0 ms)'; echo '[ RUN      ] S.B'; kill -SEGV $$")
         self.assertEqual((result.passed, result.failed), (1, ["S.B: was terminated by SIGSEGV"]))
 
-    def test_what_failed_cases_said_is_shown_alone(self):
+    def test_shows_the_output_of_failed_cases_alone(self):
         output = ("before\n[ RUN      ] S.A\nfine\n[       OK ] S.A (0 ms)\n[ RUN      ] S.B\nbad\n[  FAILED  ] S.B (1 ms)\n"
                   "[ RUN      ] S.C\nworse\n")
         self.assertEqual(run_tests.excerpt(output, ["S.B"]), "S.B\nbad\n[  FAILED  ] S.B (1 ms)\n")

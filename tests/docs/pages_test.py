@@ -106,7 +106,7 @@ class Pages(Installed):
         missing = [str(step) for page in blocks.pages() for step in blocks.steps(page)[0] if step.verdict() == "missing"]
         self.assertEqual(missing, [], "blocks without a language, a mark or a command: see tests/docs/blocks.py")
 
-    def test_what_a_reason_names_is_there(self):
+    def test_paths_named_by_a_reason_exist(self):
         reasons = [(step, reason) for page in blocks.pages() for step in blocks.steps(page)[0] for reason in step.marks.values()]
         missing = [f"{step}: {name}" for step, reason in reasons for name in re.findall(r"(?<!/)\btests/[\w./]*\w", reason)
                    if not (ROOT / name).exists()]

@@ -46,7 +46,7 @@ class Site(unittest.TestCase):
         self.assertEqual(self.mistakes(a_html='<p id="x"><a href="b.html#y">b</a><a href="#x">x</a><a href="c.html">c</a>', b_html="<p>"),
                          ["a.html: b.html#y: no such anchor", "a.html: c.html: no such file"])
 
-    def test_what_a_browser_would_fetch_from_elsewhere_is_found(self):
+    def test_finds_resources_fetched_from_other_hosts(self):
         self.assertEqual(self.mistakes(a_html='<script src="https://x.org/a.js"></script><a href="https://x.org/">x</a>',
                                        s_css="@import url(//x.org/s.css);"),
                          ["a.html: fetches https://x.org/a.js", "s.css: fetches from the network"])

@@ -76,7 +76,7 @@ class Exhausted(ExecCase):
         self.assertEqual(done.stdout.splitlines()[1:],
                          explore("--strategy", "pct:1", "--iterations", "5000", "--jobs", "2", "--", program).stdout.splitlines()[1:])
 
-    def test_of_several_processes_is_depth_first(self):
+    def test_several_processes_are_searched_depth_first(self):
         source = self.folder / "parent_of_one.c"
         source.write_text("#include <sys/wait.h>\n#include <unistd.h>\nint main(void) {\n  if (fork() == 0) _exit(0);\n"
                           "  return wait(NULL) < 0;\n}\n")

@@ -211,7 +211,7 @@ class Seeds(ExecCase):
         self.assertIn(f"replay: waitpoint exec --seed {seed} -- {program}", done.stderr)
         self.assertEqual(execute(seed, program)[0], 1)
 
-    def test_that_all_end_well_are_counted_with_their_schedules(self):
+    def test_passing_runs_are_counted_with_their_schedules(self):
         program = self.compile("lost_update.c")
         done = subprocess.run([str(WAITPOINT), "exec", "--seeds", "1..20", "--", str(program), "locked"],
                               capture_output=True, text=True)
@@ -243,12 +243,12 @@ class Refusals(ExecCase):
         self.assertIn("unknown option '--sed', did you mean '--seed'?", self.refused("--sed", "1", "--", "true"))
         self.assertIn("unknown option '--sed', did you mean '--seed'?", self.refused("--sed", "1", "true"))
 
-    def test_of_a_simulation_within_a_simulation(self):
+    def test_simulation_within_a_simulation(self):
         done = subprocess.run([WAITPOINT, "exec", "--quiet", "--", WAITPOINT, "exec", "--", "true"], capture_output=True, text=True)
         self.assertEqual(done.returncode, 125, done.stderr)
         self.assertIn("waitpoint: exec: a simulated program cannot start a simulation of its own\n", done.stderr)
 
-    def test_of_programs_that_nothing_can_be_preloaded_into(self):
+    def test_programs_that_refuse_preloading(self):
         static = self.folder / "static"
         (self.folder / "empty.c").write_text("int main(void) { return 0; }\n")
         for option in "-static-pie", "-static":

@@ -263,7 +263,7 @@ class Processes(Exec):
         self.check_script(SERVER, "curl")
 
     @unittest.skipUnless(os.path.exists(PYTHON), "there is no Python of the system")
-    def test_of_python_share_locks_queues_and_pools(self):
+    def test_python_processes_share_locks_queues_and_pools(self):
         for seed in range(1, 4):
             status, output, text = execute(seed, PYTHON, "-c", MULTIPROCESSING_PROGRAM)
             self.assertEqual((0, hashlib.sha256(b"400 4950 2646700 0\n").hexdigest()), (status, output), text)

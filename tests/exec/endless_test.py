@@ -35,7 +35,7 @@ class Idle(ExecCase):
         done = subprocess.run([str(word) for word in words], capture_output=True, text=True, timeout=100)
         return done.returncode, done.stdout, done.stderr
 
-    def test_ends_a_run_in_which_nobody_is_woken_by_another(self):
+    def test_ends_a_run_without_wake_ups_between_tasks(self):
         states = {
             "poll": r"  main sleeps\n  thread 1 sleeps\n",
             "timeouts": r"  main waits for condition variable changed, with a timeout\n",
@@ -48,7 +48,7 @@ class Idle(ExecCase):
             self.assertRegex(text, r"waitpoint: idle \(.*--idle-limit\) at \d+\.\d+ s of virtual time\n" + state)
             self.assertTrue(3600 <= Summary(text).seconds <= 4600, text)
 
-    def test_ends_a_run_of_timers_that_nobody_hears_after_a_thousand_seconds(self):
+    def test_ends_a_run_of_ignored_timers_after_a_thousand_seconds(self):
         status, _, text = self.end("unheard")
         self.assertEqual(status, 124, text)
         self.assertIn("  main waits for the end of a thread, that is thread 1\n  thread 1 waits for mutex lock, held by main\n", text)

@@ -41,7 +41,7 @@ class Failures(ExecCase):
 class Ends(ExecCase):
     """Threads beside a process that ends: all that they could still do is found."""
 
-    def test_of_the_process_can_be_preceded_by_each_thread(self):
+    def test_exit_of_the_process_can_be_preceded_by_each_thread(self):
         program = self.compile("beside_exit.cpp")
         for way in ("return", "statics", "atexit", "exit", "_exit", "quick_exit", "abort", "detach"):
             for strategy in ("dfs", "bounded:1", "random"):
@@ -73,7 +73,7 @@ class Hangs(ExecCase):
         runs = {subprocess.run(command, capture_output=True, text=True).stderr for _ in range(5)}
         self.assertEqual(len(runs), 1, runs)
 
-    def test_of_a_loop_on_memory_do_not_occur(self):
+    def test_spin_loops_on_memory_end(self):
         source = self.folder / "spins.c"
         source.write_text("#include <pthread.h>\nstatic volatile int is_set;\n"
                           "static void* set(void* none) { is_set = 1; return none; }\n"

@@ -33,7 +33,7 @@ class Processes(ExecCase):
         rows = {event["pid"] for event in json.loads(trace.read_text())["traceEvents"]}
         self.assertEqual(rows, {1000, 1001})
 
-    def test_what_other_threads_hold_at_a_fork_stays_locked_in_the_child(self):
+    def test_locks_held_by_other_threads_at_a_fork_stay_locked_in_the_child(self):
         program = self.compile("held_at_fork.c")
         done = explore("--iterations", "50", "--", program, "try")
         self.assertEqual(done.returncode, 0, done.stdout)

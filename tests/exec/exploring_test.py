@@ -71,7 +71,7 @@ class Exploring(ExecCase):
         lines = results.read_text().splitlines()[1:]
         self.assertEqual([int(line.split()[0]) for line in lines], list(range(len(lines))))
 
-    def test_what_a_run_has_started_ends_with_it(self):
+    def test_child_processes_end_with_their_run(self):
         program = self.compile("parent.c")
         self.assertEqual(explore("--iterations", "5", "--", program).returncode, 0)
         left = subprocess.run(["pgrep", "-f", f"^{program}$"], capture_output=True, text=True).stdout.split()
@@ -126,12 +126,12 @@ class Exhaustive(ExecCase):
             self.assertIn("the same run as in the record", explore(*replay_words(failed.stdout)).stderr)
         self.assertLess(10 * found["dpor"], found["dfs"])
 
-    def test_that_is_cut_off_says_nothing_of_all(self):
+    def test_cut_off_search_claims_no_completeness(self):
         done = explore("--iterations", "10", "--strategy", "dfs", "--", self.compile("lost_update.c"), "locked")
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertNotIn("exhaustive", done.stdout)
 
-    def test_that_lets_time_pass_for_a_thread_that_polls_alone_says_so(self):
+    def test_reports_time_advanced_for_a_polling_thread(self):
         source = self.folder / "polls.c"
         source.write_text("#include <pthread.h>\n#include <semaphore.h>\n#include <unistd.h>\nstatic sem_t posted;\n"
                           "static void* post(void* none) { sleep(2); sem_post(&posted); return none; }\n"
@@ -141,7 +141,7 @@ class Exhaustive(ExecCase):
         line = explore("--strategy", "bounded:0", "--", self.compile(str(source))).stdout.splitlines()[0]
         self.assertTrue(line.endswith("exhaustive with at most 0 preemptions, switching at calls, except for turns of spinning tasks"), line)
 
-    def test_what_it_finds_is_replayed(self):
+    def test_findings_are_replayed(self):
         program = self.compile("lost_update.c")
         for options in ((), ("--no-minimize",)):
             done = explore("--strategy", "bounded:2", *options, "--", program)
@@ -176,7 +176,7 @@ class Conditions(ExecCase):
         self.assertEqual(words[2:4], ["--clock", "fixed:100"])
         self.assertIn("the same run as in the record", explore(*words).stderr)
 
-    def test_what_a_computation_costs_is_chosen(self):
+    def test_costs_of_computations_are_chosen(self):
         done = explore("--clock", "interval:1..9", "--iterations", "20", "--", self.compile("lost_update.c"), "locked")
         self.assertRegex(done.stdout, r"20 schedules, (1\d|20) distinct, 0 failed")
 
@@ -259,13 +259,13 @@ class Instrumented(ExecCase):
                                       r"    .* at .*racing\.cpp:20\n(    .*\n)*"
                                       r"  second: read of 4 bytes by task thread 2#2, after its event \d+\n    .* at .*racing\.cpp:19\n")
 
-    def test_what_locks_and_atomics_order_does_not_race(self):
+    def test_accesses_ordered_by_locks_and_atomics_do_not_race(self):
         for way in ("locked", "ordered"):
             self.assertNotIn("data race", self.execute(way).stderr)
             done = explore("--iterations", "50", "--", self.program, way)
             self.assertEqual(done.returncode, 0, done.stdout)
 
-    def test_what_threads_meet_at_orders_what_they_do(self):
+    def test_meeting_points_order_accesses(self):
         program = self.compile("meetings.cpp", "-std=c++20", "-fsanitize=thread")
         meetings = subprocess.run([program], capture_output=True, text=True, check=True).stdout.splitlines()
         self.assertGreater(len(meetings), 15)
@@ -285,7 +285,7 @@ class Instrumented(ExecCase):
 
 
 class Names(ExecCase):
-    def test_of_the_program_are_its_own(self):
+    def test_functions_of_the_program_keep_their_names(self):
         # Instrumented, it refers to a library that has functions of these names, so that it exports them.
         for option in ("-g", "-fsanitize=thread"):
             program = self.compile("names_of_functions.c", "-fno-builtin", "-w", option)
@@ -295,7 +295,7 @@ class Names(ExecCase):
             program.unlink()
 
 
-    def test_of_the_compilers_runtime_are_there_without_it(self):
+    def test_functions_of_the_compilers_runtime_are_provided(self):
         program = self.compile("at_exit.c", "-fsanitize=thread")
         self.assertEqual(subprocess.run([program]).returncode, 7)
         self.assertRegex(explore("--", program).stdout, "^the default order failed at .*: exit status 7\n")
@@ -335,7 +335,7 @@ class Refusals(ExecCase):
         self.assertIn("unknown strategy 'best'", self.refused("--strategy", "best", "--", "true"))
         self.assertIn("--races: expected report, fail or ignore, found 'some'", self.refused("--races", "some", "--", "true"))
 
-    def test_of_records_of_something_else(self):
+    def test_refuses_other_records(self):
         program, schedule = self.compile("lost_update.c"), self.folder / "other"
         explore("--schedule", schedule, "--", program)
         self.assertIn("2: expected a schedule of this program", self.refused("--replay", schedule, "--", program, "locked"))

@@ -353,7 +353,7 @@ class Programs(Families):
             run = Run(1, "dash", "-c", "$0 | cat; echo after", static)
             self.assertEqual((run.status, run.output), (0, "aafter\n"), run.errors)
 
-    def test_a_killed_process_holds_up_nobody(self):
+    def test_a_killed_process_blocks_no_other(self):
         run = Run(1, "sh", "-c", "sh -c 'kill -KILL $$'; echo $?; sleep 1; date +%S")
         self.assertEqual(run.output, "137\n01\n", run.errors)
 

@@ -34,7 +34,7 @@ class Reruns(ExecCase):
     def test_all_state_of_the_process_is_put_back(self):
         self.assertNotIn("failed", self.compare(1000, self.compile("reruns.c", "-lm")))
 
-    def test_what_cannot_be_undone_is_not(self):
+    def test_irreversible_calls_prevent_reruns(self):
         program = self.compile("reruns.c", "-lm")
         for what in ("fork", "spawn", "limit"):
             self.assertNotIn("failed", self.compare(40, program, what))

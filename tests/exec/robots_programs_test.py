@@ -146,7 +146,7 @@ class Robot(unittest.TestCase):
         last = [re.sub(r"[0-9.]+ (s|schedules/s|a second)", "", r.stdout.splitlines()[-1]) for r in (run, again)]
         self.assertEqual(last[0], last[1])
 
-    def test_what_a_program_holds_at_its_end_is_given_back_if_it_asked_for_that(self):
+    def test_sem_undo_releases_at_the_end_of_a_program(self):
         holders = ", ".join(f"{{name: h{i}, file: {PROGRAMS / 'holder.so'}, arguments: [5]}}" for i in range(3))
         run = office("run", "--until", "5", programs=f"[{holders}]")
         self.assertEqual(run.stdout.count("ended with exit status 0\n"), 3, run.stdout)
@@ -245,7 +245,7 @@ class Robot(unittest.TestCase):
                 self.assertEqual(pathlib.Path(f"{folder}/{name}/mark").read_text(), f"{name}\n" * 6)
             self.assertEqual(sorted(os.listdir(folder)), ["a", "b", "events"])
 
-    def test_what_cannot_be_loaded_is_bad_input(self):
+    def test_unloadable_program_is_bad_input(self):
         for file, line in ("nowhere.so", "there is no program '.*nowhere.so': No such file or directory"), \
                           (__file__, r".*robots_programs_test.py is no shared object for x86-64"), \
                           (PROGRAMS / "executable", r".*executable is an executable: build it with -shared -fPIC"), \
@@ -322,7 +322,7 @@ class Commands(unittest.TestCase):
             self.assertEqual(run.returncode, 2, run.stderr)
             self.assertRegex(run.stderr, f"^waitpoint: --set .*: {line}\n$")
 
-    def test_what_has_not_ended_is_left_and_what_dies_is_noticed(self):
+    def test_running_programs_are_left_and_deaths_are_reported(self):
         programs = [command("long", "sleep", "100"), command("dies", "sh", "-c", "kill -9 $$"),
                     command("crashes", "sh", "-c", "sleep 1; kill -SEGV $$")]
         run = office("run", "--until", "3", programs=f"[{', '.join(programs)}]")
@@ -338,7 +338,7 @@ class Commands(unittest.TestCase):
         run = office("explore", "--until", "2", "--iterations", "3", programs=programs)
         self.assertEqual(run.returncode, 0, run.stdout + run.stderr)
 
-    def test_what_cannot_be_started_is_bad_input(self):
+    def test_unstartable_program_is_bad_input(self):
         for programs, line in ((command("one", "./nowhere"), "there is no program '.*nowhere'"),
                                (command("one", "no-such-program"), "there is no program 'no-such-program'"),
                                ("{name: one, command: []}", "expected a program in the command, got none"),

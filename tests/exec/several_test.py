@@ -59,13 +59,13 @@ class Chain(unittest.TestCase):
         self.assertNotEqual(digest(runs[0]), digest(runs[2]))
         self.assertEqual(runs[0].stdout, runs[2].stdout)
 
-    def test_who_is_missing_is_waited_for_for_ever(self):
+    def test_waits_for_ever_for_a_missing_partner(self):
         run = execute(several(CHAIN[0], CHAIN[1]))
         self.assertEqual(run.returncode, 124)
         self.assertRegex(run.stderr, r"deadlock at .*\n(  .*\n)*  filter: main waits for System V semaphores")
         self.assertRegex(run.stderr, r"\n  writer: main waits for the end of a thread, that is writer: thread 1\n")
 
-    def test_what_a_program_holds_at_its_end_is_given_back_if_it_asked_for_that(self):
+    def test_sem_undo_releases_at_the_end_of_a_program(self):
         run = execute(several(*([PROGRAMS / "holder.so", 5] for _ in range(3))))
         self.assertEqual((run.returncode, run.stdout), (0, "has it\n" * 3), run.stderr)
 
@@ -78,7 +78,7 @@ class Chain(unittest.TestCase):
 
 
 class Sockets(unittest.TestCase):
-    def test_who_listens_is_told_that_the_other_program_has_ended(self):
+    def test_listener_learns_the_end_of_the_other_program(self):
         name = f"waitpoint-test-{random.randrange(10**9)}"
         talker = PROGRAMS / "talker.so"
         run = execute(several([talker, "call", name], [talker, "serve", name]))
@@ -154,7 +154,7 @@ class Ends(unittest.TestCase):
     def test_an_assertion(self):
         self.ends("assert", 134, destroyed=False, first="Assertion `times == 0' failed.\n")
 
-    def test_an_exception_that_nobody_catches(self):
+    def test_an_uncaught_exception(self):
         self.ends("throw", 134, destroyed=False, first="terminate called after throwing an instance of 'int'\n")
 
     def test_the_last_thread_leaves(self):

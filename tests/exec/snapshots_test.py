@@ -48,7 +48,7 @@ class Snapshots(ExecCase):
     def test_random_schedules_share_their_beginning(self):
         self.compare("--strategy", "random", "--iterations", SCHEDULES, "--jobs", 2, "--", self.program)
 
-    def test_what_is_open_and_the_input_have_their_state_of_then(self):
+    def test_restores_open_files_and_input(self):
         for what in ("read", "write", "pipe", "input"):
             found = self.compare("--strategy", "dfs", "--iterations", 8 if LONG else 4, "--", self.program, what, self.folder / "written")
             self.assertNotIn("failed", found, what)

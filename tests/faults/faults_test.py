@@ -279,7 +279,7 @@ class FullDisks(Faults):
                 self.assertEqual(after[-1:], ["old"])
                 self.assertFalse([name for name in after if MARK in name])
 
-    def test_of_standard_output(self):
+    def test_standard_output(self):
         with open("/dev/full", "wb") as full:
             for words in (["run", SCENARIO], ["run", SCENARIO, "--summary", "-"], ["check", SCENARIO], ["--version"]):
                 done = subprocess.run([WAITPOINT, *words], stdout=full, stderr=subprocess.PIPE, text=True, env=environment())
@@ -287,7 +287,7 @@ class FullDisks(Faults):
                 self.assertEqual(done.stderr.splitlines()[-1],
                                  "waitpoint: standard output: cannot be written: No space left on device")
 
-    def test_of_standard_output_with_real_threads(self):
+    def test_standard_output_with_real_threads(self):
         native = BUILD / "tools/waitpoint-native"
         if not native.exists():
             self.skipTest("this waitpoint was built without real threads")
@@ -304,7 +304,7 @@ class FullDisks(Faults):
             self.assertEqual(done.returncode, 2)
             self.assertEqual(os.listdir(folder), ["events"])
 
-    def test_also_of_a_pipe_that_nobody_reads(self):
+    def test_pipe_without_a_reader(self):
         reading, writing = os.pipe()
         os.close(reading)
         with tempfile.TemporaryDirectory() as folder, open(writing, "wb") as pipe:

@@ -142,7 +142,7 @@ class Bags(NodesCase):
         self.assertEqual(runs[0].stdout, runs[1].stdout)
         self.assertIn(" 3 processes", runs[0].stderr)
 
-    def test_what_nodes_publish_is_heard(self):
+    def test_messages_of_nodes_are_received(self):
         done = self.run_text(MAP, "--play", self.office, "--set", "play.hear=true")
         self.assertRegex(done.stdout, r"published +1 message to 1 topic\n +/map +1, wp1:\w+\n", done.stderr)
         self.assertNotIn("published", self.run_text(MAP, "--play", self.office, "--set", "play.hear=false").stdout)

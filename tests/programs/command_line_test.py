@@ -45,7 +45,7 @@ class ManualPages(unittest.TestCase):
             self.assertIn("--help", options)
             self.assertEqual(names(page, r"^(?:\\fB-h\\fR, )?\\fB(--[\w-]+)\\fR"), options, command)
 
-    def test_of_a_program_has_its_commands(self):
+    def test_program_manual_has_its_commands(self):
         for program, commands in COMMANDS.items():
             page = output_of(program, "manual").replace("\\-", "-")
             self.assertEqual(names(page, rf"^\\fB{program}-(\w+)\\fR\(1\)"), commands)
@@ -58,7 +58,7 @@ class ManualPages(unittest.TestCase):
             self.assertEqual(done.stderr, "", command)
             self.assertIn("SYNOPSIS", re.sub(".\x08", "", done.stdout))
 
-    def test_of_an_unknown_command_is_refused(self):
+    def test_unknown_command_is_refused(self):
         done = subprocess.run([PROGRAM, "manual", "walk"], capture_output=True, text=True)
         self.assertEqual(done.returncode, 2)
         self.assertIn("expected a command of waitpoint, found 'walk'", done.stderr)

@@ -164,7 +164,7 @@ class Deaths(OfMortalModules):
             self.assertRegex(said, rf"^waitpoint: the process dies of {sent.name} \(another process sent it\)\n{PLACE}  .*spin")
             self.assertRegex(target.read_text(), r"\n# cut off: ")
 
-    def test_of_a_constructor_or_destructor_name_module_and_robot(self):
+    def test_deaths_of_constructors_and_destructors_name_module_and_robot(self):
         replay = r"\n  replay: .*deaths run .* --seed 7 --set 'robots\.0\.modules\.mortal\.end=.*'\n"
         for way, what in ("constructor throws", ": no such device"), ("constructor throws a number", " of unknown type"):
             threw = self.run_to_its_death(way)
@@ -209,7 +209,7 @@ class SystemCalls(OfMortalModules):
         self.assertRegex(done.stderr, r"(?m)^waitpoint: warning: constructing module mortal of robot doomed calls fork\(\): "
                                       r"it runs in real time, and the run is not repeatable\n(    at .*\n)*    at .*deaths\.cpp:\d+$")
 
-    def test_that_fork_leave_the_outputs_to_the_run(self):
+    def test_forked_copies_leave_the_outputs_to_the_run(self):
         names = {"--picture": "p.svg", "--trajectory": "t.tum", "--digests": "d", "--events": "e", "--record": "r.log",
                  "--journal": "j", "--summary": "s.json"}
         contents = {}
@@ -309,7 +309,7 @@ class Hangs(OfMortalModules):
             self.assertRegex(said, rf"(?m)^waitpoint: the run is interrupted while a task .*\n{PLACE}")
             self.assertLess(time.monotonic() - began, 30)
 
-    def test_of_a_constructor_are_ended_by_a_signal_at_once(self):
+    def test_signal_ends_a_blocked_constructor_at_once(self):
         process = self.start("constructor spins")
         time.sleep(1.5)
         process.send_signal(signal.SIGHUP)

@@ -55,7 +55,7 @@ class Reports(External):
         self.assertEqual(run.end(), 0, run.told())
         self.assertIn("ada: stopped by a contact at (0.50, 2.00)\n", run.told())
 
-    def test_of_a_jump_and_of_a_place_that_is_taken_are_told(self):
+    def test_jumps_and_occupied_places_are_reported(self):
         run = self.start()
         ada = self.connect(run)
         ada.report(1, 15, 2)
@@ -64,7 +64,7 @@ class Reports(External):
         self.assertIn("ada: jump of 5.00 m to (15.00, 2.00)\n", run.told())
         self.assertIn("ada: stays at (15.00, 2.00): 'bob' is in the way at the reported place (12.00, 8.00)\n", run.told())
 
-    def test_of_the_unix_clock_and_of_the_runs_own_have_their_lags(self):
+    def test_reports_by_unix_and_virtual_time_have_their_lags(self):
         run = self.start(settings="late_s=0.05 between=stay")
         ada = self.connect(run)
         date = float(ada.report(1, 10, 2).split()[-1])
@@ -183,7 +183,7 @@ class Refusals(External):
         self.assertIn("--external: expected waitpoint run: processes outside live in real time", self.refused(*external, command="explore"))
         self.assertFalse(self.path.exists())
 
-    def test_of_names_and_addresses(self):
+    def test_refuses_bad_names_and_addresses(self):
         def refused(*words):
             return self.refused("--speed", "1", *words)
 

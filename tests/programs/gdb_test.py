@@ -136,7 +136,7 @@ class Looking(unittest.TestCase):
         self.assertEqual(table.count("hand "), 2000)
         self.assertLess(float(clock), 10, f"of {time.monotonic() - start} s")
 
-    def test_what_is_no_fiber_object_time_or_process_is_said(self):
+    def test_reports_bad_fibers_objects_times_and_processes(self):
         told = of_clock_makers("info fibers", "next-event", "back", "break-time soon", "break-time 0.001", "run",
                                "fiber 77", "fiber nobody", "blocked-on nothing", "blocked-on", "next-event-of nobody",
                                "next-event 0", "break-time 0.0005", "fiber apply all", "back 100", "fiber app")
@@ -244,7 +244,7 @@ class Explored(unittest.TestCase):
         self.assertIn(f"WAITPOINT_REPLAY={token}", told[8])
         self.assertIn("deadlock at 0.000000000 s", told[8])
 
-    def test_that_the_debugger_ends_the_process_is_no_finding(self):
+    def test_process_ended_by_the_debugger_is_no_finding(self):
         told = session(["break-time 0", "run", "next-event 3", "back", "kill", "shell sleep 0.3"],
                        ["--args", compiled("explored_letter")])
         self.assertIn("event 3 at", told[3])

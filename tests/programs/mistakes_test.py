@@ -227,7 +227,7 @@ class Unrepeatable(Installed):
         self.assertRegex(output, r"not the same run: the run in a perturbed process differs from the first\n  event +\d+\n"
                                  r"  was  +0\.1\d+ s, robot gambler, .*\n  is   +0\.1\d+ s, robot gambler, ")
 
-    def test_where_addresses_are_not_at_random_they_are_in_the_perturbed_process(self):
+    def test_perturbed_process_randomises_addresses(self):
         program = self.compile("unrepeatable", *flags(self.prefix, "--cflags", "--libs", "waitpoint-robots"),
                                "-pthread")
         done = subprocess.run(["setarch", "-R", program, "run", HERE / "unrepeatable/unrepeatable.yaml", "--check"],

@@ -124,7 +124,7 @@ class Nodes(NodesCase):
             again = self.run_hall(scenario, "--until", "5")
         self.assertEqual(self.digests(again)[0], self.digests(done)[0])
 
-    def test_what_never_comes(self):
+    def test_missing_topic_ends_the_wait(self):
         node = self.node("late", "")
         done = self.run_hall(f"    nodes: [{{name: late, command: [{node}], after: ['topic:/never']}}]\n", "--until", "2",
                              "--set", "expect={topics: ['/nix>=0']}")

@@ -223,12 +223,12 @@ class Recording(unittest.TestCase):
             self.assertIn(plain, run("--record", folder() / name).stdout)
             self.assertEqual((folder() / name).read_bytes(), recorded(name.replace("again", "office")).read_bytes())
 
-    def test_of_ten_robots_each_has_its_topics(self):
+    def test_ten_robots_have_a_topic_each(self):
         run("--record", folder() / "ten.mcap", scenario="office-10.yaml", until_s=2)
         topics = Mcap.read(self, folder() / "ten.mcap")
         self.assertEqual(sum(topic.endswith("/truth") for topic in topics), 10)
 
-    def test_what_cannot_be_written_is_one_line(self):
+    def test_unwritable_file_is_reported_in_one_line(self):
         for name, words in (("x.pcap", "expected a file .mcap"), ("nowhere/x.mcap", "nowhere"), ("nowhere/x.bag", "nowhere"),
                             ("x", "expected a file .mcap")):
             done = run("--record", folder() / name)

@@ -102,7 +102,7 @@ class ServedWorld(External):
         self.assertEqual(native.returncode, 1, errors)
         self.assertRegex(errors, r"^waitpoint: the world's server:3: expected range_m with the \d+ ranges of laser 'laser', found 5000\n$")
 
-    def test_what_it_lacks_is_refused_and_told_once(self):
+    def test_bad_requests_are_refused(self):
         run, client = self.serve(robots=("ada",))
         for line, reason in [("command v_m_s=1", "expected 'robot NAME' before 'command'"),
                              ("robot eve", "there is no robot 'eve'"),
