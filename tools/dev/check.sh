@@ -77,7 +77,26 @@ assertions() { python3 tools/dev/check/assertions.py "$root"; }
 
 files() { python3 tools/dev/check/files.py "$root"; }
 
-parts=(formatting dependencies cycles functions assertions files symbols state analysis)
+names() { python3 tools/dev/check/names.py "$root"; }
+
+sensors() { python3 tools/dev/check/sensors.py "$root"; }
+
+test_names() { python3 tools/dev/check/test_names.py "$root"; }
+
+words() { python3 tools/dev/check/words.py "$root"; }
+
+# Of the commits that the main branch does not have yet.
+subjects() {
+  local since=${CHECK_SINCE-origin/main} long
+  if ! git rev-parse --quiet --verify "$since^{commit}" >/dev/null 2>&1; then
+    echo "no commit $since to compare with" && return
+  fi
+  long=$(git log --format='%h %s' "$since..HEAD" | awk '{subject = substr($0, index($0, " ") + 1)} length(subject) > 72')
+  [[ ! $long ]] || { sed 's/$/: a subject of more than 72 characters/' <<<"$long" && return 1; }
+  echo "$(git rev-list --count "$since..HEAD") commits since $since have subjects of at most 72 characters"
+}
+
+parts=(formatting dependencies cycles functions assertions files names sensors test_names words subjects symbols state analysis)
 all=0
 if [[ ${1-} == --all ]]; then
   all=1

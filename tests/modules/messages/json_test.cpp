@@ -51,7 +51,7 @@ TEST(JsonMessage, ANumberThatIsNoneIsNull) {
   EXPECT_TRUE(std::isnan(scan.ranges.at(1)));
 }
 
-TEST(JsonMessage, WhatIsMissingOrDoesNotFitIsRefused) {
+TEST(JsonMessage, RefusesMissingAndMismatchedMembers) {
   const std::string refusal = "a: expected a message waitpoint.Clock in JSON";
   EXPECT_EQ(error<foxglove::Clock>(R"({"clock":{"sec":1,"nsec":2}})"), "");
   for (const char* const text : {R"({"clock":{"sec":1}})", R"({"clock":{"sec":-1,"nsec":2}})", R"({"clock":7})", "{}",

@@ -19,8 +19,8 @@ LEFT = re.compile(r"\b(TO" r"DO|FIX" r"ME|XX" r"X)\b")
 MACHINE_PATH = re.compile(r"(?<![\w.$}/-])/(home|root|work|tmp|Users|mnt|media)/[\w.-]")
 
 
-def text_files(root):
-    """Paths of the repository's text files, relative to its root, without built, fetched and hidden ones."""
+def text_files(root, suffixes=frozenset(TEXT)):
+    """Paths of the repository's files of these suffixes, relative to its root, without built, fetched and hidden ones."""
     for folder, folders, names in os.walk(root):
         here = pathlib.Path(folder).relative_to(root)
         folders[:] = sorted(
@@ -34,7 +34,7 @@ def text_files(root):
         )
         for name in sorted(names):
             path = here / name
-            if path.suffix in TEXT or str(path) in NAMED:
+            if path.suffix in suffixes or (suffixes == TEXT and str(path) in NAMED):
                 yield path
 
 
