@@ -3,7 +3,7 @@
 
 The default strategy must find each bug and report no mended twin: in the plain programs, the bugs that show by switches at
 calls; in the programs instrumented at memory accesses, all of them except the rare ones. With --long: for 20 seeds, with more schedules of the
-twins, and the table of docs/exec.md at the end.
+twins, and the table of docs/zoo.md at the end.
 """
 
 import concurrent.futures
