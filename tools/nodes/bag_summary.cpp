@@ -16,7 +16,7 @@ namespace {
 
 using nodes::BagResult;
 
-/// What tells a file that was written anew from the one before; empty: there is none.
+/// Identity of a file's version, which changes when it is written anew; empty: there is no file.
 std::string state_of(const std::string& file) {
   struct stat state {};
   if (stat(file.c_str(), &state) != 0) return "";

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What came of a bag that was played to nodes: counts and digests of what nodes published, and of their files.
+// Results of a bag that was played to nodes: counts and digests of the messages that nodes published, and of their
+// files.
 #pragma once
 
 #include <cstdint>

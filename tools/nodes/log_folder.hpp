@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where nodes of ROS write their logs and settings. What earlier runs have left there would be part of a run.
+// Where nodes of ROS write their logs and settings. Leftovers of earlier runs there would be part of a run.
 #pragma once
 
 #include <sys/types.h>
@@ -20,7 +20,7 @@ class LogFolder {
 
   /// From now on programs that this process starts use it, by ROS's variables of the environment.
   void use() const;
-  /// Removes what is in it.
+  /// Removes its contents.
   void clear() const;
 
  private:

@@ -49,7 +49,7 @@ std::string clock_word(const ros1::Node& node) {
   return text;
 }
 
-// What the layer below the program reads: see posix/program/record.hpp.
+// Settings that the layer below the program reads: see posix/program/record.hpp.
 void add_environment(ros1::Node& node, std::optional<std::size_t> robot) {
   node.environment.push_back({posix::name_variable, node.global_name()});
   if (robot) node.environment.push_back({posix::robot_variable, std::to_string(nodes::number_on_air(*robot))});

@@ -10,7 +10,7 @@
 
 namespace waitpoint::tools {
 
-/// The run of this seed, by the program's arguments for the series; what it prints is not shown, but its faults.
+/// The run of this seed, by the program's arguments for the series; of its output only faults are shown.
 /// std::runtime_error without a result.
 bridge::RunResult run_seed_with_nodes(std::span<const std::string> arguments, std::uint64_t seed);
 

@@ -29,7 +29,7 @@ bool is_among_nodes() {
 }
 
 ProgramConditions conditions_of_nodes() {
-  // With what is around a use of a primitive: so a message takes some tenths of a millisecond from node to node, as on
+  // With the code around a use of a primitive: so a message takes some tenths of a millisecond from node to node, as on
   // a robot's computer. And loops that poll, as roscpp's and rospy's at their ends, end after fewer rounds.
   constexpr Duration call_cost = std::chrono::microseconds(5);
   ProgramConditions conditions;

@@ -14,13 +14,13 @@ namespace waitpoint::tools {
 /// True in a process of such a simulation, where the wall clock shows virtual time.
 bool is_among_nodes();
 
-/// What is printed of the simulation itself: processes, threads, events, and how long it took.
+/// Figures of the simulation itself, as printed: processes, threads, events, and the time it took.
 enum class Report : std::uint8_t { none, at_end };
 
-/// What computing costs in it.
+/// The cost of computing in it.
 ProgramConditions conditions_of_nodes();
 
-/// The run, by this program's arguments; returns its status. The order of what happens at one instant in nodes follows
+/// The run, by this program's arguments; returns its status. The order of the nodes' events at one instant follows
 /// from the seed.
 int run_among_nodes(std::span<const std::string> arguments, std::uint64_t seed, Report report = Report::at_end);
 

@@ -13,7 +13,7 @@ namespace waitpoint::tools {
 /// BadInput for a node whose executable is not found, and if this program has no nodes.
 void check_nodes(const scenario::Scenario& scenario);
 
-/// Starts the master; the nodes start with the run. `shown` gets what they publish that is shown. BadInput as above.
+/// Starts the master; the nodes start with the run. `shown` gets the messages of shown topics. BadInput as above.
 /// The scenario must outlive it. `is_brief`: see nodes::NodeRunOptions.
 std::unique_ptr<outside::Partner> make_world_partner(const scenario::Scenario& scenario,
                                                      std::shared_ptr<nodes::ShownTopics> shown, bool is_brief);

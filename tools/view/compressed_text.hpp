@@ -19,7 +19,7 @@ class CompressedText {
   void append(std::string_view text);
   /// The compressed bytes. Nothing can be appended afterwards.
   std::string finish();
-  /// Compressed bytes so far, less what the compressor holds.
+  /// Compressed bytes so far, without the bytes that the compressor holds.
   std::size_t size() const { return bytes_.size(); }
 
  private:

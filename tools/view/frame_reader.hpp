@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Frames: the state of the floor at an instant, as JSON, with what has changed since the frame before: true and
+// Frames: the state of the floor at an instant, as JSON, with the changes since the frame before: true and
 // estimated poses, scans, sonars, routes, segments mapped, goals, obstacles. Reading is not an event: a run is the same
 // with and without it.
 #pragma once
@@ -41,8 +41,8 @@ class FrameReader {
   FrameReader(const scenario::Scenario& scenario, const run::Experiment& experiment);
 
   /// {"kind":"frame","line":0,"time":...,"news":...}, without the last brace, for the state at `now`; between events
-  /// of the run. "news": it has what further frames leave out as unchanged. A whole frame without obstacles has those
-  /// of the scene.
+  /// of the run. "news": it has parts that further frames leave out as unchanged. A whole frame without obstacles has
+  /// those of the scene.
   std::string read(Time now, const FrameOptions& options);
 
  private:

@@ -9,7 +9,7 @@
 
 namespace waitpoint::tools::view {
 
-/// [[time, robot, "module", "text", is_bad], ...] by time: what is new in the logs, which are by robot.
+/// [[time, robot, "module", "text", is_bad], ...] by time: new lines of the logs, which are by robot.
 Json take_lines(std::deque<ModuleLog>& logs);
 
 }  // namespace waitpoint::tools::view

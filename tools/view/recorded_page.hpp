@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A page of a finished run: one file of HTML with all that the viewer's page shows, which opens offline.
 //
-// It is made of what is read after steps of the world, ten times a simulated second for a robot, less often for crowds
+// It is made of readings after steps of the world, ten times a simulated second for a robot, less often for crowds
 // and long runs, and of the run's first events, two million at most. A run is the same with and without it.
 #pragma once
 

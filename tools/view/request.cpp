@@ -26,7 +26,7 @@ const Json& member(const Json& request, const char* key, const std::string& expe
 
 }  // namespace
 
-// Levels are counted while it is read: what takes them apart later calls itself for each.
+// Levels are counted while it is read: the functions that take them apart later are recursive.
 Json read_request(std::string_view text) {
   const auto is_shallow = [](int depth, Json::parse_event_t, Json&) {
     if (depth > levels_max) throw BadInput("the view", "expected a request of few levels");

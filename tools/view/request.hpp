@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What viewers ask: JSON objects whose members are of the expected kind and within bounds. Everything else is BadInput
-// of one line, and reaches no copy of the run.
+// Requests of viewers: JSON objects whose members are of the expected kind and within bounds. Everything else is
+// BadInput of one line, and reaches no copy of the run.
 #pragma once
 
 #include <cstdint>

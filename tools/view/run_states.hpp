@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The state of a run's software at an instant, as JSON: its tasks, with what each waits for, and a robot's modules,
+// The state of a run's software at an instant, as JSON: its tasks with their waits, and a robot's modules,
 // with their activities, periods and posters. Reading is not an event.
 #pragma once
 

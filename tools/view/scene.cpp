@@ -81,7 +81,7 @@ Json module(const genom::Module& module) {
   return {{"name", module.name()}, {"requests", requests}, {"tasks", tasks}};
 }
 
-/// What robots of a crowd have in common, once for all that have the same.
+/// The common part of a crowd's robots, once for all that share it.
 class RobotTypes {
  public:
   /// The number of the robot's type.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What of a run does not change: the floor, the robots with their sensors, modules, posters and goals, the names of
-// operations. It is the head of what a viewer gets.
+// The constant part of a run: the floor, the robots with their sensors, modules, posters and goals, the names of
+// operations. It is the head of a viewer's data.
 #pragma once
 
 #include <string>

@@ -22,7 +22,7 @@ using Json = nlohmann::ordered_json;
 /// A number with at most four decimals.
 inline double rounded(double value) { return std::round(value * 1e4) / 1e4; }
 
-/// As rounded(), appended as text: for what is written many times a second.
+/// As rounded(), appended as text: for values that are written many times a second.
 void append_number(std::string& text, double value);
 /// "[a,b,c]".
 void append_numbers(std::string& text, std::span<const double> values);
@@ -34,7 +34,7 @@ Json body(const world::Shape& shape);
 /// {"name", "kind", "parts"}.
 Json fields(const FieldShape& shape);
 
-/// Texts of a run may have any bytes: what is no UTF-8 is replaced.
+/// Texts of a run may have any bytes: invalid UTF-8 is replaced.
 std::string text_of(const Json& json);
 
 }  // namespace waitpoint::tools::view

@@ -52,7 +52,7 @@ class Channel {
 
   /// Sends it now or by later calls of flush().
   void queue(std::string_view text);
-  /// Sends what there is room for; true if nothing is left.
+  /// Sends as much as there is room for; true if nothing remains.
   bool flush();
   /// Bytes that are queued.
   std::size_t queued() const { return queued_; }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The past of a run, and what might have been: lines of time, each with copies of the run (run_copy.hpp) that stand at
+// The past of a run, and its branches: lines of time, each with copies of the run (run_copy.hpp) that stand at
 // instants of it, the snapshots. To look at an instant, the last snapshot before it is asked for a copy, which goes on
 // to that instant. So nothing is recorded, and every event of the past can be seen.
 //
@@ -42,7 +42,7 @@ class History {
   void ask_once(Owner owner, const Json& request, const Reply& reply) { questions_.ask(owner, request, reply); }
   /// {line, time, interventions}: a new line.
   void branch(const Json& request, const Reply& reply);
-  /// The owner has gone: its cursors, and what it still waits for.
+  /// The owner has gone: its cursors and pending questions are dropped.
   void forget(Owner owner);
 
   /// See TimeLines::apart().

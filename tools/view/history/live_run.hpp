@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A run that is viewed, in its own process: it tells the viewer's process what there is to see, makes snapshots of
+// A run that is viewed, in its own process: it sends frames and its status to the viewer's process, makes snapshots of
 // itself, and, if it is controlled, is paused and paced from there. Nothing of this is an event.
 //
 // To the viewer: the scene (scene.hpp), frames when they are wanted, its status, lines of the modules' log, snapshots.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The memory of this process, to weigh what snapshots cost: nothing of a run depends on it.
+// The memory of this process, to weigh the cost of snapshots: nothing of a run depends on it.
 #pragma once
 
 #include <sys/resource.h>

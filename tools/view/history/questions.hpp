@@ -18,7 +18,7 @@ class Questions {
 
   /// events, plot, stack, digests, counts: run_copy.hpp.
   void ask(Owner owner, const Json& request, const Reply& reply);
-  /// The owner has gone: what it still waits for is not asked.
+  /// The owner has gone: its pending questions are not asked.
   void forget(Owner owner) {
     waiting_.remove_if([owner](const Question& question) { return question.owner == owner; });
   }

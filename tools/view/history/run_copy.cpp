@@ -122,7 +122,7 @@ std::string RunCopy::floor(const Json& request, const Json& more) {
   return text + (more.empty() ? "}" : "," + text_of(more).substr(1));
 }
 
-// The instant that the copy stands at: between two events of it, or at the end of what it was asked for.
+// The instant that the copy stands at: between two events of it, or at the end of the requested span.
 Time RunCopy::now() const {
   if (is_over_ || experiment_.paused()) return experiment_.simulation().global_time();
   return std::max(reached_ - Duration::from_ns(1), Time());

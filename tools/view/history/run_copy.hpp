@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A copy of a run: a forked process that stands at an instant of it, and does what its channel asks, until the channel
-// is closed. Threads of the run are fibers, so that a fork copies all of them: what the copy does from here on is what
-// the run does, or would do after an intervention, and the run itself is not touched.
+// A copy of a run: a forked process that stands at an instant of it, and serves the requests of its channel, until the
+// channel is closed. Threads of the run are fibers, so that a fork copies all of them: what the copy does from here on
+// is what the run does, or would do after an intervention, and the run itself is not touched.
 //
 // Requests are JSON: {"do": ..., "line": its line of time, ...}; each has one reply, with "error" if it is refused.
 // Those that show the floor have the members of frame_options(). "until": a search for an event gives up a minute after
@@ -21,7 +21,7 @@
 //   digests {times}            goes on to each of the times, and shows the digest there
 //   intervene {text, date}     modules/run/intervention.hpp, at that step of the world, or the next one
 //   counts {time}              event_counts.hpp, from the start of the run to that time, if given, or to here
-//   journal                    what was intervened so far, what came of it, and where this is
+//   journal                    the interventions so far, their results, and the copy's instant
 #pragma once
 
 #include <string>

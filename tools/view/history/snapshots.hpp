@@ -19,7 +19,7 @@ struct Snapshot {
   std::uint64_t copied_bytes = 0;  ///< that the run wrote from here to the next one
 };
 
-/// What they may hold: an eighth of the machine's memory, at most 2 GiB.
+/// The memory that they may hold: an eighth of the machine's memory, at most 2 GiB.
 std::uint64_t snapshot_bytes_max();
 
 /// Gives up every second one, but the first and the last and those that are in use, once they are too many or hold more

@@ -58,7 +58,7 @@ class BranchForm {
     if (!able) setText(this.note, "The program allows no branches: waitpoint run --serve --serve-control does.");
   }
 
-  /** The fields of the chosen kind, filled with what is there now. */
+  /** The fields of the chosen kind, filled with the present values. */
   showFields() {
     const {session} = this,
       robot = session.header.robots[session.robot],

@@ -41,7 +41,7 @@ class Camera {
     return this.b * x + this.d * y + this.f - this.up * z;
   }
 
-  /** How near to the eye: what is nearer is drawn later. */
+  /** Nearness to the eye: nearer things are drawn later. */
   nearness(x, y) {
     return this.b * x + this.d * y;
   }

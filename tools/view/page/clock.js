@@ -119,7 +119,7 @@ class Clock {
 
   tick(now) {
     if (!this.playing) return;
-    // Before the next tick is asked for, so that each picture shows what came of the tick before it: else every other
+    // Before the next tick is asked for, so that each picture shows the result of the tick before it: else every other
     // one would.
     askPicture();
     const passed = Math.min(now - this.last, 250) * MILLISECOND;

@@ -2,7 +2,7 @@
 // The WebSocket to the program: questions with answers, messages without, and new attempts when it breaks.
 
 class Connection {
-  /** message(data): what comes unasked; changed(): state is "open", "lost" or "refused". */
+  /** message(data): pushed messages; changed(): state is "open", "lost" or "refused". */
   constructor(url, message, changed) {
     Object.assign(this, {url, message, changed, state: "lost", pause: 500, next: 1, attempts: 0});
     this.pending = new Map(); // answers that are waited for, by number

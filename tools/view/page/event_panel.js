@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The event that is selected, with what woke its task, its neighbours, and the lines of source that it came from.
+// The selected event, with the event that woke its task, its neighbours, and its lines of source.
 
 class EventPanel {
   constructor(panel, session, clock, gestures) {

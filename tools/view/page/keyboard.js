@@ -52,7 +52,7 @@ const KEYS = [
 ];
 
 class Keyboard {
-  /** actions: functions by name, for what is not time. */
+  /** actions: functions by name, for keys that do not move the time. */
   constructor(session, clock, actions) {
     Object.assign(this, {session, clock, actions});
     addEventListener("keydown", (event) => this.key(event));

@@ -2,7 +2,7 @@
 // Lines of time: the run and its branches, which of them is shown, which one beside it, and where the two begin to
 // differ.
 
-/** What came of the interventions of a journal. */
+/** The results of a journal's interventions. */
 function outcomesOf({outcomes = []}) {
   if (outcomes.length === 0) return [];
   return [

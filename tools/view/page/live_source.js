@@ -33,7 +33,7 @@ class LiveSource {
       lines: [{line: 0, from: 0, parent: null, name: "run", to: 0}]
     };
     this.listeners = new Map();
-    this.kept = new Map(); // by line and robot: what frames leave out as unchanged
+    this.kept = new Map(); // by line and robot: parts that frames leave out as unchanged
     this.places = new Map(); // by line: places that frames had, for trails
     this.obstacles = new Map();
     this.following = null;
@@ -60,7 +60,7 @@ class LiveSource {
     }
   }
 
-  /** The program sends the whole log right after the header, so what came before it is dropped. */
+  /** The program sends the whole log right after the header, so earlier lines are dropped. */
   async askHeader() {
     const header = await this.connection.ask("header");
     this.log = [];
@@ -69,7 +69,7 @@ class LiveSource {
 
   async connectionChanged() {
     if (this.connection.state === "open" && this.known) {
-      // The program may be another one by now: what is on the page would be wrong.
+      // The program may be another one by now, and the page's contents wrong.
       const header = await this.askHeader().catch(() => null);
       if (header && (header.scenario !== this.header.scenario || header.seed !== this.header.seed))
         return location.reload();
@@ -79,7 +79,7 @@ class LiveSource {
   }
 
   /**
-   * Has frames pushed, of what is in view only, or no longer. robot: the only one whose measurements and intentions are
+   * Begins or ends the pushing of frames, of the visible part only. robot: the only one whose measurements and intentions are
    * wanted; null: all of them.
    */
   follow(on, {view = null, scans = true, robot = null, rate = 30} = {}) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the page does with what a live source tells unasked, and what it has pushed: only what is in view.
+// Messages that a live source pushes, and the page's subscription to frames: only of the visible part.
 
 function connectSource(session, clock, parts) {
   const {source} = session,

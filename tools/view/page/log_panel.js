@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Requests and their outcomes, and what else the run has told, about the cursor.
+// Requests and their outcomes, and other messages of the run, about the cursor.
 
 class LogPanel {
   constructor(panel, session, clock) {
@@ -20,7 +20,7 @@ class LogPanel {
     );
   }
 
-  /** The lines of what is shown: a branch has those of the run up to where it leaves that. */
+  /** The lines of the shown line of time: a branch has those of the run up to its beginning. */
   known() {
     const {session} = this,
       {log} = session.source,

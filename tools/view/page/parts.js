@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The parts of the page, and what each is told of changes.
+// The parts of the page, and their notifications of changes.
 
 function buildParts(session, clock) {
   const axis = new TimeAxis(session),
@@ -134,7 +134,7 @@ function pageActions(session, parts) {
   };
 }
 
-/** Ten milliseconds about the cursor, or a tenth of what is in view if that is less. */
+/** Ten milliseconds about the cursor, or a tenth of the visible span if that is less. */
 function showCursor(session, axis) {
   const span = Math.min(10 * MILLISECOND, axis.span <= 11 * MILLISECOND ? axis.span / 10 : Infinity);
   axis.set(session.time - span / 2, session.time + span / 2);

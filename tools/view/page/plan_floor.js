@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The plan's floor, with a grid, walls and furniture; in the oblique view they are prisms.
 
-const WALL_HEIGHT = 2; // metres: what is higher hides the room behind it, and is drawn as a wall
+const WALL_HEIGHT = 2; // metres: higher things hide the room behind them, and are drawn as walls
 
 const isWall = (obstacle) => obstacle.high >= WALL_HEIGHT;
 
@@ -28,7 +28,7 @@ function tracePolygon(path, corners) {
 class PlanFloor {
   constructor() {
     this.obstacles = null;
-    this.picture = document.createElement("canvas"); // of what is still, for a camera that is
+    this.picture = document.createElement("canvas"); // of the static floor, for a camera at rest
     this.drawn = "";
   }
 
@@ -91,7 +91,7 @@ class PlanFloor {
     pen.setTransform(ratio, 0, 0, ratio, 0, 0);
   }
 
-  /** The view from above. Furniture is below what is drawn later, walls with it: neither hides anything there. */
+  /** The view from above. Furniture and walls are below everything drawn later: they hide nothing there. */
   draw(pen, camera, ratio, layers) {
     const colours = theme.colours;
     camera.apply(pen, ratio);
@@ -142,7 +142,7 @@ class PlanFloor {
   }
 }
 
-/** Whether a place is in a polygon: an odd number of its sides is to the right of it. */
+/** True if a place is in a polygon: an odd number of its sides is to the right of it. */
 function within(corners, x, y) {
   let inside = false;
   corners.forEach(([x1, y1], i) => {

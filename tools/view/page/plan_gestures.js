@@ -3,7 +3,7 @@
 // fingers zoom; a click selects a robot; while measuring, a drag measures.
 
 class PlanGestures {
-  /** repaint: for all plans that share the camera; status: shows what is under the pointer, in words. */
+  /** repaint: for all plans that share the camera; status: describes the thing under the pointer. */
   constructor(view, session, {repaint, status, measuring}) {
     Object.assign(this, {view, session, camera: view.camera, repaint, status, measuring});
     this.pointers = new Map();

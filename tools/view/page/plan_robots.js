@@ -112,7 +112,7 @@ function traceOnScreen(pen, camera, points, z = 0) {
   );
 }
 
-/** Bodies as prisms, for the oblique view, and a stalk to the floor below what flies. */
+/** Bodies as prisms, for the oblique view, and a stalk to the floor below flying robots. */
 function robotPrisms(camera, header, frame, seen) {
   return seen
     .filter((index) => reachOf(header.robots[index]) * camera.scale >= PLAIN)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What robots measure, believe and intend, on the plan: lasers, sonars, the estimate with its covariance, maps, routes,
+// Measurements, estimates and intentions of robots on the plan: lasers, sonars, the estimate with its covariance, maps, routes,
 // goals.
 
 /** Each laser's scan as a fan, with a dot for each echo: beams that met nothing have none. */
@@ -149,7 +149,7 @@ function drawTrail(pen, camera, points, colour) {
 }
 
 /**
- * What is known of the robot's goal `i`: "next", "reached", "passed" if it may have been reached or not, or "". A frame
+ * The state of the robot's goal `i`: "next", "reached", "passed" if it may have been reached or not, or "". A frame
  * has only the number of goals reached: if it is the number of those before the next one, all of them were.
  */
 function goalState({goal: next, goals_reached: reached}, i, count) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The plan's tools: fit, follow, oblique, measure, layers; and the plan in words for those who do not see it.
+// The plan's tools: fit, follow, oblique, measure, layers; and the plan in words for screen readers.
 
 class PlanTools {
   constructor(session, view, repaint) {

@@ -145,7 +145,7 @@ class PlanView {
     return best;
   }
 
-  /** What is under the pointer, in words. */
+  /** Describes the thing under the pointer. */
   textAt(u, v) {
     const {x, y} = this.camera.place(u, v),
       robot = this.robotAt(u, v);

@@ -27,7 +27,7 @@ class RecordedLine {
     }
   }
 
-  /** Whether the events up to `time` are there: of a long run only the first ones are kept. */
+  /** True if the events up to `time` are there: of a long run only the first ones are kept. */
   keeps(time) {
     return this.store.complete || time <= this.store.to;
   }
@@ -86,13 +86,13 @@ class RecordedLine {
   }
 }
 
-/** The header with each robot's type in the robot: what robots of a crowd have in common comes once. */
+/** The header with each robot's type in the robot: the common part of a crowd's robots comes once. */
 function withTypes(header) {
   for (const robot of header.robots) Object.assign(robot, header.types?.[robot.type]);
   return header;
 }
 
-/** Gives a robot's frame what it leaves out as unchanged. A scan keeps the pose at which it was taken. */
+/** Completes a robot's frame by the parts that it leaves out as unchanged. A scan keeps the pose at which it was taken. */
 function carryOver(kept, robot) {
   if (robot.scans) robot.scans.forEach((scan) => (scan.pose ??= robot.truth));
   for (const name of ["scans", "sonars", "route", "segments"]) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is wished more often than it need be done: questions to the program, tables that follow the cursor.
+// Actions that are requested more often than needed: questions to the program, tables that follow the cursor.
 
 /**
  * A function that has the action done at most once in a while, and never before the last time has ended, if that takes longer. A

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the page shows: a line of time, an instant of it, and what is selected. Parts of the page read it, and are told what
-// has changed by name:
+// The state of the page: a line of time, an instant of it, and the selection. Parts of the page read
+// it, and are notified of changes by name:
 //   time      the cursor, with the frame there         robot     the robot that is selected
 //   run       how far the run has come; its lines       event     the event that is selected
-//   layers    what the plan shows                       follow    whether the plan follows the robot
+//   layers    shown on the plan                         follow    true if the plan follows the robot
 //   theme     the colours                               source    the connection
 //   compare   the line beside this one                  log       lines of the log
 
@@ -81,7 +81,7 @@ class Session {
   }
 }
 
-/** What the plan can show, and what of it is shown at first. */
+/** The layers of the plan, and those shown at first. */
 const LAYERS = [
   {key: "grid", name: "Grid", on: true},
   {key: "furniture", name: "Furniture", on: true},

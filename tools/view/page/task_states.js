@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a task does between two successive events of its own: events are the ends of its waits and the uses of
+// The state of a task between two successive events of its own: events are the ends of its waits and the uses of
 // primitives, and the time between them is spent computing, waiting for an object, or asleep.
 
 const STATES = {
@@ -10,7 +10,7 @@ const STATES = {
   late: {name: "late", pattern: "upright"}
 };
 
-/** Operations after which a task waits, if nothing is known about what followed. */
+/** Operations after which a task waits, if the following event is unknown. */
 const WAITS = new Set([
   "wait",
   "acquire",
@@ -41,7 +41,7 @@ function stateBetween(store, before, after) {
   }
   if (is === "sleep" || (after < 0 && was === "timer_wait")) return {state: "idle", object: -1};
   if (after < 0 && store.waits) {
-    // What the task of the very last event waits for, no later event has shown.
+    // No later event shows the wait of the very last event's task.
     const last = before === store.count - 1 && WAITS.has(was) ? store.object[before] : -1,
       awaited = store.waits.get(store.task[before]) ?? last;
     return {state: awaited >= 0 ? "blocked" : null, object: awaited};
@@ -76,7 +76,7 @@ function activationBefore(store, lane, place) {
   return null;
 }
 
-/** What a task of the protocol's "tasks" does at `time`, until its next event: null if nothing, or unknown. */
+/** The state at `time` of a task of the protocol's "tasks", until its next event: null if none, or unknown. */
 function quietState({state, operation, local}, time) {
   if (/^(sleep|timer_wait)$/.test(operation)) return "idle";
   if (state === "blocked") return "blocked";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The tasks at the cursor: their states, and what each waits for.
+// The tasks at the cursor: their states and waits.
 
 class TasksPanel {
   constructor(panel, session, choose) {

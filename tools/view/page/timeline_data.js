@@ -53,7 +53,7 @@ class TimelineData {
   async need() {
     const {source} = this.session,
       {from, to, span} = this.axis;
-    // Without the counts of a live run it is not known whether they would be too many.
+    // Without the counts of a live run they might be too many.
     if (source.kind === "live" && !this.counts) return;
     if (this.covers(from, to) || this.asked || this.tooMany(from, to)) return;
     const wanted = {from: Math.max(0, Math.floor(from - span / 2)), to: Math.ceil(to + span / 2)};
@@ -99,7 +99,7 @@ class TimelineData {
     return index === undefined || this.store.lanes[index].length === 0 ? this.states?.get(key) : undefined;
   }
 
-  /** Of tasks that compute all the time, also the events before and after: they tell whether it is too long. */
+  /** Of tasks that compute all the time, also the events before and after: they show if it is too long. */
   async widen() {
     const busy = [...(this.states ?? [])]
       .filter(([key, {quiet}]) => quiet === "running" && this.quiet(key))

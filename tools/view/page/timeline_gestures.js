@@ -3,7 +3,7 @@
 // click selects an event and a double click goes to it.
 
 class TimelineGestures {
-  /** tip: the element that tells what is under the pointer. */
+  /** tip: the element that describes the thing under the pointer. */
   constructor(view, session, axis, clock, tip) {
     Object.assign(this, {view, session, axis, clock, tip});
     this.drag = null;

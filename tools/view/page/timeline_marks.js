@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is drawn in the timeline's lanes: states and events if they are few, their density if they are many.
+// Drawing of the timeline's lanes: states and events if they are few, their density if they are many.
 
 const MOST_APART = 160; // events in view, up to which those of an instant are set apart
 
@@ -82,7 +82,7 @@ function drawWork(pen, state, x0, x1, late, middle, body) {
   pen.fillRect(from, middle - body / 2, Math.max(2, x1 - from), body);
 }
 
-/** A span in which a task is idle, or blocked on what the text tells. */
+/** A span in which a task is idle, or blocked on the object of the text. */
 function drawWait(pen, state, text, x0, x1, middle, size) {
   if (state === "idle") {
     pen.fillStyle = theme.colours.idle;
@@ -109,7 +109,7 @@ function drawQuietLane(pen, axis, task, since, period, top, height) {
   }
 }
 
-/** A text on the ground of the lane, which interrupts what is below it; none if there is no room. */
+/** A text on the ground of the lane, which interrupts the drawing below it; none if there is no room. */
 function laneText(pen, text, x, y, room) {
   pen.font = "11px system-ui, sans-serif";
   const width = pen.measureText(text).width + 8;

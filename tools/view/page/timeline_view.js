@@ -76,7 +76,7 @@ class TimelineView {
         pen.fillStyle = colours.band;
         pen.fillRect(axis.left, y(row), width - axis.left, row.height);
       }
-    // Beyond the run, and what is not yet known, is outside.
+    // The time beyond the run, and the part not yet known, are outside.
     pen.fillStyle = colours.outside;
     pen.fillRect(axis.x(axis.end), RULER, Math.max(0, width - axis.x(axis.end)), height);
     pen.save();

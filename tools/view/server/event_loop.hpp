@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What one thread waits for: descriptors that others read, times, and the connections of a web server.
+// The event loop of one thread: descriptors that others read, times, and the connections of a web server.
 #pragma once
 
 #include <boost/asio/io_context.hpp>

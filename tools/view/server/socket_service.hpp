@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a web server does with its WebSockets, which are at the path /live. Messages are texts.
+// The service behind a web server's WebSockets, which are at the path /live. Messages are texts.
 #pragma once
 
 #include <cstdint>

@@ -100,8 +100,8 @@ bool Viewer::is_ready(ClientNumber number, const Client& client, double now_s) c
   return client.follows && now_s >= client.next_s && server_.queued(number) <= queued_max;
 }
 
-// One frame at a time is asked for, when a client that follows is ready for it. What several want differently is shown
-// in full.
+// One frame at a time is asked for, when a client that follows is ready for it. Parts that several want differently are
+// shown in full.
 void Viewer::ask_for_frame() {
   run_.flush();
   if (frame_is_due_ || run_is_over_) return;

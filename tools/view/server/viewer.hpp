@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The process that shows a run to browsers: it serves the page, asks the run for frames as fast as its clients take
-// them, and the history (history.hpp) for what they want to know of the past. The run is never held up by a client: one
+// them, and the history (history.hpp) for questions about the past. The run is never held up by a client: one
 // that is slow gets fewer frames.
 #pragma once
 
