@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <vector>
 
+#include "core/word_list.hpp"
+
 namespace waitpoint {
 
 std::size_t edit_distance(std::string_view a, std::string_view b) {
@@ -41,6 +43,11 @@ std::string nearest_name(std::string_view word, std::span<const std::string_view
 std::string did_you_mean(std::string_view word, std::span<const std::string_view> known) {
   const std::string nearest = nearest_name(word, known);
   return nearest.empty() ? "" : ", did you mean '" + nearest + "'?";
+}
+
+std::string did_you_mean_or_expected(std::string_view word, std::span<const std::string_view> known) {
+  const std::string hint = did_you_mean(word, known);
+  return hint.empty() && !known.empty() ? ", expected " + word_list(known) : hint;
 }
 
 }  // namespace waitpoint

@@ -22,4 +22,7 @@ std::string nearest_name(std::string_view word, std::span<const std::string_view
 /// ", did you mean 'step_ms'?", or "" if no known name is near: the end of a message about an unknown `word`.
 std::string did_you_mean(std::string_view word, std::span<const std::string_view> known);
 
+/// The same, or ", expected run, walk or stand" of all known names if none is near.
+std::string did_you_mean_or_expected(std::string_view word, std::span<const std::string_view> known);
+
 }  // namespace waitpoint

@@ -28,6 +28,7 @@
 #include "tools/replay/replay.hpp"
 #include "tools/run/run.hpp"
 #include "tools/run/run_watchdog.hpp"
+#include "tools/schema/schema_command.hpp"
 #include "tools/tcl_library.hpp"
 
 namespace waitpoint {
@@ -60,6 +61,7 @@ int carry_out(int argc, const char* const* argv, std::vector<genom::ModuleType> 
     if (const auto* fitted = std::get_if<tools::FitOptions>(&options)) return tools::fit(*fitted, types);
     if (const auto* compared = std::get_if<tools::CompareOptions>(&options)) return tools::compare(*compared, types);
     if (const auto* plan = std::get_if<tools::PlanOptions>(&options)) return tools::show_plan(*plan);
+    if (const auto* schema = std::get_if<tools::SchemaOptions>(&options)) return tools::show_schema(*schema, types);
     if (const auto* viewed = std::get_if<tools::ViewOptions>(&options)) return tools::view_finding(*viewed);
     if (const auto* generated = std::get_if<tools::GenomOptions>(&options)) return tools::genom(*generated);
     if (const auto* debug = std::get_if<tools::DebugOptions>(&options)) tools::debug(*debug);

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "core/error.hpp"
+#include "core/word_list.hpp"
 #include "tools/command/command_line.hpp"
 #include "tools/command/completion.hpp"
 #include "tools/command/distinct_files.hpp"
@@ -74,6 +75,28 @@ class PlanArguments {
   bool json_ = false;
 };
 
+class SchemaArguments {
+ public:
+  explicit SchemaArguments(CommandLine& line)
+      : command_(line.add_command("schema",
+                                  "Prints the JSON Schema (2020-12) of a kind of file, for editors and validators:\n"
+                                  "  waitpoint schema scenario > scenario.json")) {
+    command_.argument("KIND", kind_, "scenario (the default), robot (a file of robot types), plan or floor",
+                      Command::Presence::optional);
+  }
+
+  bool parsed() const { return command_.parsed(); }
+  SchemaOptions options() const {
+    if (std::find(std::begin(schema_kinds), std::end(schema_kinds), kind_) == std::end(schema_kinds))
+      throw BadInput("KIND", "expected " + word_list(schema_kinds) + ", found '" + kind_ + "'");
+    return {kind_};
+  }
+
+ private:
+  Command command_;
+  std::string kind_ = "scenario";
+};
+
 /// The commands that describe the others, to man and to shells.
 class TextArguments {
  public:
@@ -135,6 +158,7 @@ Options read_options(int argc, const char* const* argv, const std::string& versi
   FitArguments fit(line);
   CompareArguments compare(line);
   ViewArguments view(line);
+  SchemaArguments schema(line);
   TextArguments texts(line);
   line.footer(statuses);
   const std::vector<std::string> words(argv + std::min(argc, 2), argv + argc);
@@ -170,6 +194,7 @@ Options read_options(int argc, const char* const* argv, const std::string& versi
   if (fit.parsed()) return fit.options();
   if (compare.parsed()) return compare.options();
   if (view.parsed()) return view.options();
+  if (schema.parsed()) return schema.options();
   if (const std::optional<ShownText> text = texts.text(line)) return *text;
   if (check.parsed()) {
     const std::filesystem::path scenario = find_scenario(checked.file);

@@ -17,6 +17,7 @@
 #include "tools/plan/plan_command.hpp"
 #include "tools/replay/replay_options.hpp"
 #include "tools/run/run_options.hpp"
+#include "tools/schema/schema_command.hpp"
 
 namespace waitpoint::tools {
 
@@ -33,8 +34,9 @@ struct ShownText {
   std::string text;
 };
 
-using Options = std::variant<RunOptions, CheckOptions, ExploreOptions, ExecOptions, DebugOptions, PlanOptions,
-                             GenomOptions, ReplayOptions, FitOptions, CompareOptions, ViewOptions, ShownText>;
+using Options =
+    std::variant<RunOptions, CheckOptions, ExploreOptions, ExecOptions, DebugOptions, PlanOptions, GenomOptions,
+                 ReplayOptions, FitOptions, CompareOptions, ViewOptions, SchemaOptions, ShownText>;
 
 /// Reads the arguments, and WAITPOINT_SEED unless --seed is given. Throws BadInput, one line, for invalid arguments.
 /// `version` is the text of --version.

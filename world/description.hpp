@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "core/field_facts.hpp"
 #include "core/pose.hpp"
 #include "core/time.hpp"
 #include "world/convex_polygon.hpp"
@@ -67,6 +68,31 @@ struct OdometryErrors {
   double wheel_base_ratio = 1;          ///< actual / nominal: E_b of UMBmark
   double wheel_noise_m_per_sqrt_m = 0;  ///< standard deviation of a wheel's distance after one metre of it
   double wheel_ticks_per_m = 0;         ///< of its encoder; 0: continuous
+
+  static void fields(auto field) {
+    using Errors = OdometryErrors;
+    constexpr NumberRange slips{0, 1000, "a number from 0 to 1000"};
+    field("travel_scale", &Errors::travel_scale, ranges::factor, "measured by true distance");
+    field("turn_scale", &Errors::turn_scale, ranges::factor, "measured by true turn");
+    field("drift_rad_per_m", &Errors::drift_rad_per_m, ranges::signed_angle_error, "systematic turn for each metre");
+    field("travel_noise_m_per_sqrt_m", &Errors::travel_noise_m_per_sqrt_m, ranges::length_error,
+          "standard deviation of the distance after a metre");
+    field("turn_noise_rad_per_sqrt_m", &Errors::turn_noise_rad_per_sqrt_m, ranges::angle_error,
+          "standard deviation of the turn after a metre");
+    field("turn_noise_rad_per_sqrt_rad", &Errors::turn_noise_rad_per_sqrt_rad, ranges::angle_error,
+          "standard deviation of the turn after a turn by a radian");
+    field("slips_per_m", &Errors::slips_per_m, slips, "mean rate at which wheels spin");
+    field("slip_m", &Errors::slip_m, ranges::length_error, "mean excess distance counted for a slip");
+    field("slip_turn_rad", &Errors::slip_turn_rad, ranges::angle_error, "standard deviation of the turn of a slip");
+    field("units_per_m", &Errors::units_per_m, ranges::units, "quantisation of distances");
+    field("units_per_rad", &Errors::units_per_rad, ranges::units, "quantisation of turns");
+    field("wheel_diameter_ratio", &Errors::wheel_diameter_ratio, ranges::factor, "right by left wheel");
+    field("wheel_base_ratio", &Errors::wheel_base_ratio, ranges::factor, "actual by nominal distance of the wheels");
+    field("wheel_noise_m_per_sqrt_m", &Errors::wheel_noise_m_per_sqrt_m, ranges::length_error,
+          "standard deviation of a wheel's distance after a metre");
+    field("wheel_ticks_per_m", &Errors::wheel_ticks_per_m, ranges::units,
+          "of a wheel's encoder; without it continuous");
+  }
 };
 
 /// A body's mobile base; vehicles/base.hpp describes the motions of each kind.
@@ -89,6 +115,42 @@ struct BaseDescription {
   double battery_volts_full = 26.0, battery_volts_empty = 22.0;
   double battery_capacity_s = 4 * 3600;  ///< until empty, standing still
   double battery_capacity_m = 8000;      ///< until empty, if only driving drained it
+
+  static constexpr std::string_view kinds[] = {"differential", "synchro", "omni", "ackermann", "skid_steer", "aerial"};
+  static constexpr NumberRange volts{0, 1e5, "a number of volts from 0 to 100000"};
+
+  /// All but the errors of the odometry.
+  static void fields(auto field) {
+    using Base = BaseDescription;
+    constexpr NumberRange longer{1, 1e3, "a number from 1 to 1000"};
+    constexpr NumberRange steering{least_nonzero, 89, "degrees above 0, at most 89"};
+    constexpr NumberRange steering_rate{1e-3, 1e6, "degrees per second from 0.001 to 1000000"};
+    constexpr NumberRange mass{1e-3, 1e6, "a number of kg from 0.001 to 1000000"};
+    constexpr NumberRange force{1e-3, 1e9, "a number of newtons from 0.001 to 1e9"};
+    constexpr NumberRange friction{0, 1e3, "a number from 0 to 1000"};
+    constexpr NumberRange metres{1e-3, 1e9, "a number of metres from 0.001 to 1e9"};
+    field("kind", &Base::kind, Words{kinds}, "how it moves");
+    field("v_max_m_s", &Base::v_max_m_s, ranges::rate, "greatest speed");
+    field("w_max_rad_s", &Base::w_max_rad_s, ranges::rate, "greatest turn rate");
+    field("v_acceleration_m_s2", &Base::v_acceleration_m_s2, ranges::acceleration, "greatest acceleration");
+    field("w_acceleration_rad_s2", &Base::w_acceleration_rad_s2, ranges::acceleration, "of turns");
+    field("axle_m", &Base::axle_m, ranges::length, "distance between the wheels of two sides");
+    field("effective_axle_ratio", &Base::effective_axle_ratio, longer, "skid_steer: effective axle in turns by axle_m");
+    field("wheelbase_m", &Base::wheelbase_m, ranges::length, "ackermann: between the front and the rear axle");
+    field("steering_max_deg", &Base::steering_max_rad, degrees, steering, "ackermann: of the front wheels");
+    field("steering_rate_deg_s", &Base::steering_rate_rad_s, degrees, steering_rate, "ackermann: of the front wheels");
+    field("climb_max_m_s", &Base::climb_max_m_s, ranges::rate, "aerial: greatest vertical speed");
+    field("climb_acceleration_m_s2", &Base::climb_acceleration_m_s2, ranges::acceleration, "aerial: vertical");
+    field("mass_kg", &Base::mass_kg, mass, "dynamic worlds: of the whole robot");
+    field("drive_force_n", &Base::drive_force_n, force,
+          "dynamic worlds: the greatest; without it twice that for the acceleration");
+    field("grip", &Base::grip, friction, "dynamic worlds: friction of the wheels with the floor");
+    field("watchdog_ms", &Base::watchdog, "without a command for longer than this the base stops; without it never");
+    field("battery_volts_full", &Base::battery_volts_full, volts, "voltage of the full battery");
+    field("battery_volts_empty", &Base::battery_volts_empty, volts, "voltage of the empty battery");
+    field("battery_capacity_s", &Base::battery_capacity_s, ranges::time_constant, "until empty, standing still");
+    field("battery_capacity_m", &Base::battery_capacity_m, metres, "until empty, if only driving drained it");
+  }
 };
 
 /// A battery pack and its loads, see vehicles/battery.hpp.

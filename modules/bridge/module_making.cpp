@@ -18,7 +18,8 @@ std::unique_ptr<genom::Module> make_module(const scenario::ModuleScenario& modul
   if (type == types.end()) {
     std::vector<std::string_view> known;
     for (const genom::ModuleType& t : types) known.push_back(t.name);
-    throw module.written.bad("unknown module type '" + module.type + "'" + did_you_mean(module.type, known));
+    throw module.written.bad("unknown module type '" + module.type + "'" +
+                             did_you_mean_or_expected(module.type, known));
   }
   const std::string doing = "constructing module " + module.name + " of robot " + robot;
   const Doing construction(doing.c_str());

@@ -96,12 +96,7 @@ void Robot::make_executive(std::shared_ptr<const executive::KnownSpace> known, s
   genom::Settings settings(scenario_.executive);
   derive_outline(robot_outline(scenario_.body.shape), settings, "planning.");
   if (!known->is_known()) parameters.replan_ms = replan_period_unknown;
-  settings.read(parameters);
-  settings.check_not_negative(parameters);
-  constexpr double leg_least_m = 0.05;
-  settings.check_least("planning.leg_m_max", parameters.planning.leg_m_max, leg_least_m);
-  constexpr double escape_most_m = 100;  // it is searched cell by cell
-  settings.check_most("planning.escape_m_max", parameters.planning.escape_m_max, escape_most_m);
+  executive::read(settings, parameters);
   genom::TaskComputing& computing = scenario_.plan != nullptr ? script_computing_ : computing_;
   computing = genom::read_computing(settings, "", names_, {});
   settings.check_all_used();

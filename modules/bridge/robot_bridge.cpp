@@ -39,7 +39,7 @@ void RobotBridge::add_row(const scenario::BridgeRow& scenario) {
     std::vector<std::string_view> known;
     for (const DeviceValue& each : device_values_) known.push_back(each.name);
     throw scenario.written.bad("this robot has no device value '" + scenario.device + "'" +
-                               did_you_mean(scenario.device, known));
+                               did_you_mean_or_expected(scenario.device, known));
   }
   rows_.push_back({nullptr, nullptr, std::nullopt});
   origins_.push_back({&scenario, nullptr});

@@ -25,6 +25,15 @@ posters::GoToInput first_of(std::span<const Point> via_points) {
 }
 }  // namespace
 
+void read(genom::Settings& settings, Parameters& parameters) {
+  settings.read(parameters);
+  settings.check_not_negative(parameters);
+  constexpr double leg_least_m = 0.05;
+  settings.check_least("planning.leg_m_max", parameters.planning.leg_m_max, leg_least_m);
+  constexpr double escape_most_m = 100;  // it is searched cell by cell
+  settings.check_most("planning.escape_m_max", parameters.planning.escape_m_max, escape_most_m);
+}
+
 Executive::Executive(genom::NameSpace& names, const Parameters& parameters, std::shared_ptr<const KnownSpace> known,
                      const posters::KnownPose& start, const std::vector<Point>& goals, const RandomStream& random)
     : names_(names),

@@ -21,6 +21,7 @@
 #include "modules/executive/surveyor.hpp"
 #include "modules/executive/whereabouts.hpp"
 #include "modules/genom/client.hpp"
+#include "modules/genom/settings.hpp"
 #include "modules/posters/navigation.hpp"
 
 namespace waitpoint::executive {
@@ -29,26 +30,30 @@ namespace waitpoint::executive {
 struct Parameters {
   PlanningParameters planning;
   MissionParameters mission;
-  double mark_range_m = 3;     ///< greatest distance of echoes to be marked on the map
-  Duration plan_cost_us = {};  ///< cost of planning a route
+  double mark_range_m = 3;
+  Duration plan_cost_us = {};
   /// Period of planning again in motion, on the map that the robot has seen; 0: only when the way is blocked. Unless
   /// set, 0 on a known map and 200 ms on one that is not.
   Duration replan_ms = {};
-  double seen_range_m = 10;  ///< what the laser sees beyond this is left out of that map
-  bool start_known = true;   ///< false: the robot must be found at its start, by the module `locate`
-  double find_s = 60;        ///< a lost robot looks for so long for what tells its localisation where it is
+  double seen_range_m = 10;
+  bool start_known = true;
+  double find_s = 60;
 
   static void fields(auto field) {
     field("planning", &Parameters::planning);
     field("mission", &Parameters::mission);
-    field("mark_range_m", &Parameters::mark_range_m);
-    field("plan_cost_us", &Parameters::plan_cost_us);
+    field("mark_range_m", &Parameters::mark_range_m, "greatest distance of echoes to be marked on the map");
+    field("plan_cost_us", &Parameters::plan_cost_us, "cost of planning a route");
     field("replan_ms", &Parameters::replan_ms);
-    field("seen_range_m", &Parameters::seen_range_m);
-    field("start_known", &Parameters::start_known);
-    field("find_s", &Parameters::find_s);
+    field("seen_range_m", &Parameters::seen_range_m, "what the laser sees beyond this is left out of that map");
+    field("start_known", &Parameters::start_known,
+          "false: the robot must be found at its start, by the module `locate`");
+    field("find_s", &Parameters::find_s, "a lost robot looks for so long for what tells its localisation where it is");
   }
 };
+
+/// Overwrites the parameters that are set. BadInput for values that do not fit.
+void read(genom::Settings& settings, Parameters& parameters);
 
 class Executive : public RobotExecutive {
  public:

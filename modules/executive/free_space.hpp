@@ -30,26 +30,30 @@
 namespace waitpoint::executive {
 
 struct PlanningParameters {
-  double robot_radius_m = 0.26;         ///< of the smallest disc about the robot's centre that holds it
-  Bounded<Point, 64> footprint;         ///< corners of its outline, convex, counter-clockwise; none: it is that disc
-  double clearance_m = 0.05;            ///< least clearance to each side; such passages are used if necessary
-  double preferred_clearance_m = 0.55;  ///< beyond the radius; no extra cost from here on
-  double explained_m = 0.25;            ///< an echo this close to a mapped obstacle is not marked
-  double narrow_m = 0.35;               ///< passages with less clearance get a via point at each end
-  double approach_m = 0.5;              ///< distance of these from the passage
-  double leg_m_max = 5.0;               ///< between via points
-  double escape_m_max = 1.0;            ///< from an impassable start to the nearest passable cell
+  double robot_radius_m = 0.26;
+  Bounded<Point, 64> footprint;
+  double clearance_m = 0.05;
+  double preferred_clearance_m = 0.55;
+  double explained_m = 0.25;
+  double narrow_m = 0.35;
+  double approach_m = 0.5;
+  double leg_m_max = 5.0;
+  double escape_m_max = 1.0;
 
   static void fields(auto field) {
-    field("robot_radius_m", &PlanningParameters::robot_radius_m);
-    field("footprint", &PlanningParameters::footprint);
-    field("clearance_m", &PlanningParameters::clearance_m);
-    field("preferred_clearance_m", &PlanningParameters::preferred_clearance_m);
-    field("explained_m", &PlanningParameters::explained_m);
-    field("narrow_m", &PlanningParameters::narrow_m);
-    field("approach_m", &PlanningParameters::approach_m);
-    field("leg_m_max", &PlanningParameters::leg_m_max);
-    field("escape_m_max", &PlanningParameters::escape_m_max);
+    field("robot_radius_m", &PlanningParameters::robot_radius_m,
+          "of the smallest disc about the robot's centre that holds it");
+    field("footprint", &PlanningParameters::footprint,
+          "corners of its outline, convex, counter-clockwise; none: it is that disc");
+    field("clearance_m", &PlanningParameters::clearance_m,
+          "least clearance to each side; such passages are used if necessary");
+    field("preferred_clearance_m", &PlanningParameters::preferred_clearance_m,
+          "beyond the radius; no extra cost from here on");
+    field("explained_m", &PlanningParameters::explained_m, "an echo this close to a mapped obstacle is not marked");
+    field("narrow_m", &PlanningParameters::narrow_m, "passages with less clearance get a via point at each end");
+    field("approach_m", &PlanningParameters::approach_m, "distance of these from the passage");
+    field("leg_m_max", &PlanningParameters::leg_m_max, "between via points");
+    field("escape_m_max", &PlanningParameters::escape_m_max, "from an impassable start to the nearest passable cell");
   }
 };
 

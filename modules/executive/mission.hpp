@@ -19,21 +19,23 @@
 namespace waitpoint::executive {
 
 struct MissionParameters {
-  std::uint32_t rounds = 1;     ///< number of visits to each goal; 0: without end
-  std::uint32_t tries_max = 8;  ///< per visit, before the goal is abandoned
+  std::uint32_t rounds = 1;
+  std::uint32_t tries_max = 8;
   double wait_s_min = 2, wait_s_max = 8;
-  double detour_max = 3;     ///< a detour longer by this factor is not taken at first: wait instead
-  double detour_m_min = 15;  ///< unless it is no longer than this
-  double better_by = 0.05;   ///< in motion, another route is taken if it costs less by this part
+  double detour_max = 3;
+  double detour_m_min = 15;
+  double better_by = 0.05;
 
   static void fields(auto field) {
-    field("rounds", &MissionParameters::rounds);
-    field("tries_max", &MissionParameters::tries_max);
+    field("rounds", &MissionParameters::rounds, "number of visits to each goal; 0: without end");
+    field("tries_max", &MissionParameters::tries_max, "per visit, before the goal is abandoned");
     field("wait_s_min", &MissionParameters::wait_s_min);
     field("wait_s_max", &MissionParameters::wait_s_max);
-    field("detour_max", &MissionParameters::detour_max);
-    field("detour_m_min", &MissionParameters::detour_m_min);
-    field("better_by", &MissionParameters::better_by);
+    field("detour_max", &MissionParameters::detour_max,
+          "a detour longer by this factor is not taken at first: wait instead");
+    field("detour_m_min", &MissionParameters::detour_m_min, "unless it is no longer than this");
+    field("better_by", &MissionParameters::better_by,
+          "in motion, another route is taken if it costs less by this part");
   }
 };
 

@@ -28,14 +28,14 @@ namespace waitpoint::genom {
 /// Activation and cost of a task. A scenario may override these under `tasks.<task>`; the cost only if the task has
 /// permanent codels.
 struct TaskOptions {
-  Duration period_ms = {};  ///< 0: aperiodic, woken by events
-  Duration delay_ms = {};   ///< phase of a periodic task's ticks
-  Duration cost_us = {};    ///< of each permanent codel
+  Duration period_ms = {};
+  Duration delay_ms = {};
+  Duration cost_us = {};
 
   static void fields(auto field) {
-    field("period_ms", &TaskOptions::period_ms);
-    field("delay_ms", &TaskOptions::delay_ms);
-    field("cost_us", &TaskOptions::cost_us);
+    field("period_ms", &TaskOptions::period_ms, "0: aperiodic, woken by events");
+    field("delay_ms", &TaskOptions::delay_ms, "phase of a periodic task's ticks");
+    field("cost_us", &TaskOptions::cost_us, "of each permanent codel");
   }
 };
 

@@ -19,7 +19,14 @@ Module::Module(ModuleSetup& setup, std::uint16_t number, threads::kind)
 Module::~Module() = default;
 
 ExecutionTask& Module::add_task(const std::string& name, TaskOptions options) {
+  const bool is_periodic = options.period_ms > Duration();
   settings_.read(options, "tasks." + name + ".");
+  if (is_periodic) {
+    const std::string key = "tasks." + name + ".period_ms";
+    if (options.period_ms == Duration()) settings_.reject(key, "more than 0: the task is periodic");
+    constexpr double least_ms = 1e-6;
+    settings_.check_least(key, options.period_ms.seconds() * 1e3, least_ms);
+  }
   const TaskComputing computing = read_computing(settings_, "tasks." + name + ".", names_, of_all_tasks_);
   return tasks_.emplace_back(data_, name, options, computing);
 }

@@ -55,6 +55,23 @@ double parse_double(const Setting& setting, double most, const char* expected) {
 
 }  // namespace
 
+Settings Settings::describing() {
+  Settings settings;
+  settings.rows_ = std::make_shared<std::vector<SettingRow>>();
+  return settings;
+}
+
+void Settings::describe(const std::string& key, SettingRow::Kind kind, double least, double most,
+                        std::string otherwise) {
+  if (rows_ != nullptr) rows_->push_back({key, kind, least, most, std::move(otherwise), {}});
+}
+
+SettingRow* Settings::row_of(const std::string& key) const {
+  if (rows_ == nullptr) return nullptr;
+  const auto row = std::find_if(rows_->begin(), rows_->end(), [&](const SettingRow& r) { return r.key == key; });
+  return row == rows_->end() ? nullptr : &*row;
+}
+
 const Setting* Settings::take(const std::string& key) {
   known_.push_back(key);
   for (std::size_t i = 0; i < settings_.size(); ++i) {
@@ -94,18 +111,22 @@ void Settings::reject(const std::string& key, const std::string& expected) const
 }
 
 void Settings::check_least(const std::string& key, double value, double least) const {
+  if (SettingRow* const row = row_of(key)) row->least = std::max(row->least, least);
   if (value < least) reject(key, number_text(least) + " or more");
 }
 
 void Settings::check_most(const std::string& key, double value, double most) const {
+  if (SettingRow* const row = row_of(key)) row->most = std::min(row->most, most);
   if (value > most) reject(key, number_text(most) + " or less");
 }
 
 void Settings::read_one(const std::string& key, double& value) {
+  describe(key, SettingRow::Kind::number, -most_of(key), most_of(key), number_text(value));
   if (const Setting* s = take(key)) value = parse_double(*s, most_of(key), "a number");
 }
 
 void Settings::read_one(const std::string& key, bool& value) {
+  describe(key, SettingRow::Kind::truth, 0, 1, value ? "true" : "false");
   const Setting* s = take(key);
   if (s == nullptr) return;
   if (s->text != "true" && s->text != "false") refuse(*s, "true or false");
@@ -113,13 +134,16 @@ void Settings::read_one(const std::string& key, bool& value) {
 }
 
 void Settings::read_one(const std::string& key, std::string& value) {
+  describe(key, SettingRow::Kind::text, 0, 0, value);
   if (const Setting* s = take(key)) value = s->text;
 }
 
 void Settings::read_one(const std::string& key, Duration& value) {
+  const double unit_s = key.ends_with("_us") ? 1e-6 : key.ends_with("_ms") ? 1e-3 : 1.0;
+  describe(key, SettingRow::Kind::number, 0, std::min(1e9 / unit_s, most_of_others),
+           number_text(value.seconds() / unit_s));
   const Setting* s = take(key);
   if (s == nullptr) return;
-  const double unit_s = key.ends_with("_us") ? 1e-6 : key.ends_with("_ms") ? 1e-3 : 1.0;
   const double seconds = parse_double(*s, most_of_others, "a duration as a number") * unit_s;
   if (seconds < 0 || seconds > 1e9) refuse(*s, "a duration that is not negative, at most 1e9 s");
   value = Duration::from_seconds(seconds);
@@ -143,6 +167,8 @@ void Settings::read_one(const std::string& key, Pose& value) {
 }
 
 void Settings::read_integer(const std::string& key, std::int64_t& value, std::int64_t least, std::int64_t most) {
+  describe(key, SettingRow::Kind::integer, static_cast<double>(least), static_cast<double>(most),
+           std::to_string(value));
   const Setting* s = take(key);
   if (s == nullptr) return;
   std::int64_t read = 0;

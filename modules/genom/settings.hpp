@@ -6,8 +6,12 @@
 // BadInput, with the nearest known key as a hint. Numbers are bounded by their unit: metres by 1e5, radians by 1000,
 // degrees by 3600, metres or radians per second by 1e4, their accelerations by 1e6, seconds by 1e9, volts by 1e5, and
 // others by 1e12. A module checks what it expects beyond that.
+//
+// Settings that describe have no values: they collect a row for each key that is read, for the schema of a module's
+// parameters.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -16,17 +20,37 @@
 
 namespace waitpoint::genom {
 
+/// A key that is read.
+struct SettingRow {
+  enum class Kind : std::uint8_t { truth, integer, number, text, list };
+
+  std::string key;
+  Kind kind = Kind::text;
+  double least = 0, most = 0;  ///< of a number; a list has `most` elements at most, its first one has a row of its own
+  std::string otherwise;       ///< the default; empty: none
+  std::string_view description;
+};
+
 class Settings {
  public:
   Settings() = default;
+  /// Those that describe.
+  static Settings describing();
   explicit Settings(std::vector<Setting> settings) : settings_(std::move(settings)), used_(settings_.size()) {}
 
   /// Overwrites the fields of `values` that are set; a field's key is `prefix` + its name. A value that does not fit is
   /// BadInput.
   template <HasFields T>
   void read(T& values, const std::string& prefix = "") {
-    for_each_field(values, [&](std::string_view name, auto& member) { read_one(prefix + std::string(name), member); });
+    T::fields([&](std::string_view name, auto member, const auto&... facts) {
+      const std::size_t before = rows_ == nullptr ? 0 : rows_->size();
+      read_one(prefix + std::string(name), values.*member);
+      if (rows_ != nullptr && rows_->size() > before) (*rows_)[before].description = facts_of(facts...).description;
+    });
   }
+
+  /// The keys read so far of settings that describe.
+  const std::vector<SettingRow>& rows() const { return *rows_; }
 
   bool has(const std::string& key) const;
   /// Adds a number that follows from something else, described by `from`; a module need not read it. If the key is set,
@@ -67,6 +91,7 @@ class Settings {
   void read_one(const std::string& key, Pose& value);
   template <class T, std::size_t N>
   void read_one(const std::string& key, std::array<T, N>& values) {
+    if (rows_ != nullptr) return describe_list(key, N, values[0]);
     for (std::size_t i = 0; i < N; ++i) read_one(element(key, i), values[i]);
   }
   /// A text of C: the letters, and zeros behind them.
@@ -82,6 +107,8 @@ class Settings {
   /// If element 0 is set: the elements up to the first that is not; otherwise unchanged.
   template <class T, std::size_t N>
   void read_one(const std::string& key, Bounded<T, N>& values) {
+    T first{};
+    if (rows_ != nullptr) return describe_list(key, N, first);
     if (has_any(element(key, 0))) values.clear();
     for (std::size_t i = 0; i < N && has_any(element(key, i)); ++i) {
       values.push_back(T{});
@@ -110,11 +137,20 @@ class Settings {
   /// True if the key or one below it is set.
   bool has_any(const std::string& key) const;
   const Setting* take(const std::string& key);
+  /// Adds a row to settings that describe.
+  void describe(const std::string& key, SettingRow::Kind kind, double least, double most, std::string otherwise);
+  template <class T>
+  void describe_list(const std::string& key, std::size_t count_max, T& first) {
+    describe(key, SettingRow::Kind::list, 0, static_cast<double>(count_max), "");
+    read_one(element(key, 0), first);
+  }
+  SettingRow* row_of(const std::string& key) const;
   void read_integer(const std::string& key, std::int64_t& value, std::int64_t least, std::int64_t most);
 
   std::vector<Setting> settings_;
   std::vector<bool> used_;
   std::vector<std::string> known_;
+  std::shared_ptr<std::vector<SettingRow>> rows_;  ///< null: they do not describe
 };
 
 }  // namespace waitpoint::genom

@@ -65,10 +65,13 @@ threads::ClockOptions read_clock(Settings& settings, const std::string& key) {
 
 }  // namespace
 
+std::span<const std::string_view> clock_kinds() { return kinds; }
+
 TaskComputing read_processor(Settings& settings, const std::string& prefix, const NameSpace& names,
                              TaskComputing defaults) {
-  if (std::string name; settings.has(prefix + "processor")) {
-    settings.read_one(prefix + "processor", name);
+  std::string name;
+  settings.read_one(prefix + "processor", name);
+  if (settings.has(prefix + "processor")) {
     defaults.on = names.find_processor(name);
     if (defaults.on == nullptr) settings.reject(prefix + "processor", "one of this robot's processors");
   }

@@ -9,6 +9,9 @@
 //     control: {clock: cpu}           # the module's control task
 #pragma once
 
+#include <span>
+#include <string_view>
+
 #include "modules/genom/name_space.hpp"
 #include "modules/genom/settings.hpp"
 
@@ -19,6 +22,9 @@ struct TaskComputing {
   threads::processor* on = nullptr;
   int priority = 0;
 };
+
+/// The words for the kinds of clocks.
+std::span<const std::string_view> clock_kinds();
 
 /// Reads `processor` and `priority` behind `prefix`, which override `defaults`. A processor that the robot does not
 /// declare is BadInput.

@@ -18,9 +18,9 @@ struct TrackingParameters {
   double independent_share = 0.1;
   double position_floor_m = 0.01;
   double heading_floor_rad = 0.004;
-  double explained_min = 0.4;     ///< share of the echoes that the map must explain for a scan to be used
-  std::uint32_t lost_scans = 10;  ///< consecutive scans below it after which the robot is lost
-  std::uint32_t rest_scans = 5;   ///< a robot at rest uses every so many scans
+  double explained_min = 0.4;
+  std::uint32_t lost_scans = 10;
+  std::uint32_t rest_scans = 5;
   double rest_m = 0.02, rest_rad = 0.01;
 
   static void fields(auto field) {
@@ -31,32 +31,32 @@ struct TrackingParameters {
     field("independent_share", &P::independent_share);
     field("position_floor_m", &P::position_floor_m);
     field("heading_floor_rad", &P::heading_floor_rad);
-    field("explained_min", &P::explained_min);
-    field("lost_scans", &P::lost_scans);
-    field("rest_scans", &P::rest_scans);
+    field("explained_min", &P::explained_min, "share of the echoes that the map must explain for a scan to be used");
+    field("lost_scans", &P::lost_scans, "consecutive scans below it after which the robot is lost");
+    field("rest_scans", &P::rest_scans, "a robot at rest uses every so many scans");
     field("rest_m", &P::rest_m);
     field("rest_rad", &P::rest_rad);
   }
 };
 
 struct FindingParameters {
-  double view_turn_rad = 0.35;   ///< a scan is added to the panorama after so much turn,
-  double view_travel_m = 0.4;    ///< or travel
-  std::uint32_t views_min = 10;  ///< of a panorama that is searched for
-  std::uint32_t views_max = 30;  ///< beyond them, the oldest view is forgotten
-  double score_min = 0.5;        ///< of a place: the mean score of the panorama's points, from 0 to 1
-  double rival_share = 0.9;      ///< a place is ambiguous if the map explains this share as much at another
-  double explained_min = 0.75;   ///< share of the panorama that the map explains at the place
+  double view_turn_rad = 0.35;
+  double view_travel_m = 0.4;
+  std::uint32_t views_min = 10;
+  std::uint32_t views_max = 30;
+  double score_min = 0.5;
+  double rival_share = 0.9;
+  double explained_min = 0.75;
 
   static void fields(auto field) {
     using P = FindingParameters;
-    field("view_turn_rad", &P::view_turn_rad);
-    field("view_travel_m", &P::view_travel_m);
-    field("views_min", &P::views_min);
-    field("views_max", &P::views_max);
-    field("score_min", &P::score_min);
-    field("rival_share", &P::rival_share);
-    field("explained_min", &P::explained_min);
+    field("view_turn_rad", &P::view_turn_rad, "a scan is added to the panorama after so much turn,");
+    field("view_travel_m", &P::view_travel_m, "or travel");
+    field("views_min", &P::views_min, "of a panorama that is searched for");
+    field("views_max", &P::views_max, "beyond them, the oldest view is forgotten");
+    field("score_min", &P::score_min, "of a place: the mean score of the panorama's points, from 0 to 1");
+    field("rival_share", &P::rival_share, "a place is ambiguous if the map explains this share as much at another");
+    field("explained_min", &P::explained_min, "share of the panorama that the map explains at the place");
   }
 };
 

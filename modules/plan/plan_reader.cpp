@@ -5,6 +5,7 @@
 
 #include "core/nearest_name.hpp"
 #include "core/number_text.hpp"
+#include "modules/plan/plan_keys.hpp"
 #include "modules/scenario/robot_reader.hpp"
 #include "modules/scenario/yaml_reader.hpp"
 
@@ -14,9 +15,6 @@ using scenario::YamlMap;
 using scenario::YamlNode;
 
 namespace {
-
-constexpr std::uint64_t amount_max = 1'000'000;
-constexpr NumberRange any_number{-1e12, 1e12, "a number from -1e12 to 1e12"};
 
 Duration read_seconds(const YamlNode& node, const std::string& what, bool is_signed = false) {
   Duration duration;
@@ -70,7 +68,7 @@ std::vector<Request> read_requests(const YamlMap& map, std::string_view key) {
     if (item.kind == YamlNode::Kind::map && item.find("tcl") != nullptr) {
       requests.push_back(read_call(YamlMap(item, "a request", {"tcl"}).require("tcl")));
     } else if (item.kind == YamlNode::Kind::map) {
-      const YamlMap request(item, "a request", {"request", "input"});
+      const YamlMap request(item, "a request", request_keys().names());
       requests.push_back(read_request(request.require("request"), request.find("input")));
     } else {
       requests.push_back(read_request(item, nullptr));
@@ -84,7 +82,7 @@ std::vector<Condition> read_conditions(const YamlMap& map, std::string_view key)
   const YamlNode* list = map.find(key);
   if (list == nullptr) return conditions;
   for (const YamlNode& item : read_list(*list, key)) {
-    const YamlMap row(item, "a condition", {"poster", "field", "at_least", "at_most", "equals"});
+    const YamlMap row(item, "a condition", condition_keys().names());
     Condition& condition = conditions.emplace_back();
     condition.written = item.written;
     const auto [module, name] = read_dotted(row.require("poster"), "poster");
@@ -124,7 +122,7 @@ std::size_t find(const std::vector<Named>& known, const std::string& name, const
     if (known[i].name == name) return i;
     names.push_back(known[i].name);
   }
-  throw written.bad("there is no " + what + " '" + name + "'" + did_you_mean(name, names));
+  throw written.bad("there is no " + what + " '" + name + "'" + did_you_mean_or_expected(name, names));
 }
 
 template <class Named>
@@ -138,7 +136,7 @@ void read_resources(const YamlMap& map, Plan& plan) {
   const YamlNode* list = map.find("resources");
   if (list == nullptr) return;
   for (const YamlNode& item : read_list(*list, "resources")) {
-    const YamlMap row(item, "a resource", {"name", "capacity"});
+    const YamlMap row(item, "a resource", resource_keys().names());
     Resource resource{read_name(row, "a resource"), 1, item.written};
     row.read("capacity", resource.capacity, 1, amount_max);
     check_new(plan.resources, resource.name, "resource", item.written);
@@ -178,15 +176,13 @@ void read_uses(const YamlMap& row, const Plan& plan, Action& action) {
 
 void read_action(const YamlNode& item, Plan& plan) {
   const std::string title = name_of(item).empty() ? "an action" : "action '" + std::string(name_of(item)) + "'";
-  const YamlMap row(item, title,
-                    {"name", "kind", "duration_s", "request", "input", "tcl", "stop", "rendezvous", "when", "during",
-                     "uses", "after"});
+  const YamlMap row(item, title, action_keys().names());
   Action action;
   action.name = read_name(row, "an action");
   action.written = item.written;
   check_new(plan.actions, action.name, "action", item.written);
   const int ends = row.has("request") + row.has("tcl") + row.has("rendezvous");
-  action.contingent = row.one_of("kind", {"controllable", "contingent"}, row.has("rendezvous") ? 1 : 0) == 1;
+  action.contingent = row.one_of("kind", action_kinds, row.has("rendezvous") ? 1 : 0) == 1;
   read_duration(row, action);
   if (const YamlNode* request = row.find("request")) action.request = read_request(*request, row.find("input"));
   if (const YamlNode* call = row.find("tcl")) action.request = read_call(*call);
@@ -249,7 +245,7 @@ void read_constraints(const YamlMap& map, Plan& plan) {
   const YamlNode* list = map.find("constraints");
   if (list == nullptr) return;
   for (const YamlNode& item : read_list(*list, "constraints")) {
-    const YamlMap row(item, "a constraint", {"name", "from", "to", "least_s", "most_s"});
+    const YamlMap row(item, "a constraint", constraint_keys().names());
     Constraint constraint;
     constraint.written = item.written;
     constraint.from = read_point(row, "from", plan);
@@ -277,7 +273,7 @@ void read_alternatives(const YamlMap& map, Plan& plan) {
   const YamlNode* list = map.find("alternatives");
   if (list == nullptr) return;
   for (const YamlNode& item : read_list(*list, "alternatives")) {
-    const YamlMap row(item, "an alternative", {"name", "branches"});
+    const YamlMap row(item, "an alternative", alternative_keys().names());
     Alternative alternative{read_name(row, "an alternative"), 0};
     check_new(plan.alternatives, alternative.name, "alternative", item.written);
     for (const YamlNode& branch : read_list(row.require("branches"), "branches")) {
@@ -312,9 +308,7 @@ bool parse_seconds(std::string_view text, Duration& duration) {
 }
 
 Plan read_plan(const YamlNode& document) {
-  const YamlMap map(document, "the plan",
-                    {"format", "name", "description", "poll_ms", "setup", "ready", "resources", "actions",
-                     "constraints", "alternatives", "safe", "done"});
+  const YamlMap map(document, "the plan", plan_keys().names());
   read_count(map.require("format"), "format", 1, 1);
   Plan plan;
   plan.file = document.written.file;

@@ -16,9 +16,6 @@
 
 namespace waitpoint::plan {
 
-/// The greatest number of actions of a plan.
-inline constexpr std::size_t actions_max = 200;
-
 /// Throws BadInput with file and line for anything but a plan. Modules, requests and posters are not looked up.
 Plan read_plan(const scenario::YamlNode& document);
 

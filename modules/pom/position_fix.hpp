@@ -15,19 +15,19 @@ namespace waitpoint::pom {
 using posters::UncertainPose;
 
 struct FixParameters {
-  bool gps = false;                                 ///< true: the robot's receiver is a source
-  double gps_antenna_x_m = 0, gps_antenna_y_m = 0;  ///< in the robot's frame
-  double gps_noise_m = 1;                           ///< standard deviation per axis, independent in every fix
-  double gps_drift_m = 0;                           ///< standard deviation per axis of the error shared by fixes
-  double gps_gate = 13.82;                          ///< chi square of 2 degrees of freedom at 99.9 %
+  bool gps = false;
+  double gps_antenna_x_m = 0, gps_antenna_y_m = 0;
+  double gps_noise_m = 1;
+  double gps_drift_m = 0;
+  double gps_gate = 13.82;
 
   static void fields(auto field) {
-    field("gps", &FixParameters::gps);
-    field("gps_antenna_x_m", &FixParameters::gps_antenna_x_m);
+    field("gps", &FixParameters::gps, "true: the robot's receiver is a source");
+    field("gps_antenna_x_m", &FixParameters::gps_antenna_x_m, "in the robot's frame");
     field("gps_antenna_y_m", &FixParameters::gps_antenna_y_m);
-    field("gps_noise_m", &FixParameters::gps_noise_m);
-    field("gps_drift_m", &FixParameters::gps_drift_m);
-    field("gps_gate", &FixParameters::gps_gate);
+    field("gps_noise_m", &FixParameters::gps_noise_m, "standard deviation per axis, independent in every fix");
+    field("gps_drift_m", &FixParameters::gps_drift_m, "standard deviation per axis of the error shared by fixes");
+    field("gps_gate", &FixParameters::gps_gate, "chi square of 2 degrees of freedom at 99.9 %");
   }
 };
 

@@ -29,22 +29,25 @@
 namespace waitpoint::pom {
 
 struct FusionParameters {
-  bool kalman = true;                  ///< Kalman fusion; false: the more certain of state and correction is used alone
-  bool shared_errors = true;           ///< sources may share errors with odometry, as those that use it do
-  double gate = 16.27;                 ///< chi square of 3 degrees of freedom at 99.9 %
-  double uncertain_m = 0.3;            ///< the state is `uncertain` above this standard deviation
-  double uncertain_rad = 0.2;          ///< or above this one
-  double motion_covariance_scale = 1;  ///< factor on the odometry's covariance
-  double extrapolation_s_max = 0.1;    ///< extrapolation of the last motion beyond the newest odometry
+  bool kalman = true;
+  bool shared_errors = true;
+  double gate = 16.27;
+  double uncertain_m = 0.3;
+  double uncertain_rad = 0.2;
+  double motion_covariance_scale = 1;
+  double extrapolation_s_max = 0.1;
 
   static void fields(auto field) {
-    field("kalman", &FusionParameters::kalman);
-    field("shared_errors", &FusionParameters::shared_errors);
-    field("gate", &FusionParameters::gate);
-    field("uncertain_m", &FusionParameters::uncertain_m);
-    field("uncertain_rad", &FusionParameters::uncertain_rad);
-    field("motion_covariance_scale", &FusionParameters::motion_covariance_scale);
-    field("extrapolation_s_max", &FusionParameters::extrapolation_s_max);
+    field("kalman", &FusionParameters::kalman,
+          "Kalman fusion; false: the more certain of state and correction is used alone");
+    field("shared_errors", &FusionParameters::shared_errors,
+          "sources may share errors with odometry, as those that use it do");
+    field("gate", &FusionParameters::gate, "chi square of 3 degrees of freedom at 99.9 %");
+    field("uncertain_m", &FusionParameters::uncertain_m, "the state is `uncertain` above this standard deviation");
+    field("uncertain_rad", &FusionParameters::uncertain_rad, "or above this one");
+    field("motion_covariance_scale", &FusionParameters::motion_covariance_scale, "factor on the odometry's covariance");
+    field("extrapolation_s_max", &FusionParameters::extrapolation_s_max,
+          "extrapolation of the last motion beyond the newest odometry");
   }
 };
 

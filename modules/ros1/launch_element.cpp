@@ -21,9 +21,8 @@ void require_known(const LaunchScope& scope, const tinyxml2::XMLElement& element
   if (name == "machine" || name == "master")
     throw written.bad("expected no " + in_brackets(name) +
                       ": all nodes of a simulation have one machine and its master");
-  const std::string hint = did_you_mean(name, known);
   throw written.bad("unknown element " + in_brackets(name) + " in " + in_brackets(holder) +
-                    (hint.empty() ? ", expected " + word_list(known) : hint));
+                    did_you_mean_or_expected(name, known));
 }
 
 LaunchElement::LaunchElement(const tinyxml2::XMLElement& element, LaunchScope& scope, Substitution& substitution,
@@ -34,9 +33,8 @@ LaunchElement::LaunchElement(const tinyxml2::XMLElement& element, LaunchScope& s
   for (const auto* each = element.FirstAttribute(); each != nullptr; each = each->Next()) {
     const std::string_view given = each->Name();
     if (std::find(known.begin(), known.end(), given) != known.end()) continue;
-    const std::string hint = did_you_mean(given, known);
     throw bad("unknown attribute '" + std::string(given) + "' of " + in_brackets(name()) +
-              (hint.empty() ? ", expected " + word_list(known) : hint));
+              did_you_mean_or_expected(given, known));
   }
 }
 

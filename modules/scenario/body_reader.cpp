@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "modules/posters/base.hpp"
+#include "modules/scenario/keys.hpp"
 #include "modules/scenario/robot_model.hpp"
 #include "modules/scenario/sensor_reader.hpp"
 #include "modules/scenario/shape_reader.hpp"
@@ -15,14 +16,9 @@ using namespace std::chrono_literals;
 
 using Kind = world::BaseDescription::Kind;
 
-constexpr Kind kinds[] = {Kind::differential, Kind::synchro,    Kind::omni,
-                          Kind::ackermann,    Kind::skid_steer, Kind::aerial};
-
 constexpr NumberRange volts{0, 1e5, "a number of volts from 0 to 100000"};
 constexpr NumberRange electrical{0, 1e6, "a number from 0 to 1000000"};
 constexpr NumberRange battery_number{1e-6, 1e6, "a number from 0.000001 to 1000000"};
-constexpr NumberRange battery_range{1e-3, 1e9, "a number of metres from 0.001 to 1e9"};
-constexpr NumberRange force{1e-3, 1e9, "a number of newtons from 0.001 to 1e9"};
 
 bool has_two_sides(Kind kind) { return kind == Kind::differential || kind == Kind::skid_steer; }
 
@@ -34,90 +30,43 @@ void only_for(const YamlMap& map, bool is_such, std::string_view such, std::init
       throw node->written.bad("expected no " + std::string(key) + ": it is for a base of kind " + std::string(such));
 }
 
-world::OdometryErrors read_odometry(const YamlNode& node, Kind kind) {
-  const YamlMap map(
-      node, "the odometry",
-      {"travel_scale", "turn_scale", "drift_rad_per_m", "travel_noise_m_per_sqrt_m", "turn_noise_rad_per_sqrt_m",
-       "turn_noise_rad_per_sqrt_rad", "slips_per_m", "slip_m", "slip_turn_rad", "units_per_m", "units_per_rad",
-       "wheel_diameter_ratio", "wheel_base_ratio", "wheel_noise_m_per_sqrt_m", "wheel_ticks_per_m"});
-  world::OdometryErrors errors;
-  map.read("travel_scale", errors.travel_scale, ranges::factor);
-  map.read("turn_scale", errors.turn_scale, ranges::factor);
-  map.read("drift_rad_per_m", errors.drift_rad_per_m, ranges::signed_angle_error);
-  map.read("travel_noise_m_per_sqrt_m", errors.travel_noise_m_per_sqrt_m, ranges::length_error);
-  map.read("turn_noise_rad_per_sqrt_m", errors.turn_noise_rad_per_sqrt_m, ranges::angle_error);
-  map.read("turn_noise_rad_per_sqrt_rad", errors.turn_noise_rad_per_sqrt_rad, ranges::angle_error);
-  constexpr NumberRange slips{0, 1000, "a number from 0 to 1000"};
-  map.read("slips_per_m", errors.slips_per_m, slips);
-  map.read("slip_m", errors.slip_m, ranges::length_error);
-  map.read("slip_turn_rad", errors.slip_turn_rad, ranges::angle_error);
-  map.read("units_per_m", errors.units_per_m, ranges::units);
-  map.read("units_per_rad", errors.units_per_rad, ranges::units);
-  only_for(map, has_two_sides(kind), "differential or skid_steer",
-           {"wheel_diameter_ratio", "wheel_base_ratio", "wheel_noise_m_per_sqrt_m", "wheel_ticks_per_m"});
-  map.read("wheel_diameter_ratio", errors.wheel_diameter_ratio, ranges::factor);
-  map.read("wheel_base_ratio", errors.wheel_base_ratio, ranges::factor);
-  map.read("wheel_noise_m_per_sqrt_m", errors.wheel_noise_m_per_sqrt_m, ranges::length_error);
-  map.read("wheel_ticks_per_m", errors.wheel_ticks_per_m, ranges::units);
-  return errors;
+/// The schema's form of only_for(): with one of these keys `kind` is one of the words.
+Json needs_kind(std::initializer_list<const char*> keys, std::initializer_list<const char*> kinds) {
+  Json given = Json::array(), words = Json::array();
+  for (const char* key : keys) given.push_back(needed({key}));
+  for (const char* kind : kinds) words.push_back(kind);
+  return {{"if", {{"anyOf", given}}},
+          {"then", {{"properties", {{"kind", {{"enum", words}}}}}, {"required", {"kind"}}}}};
 }
 
-void read_kind(const YamlMap& map, world::BaseDescription& base) {
-  const auto otherwise = static_cast<std::size_t>(std::find(std::begin(kinds), std::end(kinds), base.kind) - kinds);
-  base.kind =
-      kinds[map.one_of("kind", {"differential", "synchro", "omni", "ackermann", "skid_steer", "aerial"}, otherwise)];
-  only_for(map, base.kind == Kind::skid_steer, "skid_steer", {"effective_axle_ratio"});
-  only_for(map, base.kind == Kind::ackermann, "ackermann", {"wheelbase_m", "steering_max_deg", "steering_rate_deg_s"});
-  only_for(map, base.kind == Kind::aerial, "aerial", {"climb_max_m_s", "climb_acceleration_m_s2"});
-  constexpr NumberRange longer{1, 1e3, "a number from 1 to 1000"};
-  map.read("effective_axle_ratio", base.effective_axle_ratio, longer);
-  map.read("wheelbase_m", base.wheelbase_m, ranges::length);
-  constexpr NumberRange steering{least_nonzero, 89, "degrees above 0, at most 89"};
-  map.read_degrees("steering_max_deg", base.steering_max_rad, steering);
-  constexpr NumberRange steering_rate{1e-3, 1e6, "degrees per second from 0.001 to 1000000"};
-  map.read_degrees("steering_rate_deg_s", base.steering_rate_rad_s, steering_rate);
-  map.read("climb_max_m_s", base.climb_max_m_s, ranges::rate);
-  map.read("climb_acceleration_m_s2", base.climb_acceleration_m_s2, ranges::acceleration);
+void check_keys_of_kind(const YamlMap& map, Kind kind) {
+  only_for(map, kind == Kind::skid_steer, "skid_steer", {"effective_axle_ratio"});
+  only_for(map, kind == Kind::ackermann, "ackermann", {"wheelbase_m", "steering_max_deg", "steering_rate_deg_s"});
+  only_for(map, kind == Kind::aerial, "aerial", {"climb_max_m_s", "climb_acceleration_m_s2"});
+  const YamlNode* const odometry = map.find("odometry");
+  if (odometry == nullptr) return;
+  only_for(YamlMap(*odometry, "the odometry", keys_of<world::OdometryErrors>().table().names()), has_two_sides(kind),
+           "differential or skid_steer",
+           {"wheel_diameter_ratio", "wheel_base_ratio", "wheel_noise_m_per_sqrt_m", "wheel_ticks_per_m"});
+}
+
+const Keys<world::BaseDescription>& base_keys() {
+  static const Keys<world::BaseDescription> keys =
+      Keys<world::BaseDescription>("base")
+          .add_fields()
+          .add("odometry", &world::BaseDescription::odometry, object_form<world::OdometryErrors>("the odometry"),
+               "errors of the odometry")
+          .require(needs_kind({"effective_axle_ratio"}, {"skid_steer"}))
+          .require(needs_kind({"wheelbase_m", "steering_max_deg", "steering_rate_deg_s"}, {"ackermann"}))
+          .require(needs_kind({"climb_max_m_s", "climb_acceleration_m_s2"}, {"aerial"}));
+  return keys;
 }
 
 world::BaseDescription read_base(const YamlNode& node, world::BaseDescription base) {
-  const YamlMap map(node, "the base",
-                    {"kind",
-                     "v_max_m_s",
-                     "w_max_rad_s",
-                     "v_acceleration_m_s2",
-                     "w_acceleration_rad_s2",
-                     "axle_m",
-                     "effective_axle_ratio",
-                     "wheelbase_m",
-                     "steering_max_deg",
-                     "steering_rate_deg_s",
-                     "climb_max_m_s",
-                     "climb_acceleration_m_s2",
-                     "mass_kg",
-                     "drive_force_n",
-                     "grip",
-                     "watchdog_ms",
-                     "odometry",
-                     "battery_volts_full",
-                     "battery_volts_empty",
-                     "battery_capacity_s",
-                     "battery_capacity_m"});
-  read_kind(map, base);
-  map.read("v_max_m_s", base.v_max_m_s, ranges::rate);
-  map.read("w_max_rad_s", base.w_max_rad_s, ranges::rate);
-  map.read("v_acceleration_m_s2", base.v_acceleration_m_s2, ranges::acceleration);
-  map.read("w_acceleration_rad_s2", base.w_acceleration_rad_s2, ranges::acceleration);
-  map.read("mass_kg", base.mass_kg, mass_number);
-  map.read("drive_force_n", base.drive_force_n, force);
-  map.read("grip", base.grip, friction_number);
-  map.read("axle_m", base.axle_m, ranges::length);
-  map.read("watchdog_ms", base.watchdog, 1ms);
-  if (const YamlNode* odometry = map.find("odometry")) base.odometry = read_odometry(*odometry, base.kind);
-  map.read("battery_volts_full", base.battery_volts_full, volts);
-  map.read("battery_volts_empty", base.battery_volts_empty, volts);
-  map.read("battery_capacity_s", base.battery_capacity_s, ranges::time_constant);
-  map.read("battery_capacity_m", base.battery_capacity_m, battery_range);
+  if (node.find("odometry") != nullptr) base.odometry = {};
+  const YamlMap map(node, "the base", base_keys().table().names());
+  base_keys().read(map, base);
+  check_keys_of_kind(map, base.kind);
   return base;
 }
 
@@ -156,7 +105,24 @@ world::BatteryDescription read_battery(const YamlNode& node) {
   return battery;
 }
 
+Json device_schema(SchemaDefinitions&) { return {{"type", "object"}}; }
+Json devices_schema(SchemaDefinitions&) { return list_schema({{"type", "object"}}); }
+
 }  // namespace
+
+const KeyTable& device_keys() {
+  static const KeyTable keys =
+      KeyTable("devices")
+          .add("base", map_of(base_keys().table()), "motion, limits, battery, and the errors of its odometry")
+          .add("lasers", devices_schema, "a list of lasers")
+          .add("sonars", devices_schema, "a list of rings of sonars")
+          .add("bumpers", device_schema, "a ring of bumpers")
+          .add("infrareds", device_schema, "a ring of infrared range finders")
+          .add("imu", device_schema, "gyro and accelerometers")
+          .add("gps", device_schema, "a receiver of positions")
+          .add("battery", device_schema, "a battery pack and its loads");
+  return keys;
+}
 
 BodyReading read_body(const YamlMap& robot, const BodyReading* given) {
   BodyReading reading;

@@ -7,10 +7,13 @@
 #include <string>
 #include <vector>
 
-#include "modules/scenario/yaml_reader.hpp"
+#include "modules/scenario/keys.hpp"
 #include "world/description.hpp"
 
 namespace waitpoint::scenario {
+
+/// The keys of a robot for its base and devices.
+const KeyTable& device_keys();
 
 struct BodyReading {
   world::BodyDescription body;           ///< without name and start

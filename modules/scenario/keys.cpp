@@ -35,4 +35,20 @@ Json KeyTable::whole_schema(SchemaDefinitions& definitions) const {
   return schema;
 }
 
+SchemaMaker map_of(const KeyTable& keys) {
+  return [&keys](SchemaDefinitions& definitions) { return keys.schema(definitions); };
+}
+
+SchemaMaker list_of(const KeyTable& keys) {
+  return [&keys](SchemaDefinitions& definitions) { return list_schema(keys.schema(definitions)); };
+}
+
+SchemaMaker text_or(const KeyTable& keys) {
+  return [&keys](SchemaDefinitions& definitions) { return any_of({text_schema(), keys.schema(definitions)}); };
+}
+
+SchemaMaker texts(std::size_t size_min) {
+  return [size_min](SchemaDefinitions&) { return list_schema(text_schema(), size_min); };
+}
+
 }  // namespace waitpoint::scenario

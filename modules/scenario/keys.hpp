@@ -80,6 +80,13 @@ class KeyTable {
   std::vector<Json> also_;
 };
 
+/// Of a map with these keys, of a list of such maps, and of one that may be a text alone: that of its first key.
+SchemaMaker map_of(const KeyTable& keys);
+SchemaMaker list_of(const KeyTable& keys);
+SchemaMaker text_or(const KeyTable& keys);
+/// Of a list of at least so many texts.
+SchemaMaker texts(std::size_t size_min = 0);
+
 template <class T>
 class Keys {
  public:

@@ -14,10 +14,10 @@
 namespace waitpoint::scenario {
 namespace {
 
-using Keys = std::initializer_list<std::string_view>;
+using Names = std::initializer_list<std::string_view>;
 
 /// Throws at the first key of `map` that has a value and is not among `good`.
-void check_keys(const YamlNode& map, const Keys& good, const std::string& reason) {
+void check_keys(const YamlNode& map, const Names& good, const std::string& reason) {
   for (const YamlEntry& entry : map.entries)
     if (!entry.value.is_null() && std::find(good.begin(), good.end(), entry.key) == good.end())
       throw entry.written.bad("expected no '" + entry.key + "' " + reason);
@@ -39,6 +39,25 @@ void read_choice(const YamlNode& log, const char* key, std::string& name, std::s
 
 }  // namespace
 
+const Keys<logs::GivenLaser>& log_keys() {
+  using Laser = logs::GivenLaser;
+  static const Keys<Laser> keys =
+      Keys<Laser>("log")
+          .add("file", text_form().schema, "CARMEN, GMapping, ROS 1 bag or MCAP, also compressed by gzip",
+               Need::required)
+          .add("scan", text_form().schema, "what to take of a log that has several, as of `waitpoint replay`")
+          .add("odometry", text_form().schema, "the same")
+          .add("robot", text_form().schema, "the same")
+          .add("field_of_view_deg", &Laser::field_of_view_rad,
+               optional_form(degrees_form({0.1, 360, "an angle from 0.1 to 360"})),
+               "from the first beam to the last, half on either side of the laser's axis; without it of the log")
+          .add("mount", &Laser::mount, optional_form(pose_form()),
+               "`[x, y, heading_deg]` of the laser on the robot; without it of the log")
+          .add("range_max_m", &Laser::range_max_m, optional_form(number_form(ranges::length)),
+               "readings from here on are no echoes; without it of the log");
+  return keys;
+}
+
 LogFile read_log(const YamlNode& node) {
   LogFile log;
   log.written = node.written;
@@ -49,13 +68,9 @@ LogFile read_log(const YamlNode& node) {
     log.file = read_file(node);
     return log;
   }
-  const YamlMap map(node, "the log",
-                    {"file", "scan", "odometry", "robot", "field_of_view_deg", "mount", "range_max_m"});
+  const YamlMap map(node, "the log", log_keys().table().names());
   log.file = read_file(map.require("file"));
-  if (map.has("field_of_view_deg"))
-    log.laser.field_of_view_rad = radians(map.number("field_of_view_deg", {0.1, 360, "an angle from 0.1 to 360"}));
-  if (const YamlNode* mount = map.find("mount")) log.laser.mount = read_pose(*mount, "mount");
-  if (map.has("range_max_m")) log.laser.range_max_m = map.number("range_max_m", ranges::length);
+  log_keys().read(map, log.laser);
   return log;
 }
 

@@ -5,11 +5,14 @@
 //   log: {file: run.bag, scan: /scan, odometry: /odom, field_of_view_deg: 180, mount: [0.1, 0, 0], range_max_m: 30}
 #pragma once
 
+#include "modules/scenario/keys.hpp"
 #include "modules/scenario/scenario.hpp"
 #include "modules/scenario/yaml_reader.hpp"
 
 namespace waitpoint::scenario {
 
+/// What the log's map has beside its choice of records.
+const Keys<logs::GivenLaser>& log_keys();
 /// Does not open the log. Throws BadInput with the line for values out of range.
 LogFile read_log(const YamlNode& node);
 

@@ -11,6 +11,7 @@
 #include "modules/ros1/launch_file.hpp"
 #include "modules/ros1/substitution.hpp"
 #include "modules/scenario/command_reader.hpp"
+#include "modules/scenario/nodes_keys.hpp"
 #include "modules/scenario/parameter_value.hpp"
 #include "modules/scenario/poster_topics.hpp"
 
@@ -84,9 +85,7 @@ void read_parameters_of_node(const YamlNode& params, const std::string& node, ro
 }
 
 void read_node(const YamlNode& item, const std::string& ns, ros1::Launch& launch) {
-  const YamlMap map(item, "a node",
-                    {"name", "command", "package", "type", "arguments", "namespace", "params", "remap", "environment",
-                     "after", "required", "output", "clear_params", "clock", "enabled"});
+  const YamlMap map(item, "a node", node_keys().names());
   ros1::Node node;
   node.written = item.written;
   node.name = map.text("name");
@@ -106,7 +105,7 @@ void read_node(const YamlNode& item, const std::string& ns, ros1::Launch& launch
   });
   if (const YamlNode* after = map.find("after")) read_conditions_of_node(*after, node);
   map.read("required", node.required);
-  node.output = map.one_of("output", {"log", "screen"}, 0) == 1 ? ros1::Node::Output::screen : ros1::Node::Output::log;
+  node.output = map.one_of("output", output_words, 0) == 1 ? ros1::Node::Output::screen : ros1::Node::Output::log;
   node.clock = map.text("clock", "");
   bool clears = false, enabled = true;
   map.read("clear_params", clears);
@@ -125,7 +124,7 @@ void read_launch(const YamlNode& node, const std::string& ns, ros1::Launch& laun
   request.written = node.written;
   const YamlNode* file = &node;
   if (node.kind == YamlNode::Kind::map) {
-    const YamlMap map(node, "launch", {"file", "args"});
+    const YamlMap map(node, "launch", launch_keys().names());
     file = &map.require("file");
     for_each_text(map, "args",
                   [&](const YamlEntry& entry, const std::string& value) { request.arguments[entry.key] = value; });
@@ -148,7 +147,7 @@ void read_namespace(const RobotScenario& robot, bool is_only_one, NodesScenario&
   const YamlNode* const ros = nodes.document->find("ros");
   const bool has_namespace = ros != nullptr && ros->find("namespace") != nullptr;
   if (ros != nullptr) {
-    const YamlMap map(*ros, "ros", {"namespace", "tf_prefix", "map_to_odom", "publish", "show"});
+    const YamlMap map(*ros, "ros", robot_ros_keys().names());
     // Both may be empty.
     const auto text_of = [&map](std::string_view key, const std::string& otherwise) {
       const YamlNode* const value = map.find(key);
@@ -158,7 +157,7 @@ void read_namespace(const RobotScenario& robot, bool is_only_one, NodesScenario&
     };
     nodes.ns = ros1::resolved(text_of("namespace", nodes.ns), "/");
     nodes.tf_prefix = text_of("tf_prefix", nodes.tf_prefix);
-    nodes.gives_map_to_odom = map.one_of("map_to_odom", {"truth", "nodes"}, 0) == 0;
+    nodes.gives_map_to_odom = map.one_of("map_to_odom", map_to_odom_words, 0) == 0;
   }
   if (!has_namespace && !ros1::is_graph_name(nodes.ns))
     throw robot.written.bad("expected a namespace in the key ros of robot '" + robot.name +
@@ -240,13 +239,9 @@ std::vector<const NodesScenario*> Scenario::all_nodes() const {
 bool Scenario::has_nodes() const { return !all_nodes().empty(); }
 
 RosScenario read_ros(const YamlNode& node) {
-  const YamlMap map(node, "ros", {"clock", "master", "delay_us"});
   RosScenario ros;
   ros.written = node.written;
-  map.read("clock", ros.publishes_clock);
-  map.read("delay_us", ros.delay, std::chrono::microseconds(1));
-  ros.master =
-      map.one_of("master", {"inside", "outside"}, 0) == 0 ? RosScenario::Master::inside : RosScenario::Master::outside;
+  read_object(node, "ros", ros_keys(), ros);
   return ros;
 }
 

@@ -30,7 +30,7 @@ void read_written_pose(const YamlNode& node, std::string_view what, Pose& pose) 
 }
 
 /// Of a map with x_m and y_m.
-Json map_schema(const SchemaDefinitions& definitions, Json properties) {
+Json place_map_schema(const SchemaDefinitions& definitions, Json properties) {
   properties["x_m"] = properties["y_m"] = number_schema(ranges::coordinate);
   Json schema = {{"type", "object"}, {"properties", std::move(properties)}, {"additionalProperties", false}};
   if (!definitions.is_partial()) schema["required"] = {"x_m", "y_m"};
@@ -58,7 +58,7 @@ Form<double> heading_form() {
 Form<Point> point_form() {
   return {read_written_point,
           [](SchemaDefinitions& definitions) {
-            return any_of({numbers_schema(ranges::coordinate, 2, 2), map_schema(definitions, Json::object())});
+            return any_of({numbers_schema(ranges::coordinate, 2, 2), place_map_schema(definitions, Json::object())});
           },
           [](const Point& point) {
             return Json::array({point.x, point.y});
@@ -69,7 +69,7 @@ Form<Pose> pose_form() {
   return {read_written_pose,
           [](SchemaDefinitions& definitions) {
             return any_of({pose_list_schema(),
-                           map_schema(definitions, {{"heading_deg", or_null(number_schema(heading_range))}})});
+                           place_map_schema(definitions, {{"heading_deg", or_null(number_schema(heading_range))}})});
           },
           [](const Pose& pose) {
             return Json::array({pose.x, pose.y, pose.heading / exact::pi * 180});

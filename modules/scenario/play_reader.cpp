@@ -7,6 +7,8 @@
 namespace waitpoint::scenario {
 namespace {
 
+using namespace std::chrono_literals;
+
 constexpr NumberRange seconds_from_zero{0, 1e6, "a number of seconds from 0 to 1e6"};
 constexpr NumberRange frequency{1e-2, 1e4, "a frequency from 0.01 to 10000 Hz"};
 
@@ -22,37 +24,55 @@ std::vector<std::string> read_topics(const YamlNode& list) {
   return topics;
 }
 
+void read_bag(const YamlNode& node, PlayScenario& play) {
+  play.bag_written = node.written;
+  play.bag = node.written.resolve(read_text(node, "bag"));
+  if (!Confinement::allows(play.bag))
+    throw node.written.bad("'" + play.bag.string() + "' lies outside of the folders that --confined allows");
+}
+
+void read_topics_of(const YamlNode& node, PlayScenario& play) {
+  play.topics = read_topics(node);
+  play.topics_written = node.written;
+}
+
+Json topics_schema(SchemaDefinitions&) { return list_schema(text_schema(), 1); }
+
 }  // namespace
 
+const Keys<PlayScenario>& play_keys() {
+  using Play = PlayScenario;
+  const Form<Duration> seconds = duration_form(1s, seconds_from_zero);
+  static const Keys<Play> keys =
+      Keys<Play>("play")
+          .add("bag", read_bag, text_form().schema, "the bag; `--play` takes its place")
+          .add("topics", read_topics_of, topics_schema, "those that are played; without it all")
+          .add("start_s", &Play::start, seconds,
+               "from this time after the bag's first message. Latched messages from before are published at the start")
+          .add("duration_s", &Play::duration, optional_form(duration_form(1s, ranges::time_constant)),
+               "for so long; without it to the bag's end")
+          .add("rate", &Play::rate, number_form(ranges::factor), "bag time by virtual time")
+          .add("delay_s", &Play::delay, seconds,
+               "from when all nodes that could start have registered with the master, to the first message")
+          .add("idle_s", &Play::idle, seconds,
+               "the run ends when, after the last message, nothing was heard of nodes for so long")
+          .add("end_s", &Play::end_most, seconds,
+               "the run ends so long after the last message, though nodes still publish")
+          .add("clock_hz", &Play::clock_hz, number_form(frequency),
+               "of `/clock`, with `ros: {clock: true}`: the bag's time")
+          .add("hear", &Play::hears, truth_form(),
+               "the run subscribes to what nodes publish, for the summary and `idle_s`")
+          .add("outputs", &Play::outputs, list_form(text_form(), "an output"),
+               "files that nodes write, relative to the current directory, whose digests are in the summary");
+  return keys;
+}
+
 PlayScenario read_play(const YamlNode& node) {
-  const YamlMap map(
-      node, "play",
-      {"bag", "topics", "start_s", "duration_s", "rate", "delay_s", "idle_s", "end_s", "clock_hz", "hear", "outputs"});
   PlayScenario play;
   play.written = node.written;
-  if (!map.has("bag")) throw node.written.bad("expected a bag in play, or the option --play BAG, found none");
-  const YamlNode& bag = map.require("bag");
-  play.bag_written = bag.written;
-  play.bag = bag.written.resolve(read_text(bag, "bag"));
-  if (!Confinement::allows(play.bag))
-    throw bag.written.bad("'" + play.bag.string() + "' lies outside of the folders that --confined allows");
-  if (const YamlNode* topics = map.find("topics")) {
-    play.topics = read_topics(*topics);
-    play.topics_written = topics->written;
-  }
-  const auto read_seconds = [&map](std::string_view key, Duration& value) {
-    if (map.has(key)) value = Duration::from_seconds(map.number(key, seconds_from_zero));
-  };
-  read_seconds("start_s", play.start);
-  if (map.has("duration_s")) play.duration = Duration::from_seconds(map.number("duration_s", ranges::time_constant));
-  map.read("rate", play.rate, ranges::factor);
-  read_seconds("delay_s", play.delay);
-  read_seconds("idle_s", play.idle);
-  read_seconds("end_s", play.end_most);
-  map.read("clock_hz", play.clock_hz, frequency);
-  map.read("hear", play.hears);
-  if (const YamlNode* outputs = map.find("outputs"))
-    for (const YamlNode& item : read_list(*outputs, "outputs")) play.outputs.push_back(read_text(item, "an output"));
+  if (node.find("bag") == nullptr && node.kind == YamlNode::Kind::map)
+    throw node.written.bad("expected a bag in play, or the option --play BAG, found none");
+  read_object(node, "play", play_keys(), play);
   return play;
 }
 

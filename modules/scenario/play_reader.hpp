@@ -7,11 +7,13 @@
 //     - {name: mapper, command: [nodes/mapper]}
 #pragma once
 
+#include "modules/scenario/keys.hpp"
 #include "modules/scenario/scenario.hpp"
 #include "modules/scenario/yaml_reader.hpp"
 
 namespace waitpoint::scenario {
 
+const Keys<PlayScenario>& play_keys();
 /// Does not open the bag. BadInput for values out of range.
 PlayScenario read_play(const YamlNode& node);
 

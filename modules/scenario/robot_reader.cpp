@@ -10,6 +10,7 @@
 #include "modules/scenario/command_reader.hpp"
 #include "modules/scenario/control_reader.hpp"
 #include "modules/scenario/nodes_reader.hpp"
+#include "modules/scenario/robot_keys.hpp"
 #include "modules/scenario/shape_reader.hpp"
 #include "modules/scenario/yaml_override.hpp"
 
@@ -79,7 +80,7 @@ std::string read_dotted(const YamlMap& row, std::string_view key) {
 std::vector<BridgeRow> read_bridge(const YamlNode& node) {
   std::vector<BridgeRow> rows;
   for (const YamlNode& item : read_list(node, "bridge")) {
-    const YamlMap map(item, "a row of the bridge", {"poster", "device", "latency_us"});
+    const YamlMap map(item, "a row of the bridge", bridge_row_keys().names());
     BridgeRow row{read_dotted(map, "poster"), read_dotted(map, "device"), Duration(), item.written};
     constexpr NumberRange latency{0, 3.6e9, "a number from 0 to 3600000000"};
     if (map.has("latency_us")) row.latency = Duration::from_seconds(map.number("latency_us", latency) * 1e-6);
@@ -134,7 +135,7 @@ void check_conditions(const std::vector<ProgramScenario>& programs) {
 std::vector<ProgramScenario> read_programs(const YamlNode& node) {
   std::vector<ProgramScenario> programs;
   for (const YamlNode& item : read_list(node, "programs")) {
-    const YamlMap map(item, "a program", {"name", "file", "arguments", "command", "after", "enabled"});
+    const YamlMap map(item, "a program", program_keys().names());
     ProgramScenario program;
     program.written = item.written;
     program.name = read_name(map.require("name"), "the name of a program");
@@ -188,7 +189,7 @@ std::vector<Goal> read_goals(const YamlNode& node) {
     Goal goal;
     goal.written = item.written;
     if (item.kind == YamlNode::Kind::map) {
-      const YamlMap map(item, "a goal", {"x_m", "y_m", "name"});
+      const YamlMap map(item, "a goal", goal_keys().names());
       goal.position.x = map.number("x_m", ranges::coordinate);
       goal.position.y = map.number("y_m", ranges::coordinate);
       goal.name = map.text("name", "");
@@ -212,11 +213,8 @@ std::shared_ptr<const YamlNode> read_plan_document(const YamlNode& node) {
 
 /// An element of `robots`, alone or laid over its type.
 YamlMap map_of_robot(const YamlNode& node) {
-  return YamlMap(
-      node, name_of(node).empty() ? "a robot" : "robot '" + std::string(name_of(node)) + "'",
-      {"name",    "type",      "start",      "goals",          "shape",      "base",      "lasers", "sonars", "modules",
-       "bridge",  "executive", "processors", "start_height_m", "bumpers",    "infrareds", "urdf",   "imu",    "gps",
-       "battery", "programs",  "control",    "plan",           "trajectory", "ros",       "launch", "nodes"});
+  return YamlMap(node, name_of(node).empty() ? "a robot" : "robot '" + std::string(name_of(node)) + "'",
+                 robot_keys().names());
 }
 
 /// The keys of a robot type: all but name, start and goals.
@@ -251,7 +249,7 @@ const YamlNode& type_of(const YamlMap& robot, const YamlNode* types) {
   if (types != nullptr) {
     for (const YamlEntry& entry : types->entries) names.push_back(entry.key);
   }
-  throw node.written.bad("there is no robot type '" + name + "'" + did_you_mean(name, names));
+  throw node.written.bad("there is no robot type '" + name + "'" + did_you_mean_or_expected(name, names));
 }
 
 }  // namespace
@@ -301,14 +299,7 @@ RobotScenario read_robot_without_body(const YamlNode& node, const YamlNode* type
 RobotScenario read_robot_of_map(const YamlNode& node, const YamlNode* types, const std::string& name,
                                 const BodyReading& given) {
   const std::string title = "robot '" + name + "' of the map";
-  const auto keys = {std::string_view("model"),     std::string_view("type"),       std::string_view("goals"),
-                     std::string_view("shape"),     std::string_view("urdf"),       std::string_view("base"),
-                     std::string_view("lasers"),    std::string_view("sonars"),     std::string_view("bumpers"),
-                     std::string_view("infrareds"), std::string_view("imu"),        std::string_view("gps"),
-                     std::string_view("battery"),   std::string_view("modules"),    std::string_view("bridge"),
-                     std::string_view("executive"), std::string_view("processors"), std::string_view("programs"),
-                     std::string_view("control"),   std::string_view("ros"),        std::string_view("launch"),
-                     std::string_view("nodes")};
+  const std::span<const std::string_view> keys = robot_of_map_keys().names();
   const YamlMap own(node, title, keys);
   const YamlNode whole = own.has("type") ? laid_over(type_of(own, types), node) : node;
   RobotScenario robot = read_equipment(YamlMap(whole, title, keys), &given);
@@ -328,11 +319,8 @@ std::string fitting_name(const std::string& name) {
 
 void check_robot_type(const YamlEntry& type, bool for_map) {
   const BodyReading of_map;
-  read_equipment(
-      YamlMap(type.value, "robot type '" + type.key + "'",
-              {"shape", "urdf", "base", "lasers", "sonars", "bumpers", "infrareds", "imu", "gps", "battery", "modules",
-               "bridge", "executive", "processors", "programs", "control", "ros", "launch", "nodes"}),
-      for_map ? &of_map : nullptr);
+  read_equipment(YamlMap(type.value, "robot type '" + type.key + "'", robot_type_keys().names()),
+                 for_map ? &of_map : nullptr);
 }
 
 }  // namespace waitpoint::scenario

@@ -2,6 +2,7 @@
 #include "modules/scenario/scenario_document.hpp"
 
 #include "core/confinement.hpp"
+#include "modules/scenario/scenario_keys.hpp"
 #include "modules/scenario/yaml_override.hpp"
 #include "modules/scenario/yaml_reader.hpp"
 
@@ -21,7 +22,7 @@ void check_format(const YamlNode& document) {
 YamlNode load_floor(const std::filesystem::path& file) {
   YamlNode floor = load_yaml(file);
   check_format(floor);
-  const YamlMap map(floor, "the floor", {"format", "name", "description", "map", "shape_height_m", "shapes"});
+  const YamlMap map(floor, "the floor", floor_keys().names());
   if (YamlEntry* shapes = floor.entry("shapes"); shapes != nullptr && map.has("shape_height_m")) {
     const YamlNode& height = map.require("shape_height_m");
     for (YamlNode& shape : shapes->value.items) {
@@ -85,7 +86,9 @@ void include_robot_types(YamlNode& document) {
   YamlNode file = load_yaml(included_file(*include));
   check_format(file);
   const YamlNode& included =
-      YamlMap(file, "the file of robot types", {"format", "name", "description", "robot_types"}).require("robot_types");
+      YamlMap(file, "the file of robot types", robot_types_keys().names()).require("robot_types");
+  if (included.kind != YamlNode::Kind::map)
+    throw included.written.bad("expected robot_types to be a map of keys, found " + described(included));
   YamlNode own = types->value;
   std::erase_if(own.entries, [](const YamlEntry& entry) { return entry.key == "include"; });
   types->value = laid_over(included, own);

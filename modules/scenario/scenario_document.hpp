@@ -19,9 +19,6 @@
 
 namespace waitpoint::scenario {
 
-/// The supported version of the format.
-inline constexpr int scenario_format = 1;
-
 /// Throws BadInput for an unreadable file, another format version, or an option whose path does not exist.
 YamlNode scenario_document(const std::filesystem::path& file, const std::vector<std::string>& assignments);
 

@@ -8,6 +8,7 @@
 #include "core/digest.hpp"
 #include "core/printable_line.hpp"
 #include "modules/scenario/control_reader.hpp"
+#include "modules/scenario/expectation_reader.hpp"
 #include "modules/scenario/log_reader.hpp"
 #include "modules/scenario/map_robots.hpp"
 #include "modules/scenario/medium_reader.hpp"
@@ -15,6 +16,7 @@
 #include "modules/scenario/play_reader.hpp"
 #include "modules/scenario/robot_reader.hpp"
 #include "modules/scenario/scenario_document.hpp"
+#include "modules/scenario/scenario_keys.hpp"
 #include "modules/scenario/shape_reader.hpp"
 #include "modules/scenario/surface_reader.hpp"
 #include "modules/scenario/yaml_reader.hpp"
@@ -24,48 +26,17 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr std::uint64_t count_max = 1'000'000'000;
 constexpr double height_default_m = 2;
 
-Expectation read_expectation(const YamlNode& node) {
-  const YamlMap map(node, "expect", expectation_keys());
-  Expectation expect;
-  if (const YamlNode* goals = map.find("goals_reached")) {
-    expect.all_goals_reached = goals->kind == YamlNode::Kind::scalar && goals->text == "all";
-    const bool number_like =
-        expect.all_goals_reached || (goals->text.find_first_not_of("0123456789") == std::string::npos);
-    if (!number_like || goals->kind != YamlNode::Kind::scalar) {
-      throw goals->written.bad("expected goals_reached to be 'all' or a number, found " + described(*goals));
-    }
-    if (!expect.all_goals_reached) expect.goals_reached = read_count(*goals, "goals_reached", 0, count_max);
+void read_map(const YamlNode& node, MapFile& map) {
+  const YamlNode* file = &node;
+  if (node.kind != YamlNode::Kind::scalar) {
+    const YamlMap keys(node, "the map", map_keys().table().names());
+    file = &keys.require("file");
+    map_keys().read(keys, map);
   }
-  if (const YamlNode* collisions = map.find("collisions"))
-    expect.collisions = read_count(*collisions, "collisions", 0, count_max);
-  expect.plans_completed = map.one_of("plans", {"any", "completed"}, 0) == 1;
-  if (map.has("position_error_max_m"))
-    expect.position_error_max_m = map.number("position_error_max_m", ranges::number_from_zero);
-  if (const YamlNode* failures = map.find("node_failures"))
-    expect.node_failures = read_count(*failures, "node_failures", 0, count_max);
-  if (map.has("service_call_max_s"))
-    expect.service_call_max_s = map.number("service_call_max_s", ranges::positive_number);
-  if (const YamlNode* topics = map.find("topics"))
-    for (const YamlNode& item : read_list(*topics, "topics")) {
-      const std::string text = read_lines(item, "the value of a topic");
-      if (!parse(text, expect.topics.emplace_back())) throw item.written.bad(topic_expectation_words(text));
-    }
-  expect.tests_passed = map.one_of("tests", {"any", "passed"}, 0) == 1;
-  return expect;
-}
-
-MapFile read_map(const YamlNode& node) {
-  if (node.kind == YamlNode::Kind::scalar)
-    return {.file = node.written.resolve(read_text(node, "map")), .written = node.written};
-  const YamlMap map(node, "the map", {"file", "height_m", "known"});
-  const YamlNode& file = map.require("file");
-  MapFile result = {.file = file.written.resolve(read_text(file, "file")), .written = file.written};
-  map.read("known", result.known);
-  if (map.has("height_m")) result.height_m = map.number("height_m", ranges::length);
-  return result;
+  map.file = file->written.resolve(read_text(*file, file == &node ? "map" : "file"));
+  map.written = file->written;
 }
 
 void read_shapes(const YamlNode& list, double height_m, Scenario& scenario) {
@@ -91,16 +62,10 @@ void read_shapes(const YamlNode& list, double height_m, Scenario& scenario) {
 }
 
 void read_world(const YamlNode& node, Scenario& scenario) {
-  const YamlMap map(node, "the world", {"step_ms", "engine", "include", "map", "shape_height_m", "shapes"});
-  if (const YamlNode* step = map.find("step_ms")) {
-    map.read("step_ms", scenario.step, 1ms);
-    if (scenario.step > Duration(1s))
-      throw step->written.bad("expected step_ms to be at most 1000, found " + described(*step));
-  }
-  constexpr world::Engine engines[] = {world::Engine::fcl, world::Engine::slice, world::Engine::bullet};
-  scenario.engine = engines[map.one_of("engine", {"fcl", "slice", "bullet"}, 0)];
+  const YamlMap map(node, "the world", world_keys().table().names());
+  world_keys().read(map, scenario);
   if (const YamlNode* engine = map.find("engine")) scenario.engine_written = engine->written;
-  if (const YamlNode* map_file = map.find("map")) scenario.map = read_map(*map_file);
+  if (const YamlNode* map_file = map.find("map")) read_map(*map_file, scenario.map.emplace());
   double height_m = height_default_m;
   map.read("shape_height_m", height_m, ranges::length);
   if (const YamlNode* shapes = map.find("shapes")) read_shapes(*shapes, height_m, scenario);
@@ -178,9 +143,7 @@ world::WorldDescription Scenario::world_without_map() const {
 
 Scenario read_scenario(const std::filesystem::path& file, const std::vector<std::string>& assignments) {
   const YamlNode document = scenario_document(file, assignments);
-  const YamlMap map(document, "the scenario",
-                    {"format", "name", "description", "expect", "until_s", "world", "medium", "robot_types", "robots",
-                     "robots_from_map", "control", "log", "ros", "play", "launch", "nodes"});
+  const YamlMap map(document, "the scenario", scenario_keys().names());
   Scenario scenario;
   scenario.file = file.string();
   scenario.fingerprint = fingerprint(document);

@@ -43,6 +43,9 @@ void read_about_centre(const YamlMap& map, bool centre_needed, Shape& shape) {
   }
 }
 
+Json size_schema(SchemaDefinitions&) { return numbers_schema(ranges::length, 2, 2); }
+Json corners_schema(SchemaDefinitions&) { return numbers_schema(ranges::coordinate, 4, 4); }
+
 Shape read_shape(const YamlMap& map, bool of_world, std::optional<double> height_m) {
   Shape shape;
   if (of_world && map.has("corners_m")) {
@@ -60,9 +63,44 @@ Shape read_shape(const YamlMap& map, bool of_world, std::optional<double> height
 
 }  // namespace
 
+const KeyTable& body_shape_keys() {
+  static const KeyTable keys =
+      KeyTable("shape of a robot")
+          .add("centre_m", point_form().schema, "centre in the robot's frame")
+          .add("size_m", size_schema, "of a box: length and width")
+          .add("heading_deg", heading_form().schema, "of a box")
+          .add("radius_m", number_form(ranges::length).schema, "of a cylinder")
+          .add("low_m", number_form(ranges::height).schema, "height of the lower end")
+          .add("height_m", number_form(ranges::length).schema, "height of the upper end", Need::required)
+          .require({{"oneOf", {needed({"size_m"}), needed({"radius_m"})}}});
+  return keys;
+}
+
+const KeyTable& obstacle_keys() {
+  static const Json about_centre = needed({"centre_m"});
+  static const KeyTable keys =
+      KeyTable("shape")
+          .add("name", text_form().schema, "its name in messages")
+          .add("corners_m", corners_schema, "of a box along the axes: two opposite corners, `[x, y, x, y]`")
+          .add("centre_m", point_form().schema, "of a turned box or a cylinder")
+          .add("size_m", size_schema, "of a turned box: length and width")
+          .add("heading_deg", heading_form().schema, "of a turned box")
+          .add("radius_m", number_form(ranges::length).schema, "of a cylinder")
+          .add("low_m", number_form(ranges::height).schema, "height of the lower end")
+          .add("height_m", number_form(ranges::length).schema, "height of the upper end")
+          .add("known", truth_form().schema, "`false`: it exists, but is on no map of the robots")
+          .add("mass_kg", number_form(mass_number).schema, "in a dynamic world it can be pushed")
+          .add("friction", number_form(friction_number).schema, "of one with a mass: with the floor")
+          .require(
+              {{"oneOf", {needed({"corners_m"}), needed({"centre_m", "size_m"}), needed({"centre_m", "radius_m"})}}})
+          .require({{"if", needed({"corners_m"})},
+                    {"then", {{"not", {{"anyOf", {about_centre, needed({"heading_deg"})}}}}}}})
+          .require({{"dependentRequired", {{"friction", {"mass_kg"}}}}});
+  return keys;
+}
+
 Shape read_body_shape(const YamlNode& node) {
-  const YamlMap map(node, "the shape", {"centre_m", "size_m", "heading_deg", "radius_m", "low_m", "height_m"});
-  return read_shape(map, false, std::nullopt);
+  return read_shape(YamlMap(node, "the shape", body_shape_keys().names()), false, std::nullopt);
 }
 
 std::string shape_name(const YamlNode& node, std::size_t number) {
@@ -72,9 +110,7 @@ std::string shape_name(const YamlNode& node, std::size_t number) {
 
 world::Obstacle read_obstacle(const YamlNode& node, double height_m, std::size_t number) {
   const std::string name = shape_name(node, number);
-  const YamlMap map(node, "'" + name + "'",
-                    {"name", "corners_m", "centre_m", "size_m", "heading_deg", "radius_m", "low_m", "height_m", "known",
-                     "mass_kg", "friction"});
+  const YamlMap map(node, "'" + name + "'", obstacle_keys().names());
   map.text("name", name);
   world::Obstacle obstacle{name, read_shape(map, true, height_m)};
   map.read("known", obstacle.known);

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "modules/scenario/keys.hpp"
 #include "modules/scenario/place_reader.hpp"
 #include "modules/scenario/yaml_reader.hpp"
 #include "world/description.hpp"
@@ -17,6 +18,9 @@ namespace waitpoint::scenario {
 
 inline constexpr NumberRange friction_number{0, 1e3, "a number from 0 to 1000"};
 inline constexpr NumberRange mass_number{1e-3, 1e6, "a number of kg from 0.001 to 1000000"};
+
+const KeyTable& body_shape_keys();
+const KeyTable& obstacle_keys();
 
 /// A robot's body in its own frame: `centre_m` is optional, `height_m` is not.
 world::Shape read_body_shape(const YamlNode& node);

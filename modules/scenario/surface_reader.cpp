@@ -33,12 +33,38 @@ world::SpaceVector read_scale(const YamlMap& map) {
   return {scale[0], scale[1], scale[2]};
 }
 
+Json place_schema(SchemaDefinitions&) { return numbers_schema(ranges::coordinate, 2, 3); }
+Json scale_schema(SchemaDefinitions&) {
+  return any_of({number_schema(scale_number), numbers_schema(scale_number, 3, 3)});
+}
+
 }  // namespace
 
+const KeyTable& mesh_keys() {
+  static const KeyTable keys = KeyTable("mesh")
+                                   .add("name", text_form().schema, "its name in messages")
+                                   .add("mesh", text_form().schema, "the file", Need::required)
+                                   .add("at_m", place_schema, "`[x, y]` or `[x, y, z]` of the file's origin")
+                                   .add("heading_deg", heading_form().schema, "of the file's x axis")
+                                   .add("scale", scale_schema, "a factor, or one for each axis")
+                                   .add("known", truth_form().schema, "`false`: it is on no map of the robots");
+  return keys;
+}
+
+const KeyTable& octomap_keys() {
+  static const KeyTable keys = KeyTable("octomap")
+                                   .add("name", text_form().schema, "its name in messages")
+                                   .add("octomap", text_form().schema, "the file", Need::required)
+                                   .add("at_m", place_schema, "`[x, y]` or `[x, y, z]` of the file's origin")
+                                   .add("heading_deg", heading_form().schema, "of the file's x axis")
+                                   .add("known", truth_form().schema, "`false`: it is on no map of the robots");
+  return keys;
+}
+
 world::MeshObstacle read_mesh(const YamlNode& node, const std::string& name, world::LeftOut& left_out) {
-  const YamlMap map(node, "'" + name + "'", {"name", "mesh", "at_m", "heading_deg", "scale", "known"});
+  const YamlMap map(node, "'" + name + "'", mesh_keys().names());
   world::MeshObstacle obstacle;
-  obstacle.name = name;
+  obstacle.name = map.text("name", name);
   map.read("known", obstacle.known);
   const world::MeshPlacement placement = {read_scale(map), world::space_pose(read_place(map), 0, 0, read_heading(map))};
   obstacle.mesh = std::make_shared<const world::TriangleMesh>(
@@ -47,8 +73,9 @@ world::MeshObstacle read_mesh(const YamlNode& node, const std::string& name, wor
 }
 
 std::vector<world::Obstacle> read_octomap(const YamlNode& node, const std::string& name, world::LeftOut& left_out) {
-  const YamlMap map(node, "'" + name + "'", {"name", "octomap", "at_m", "heading_deg", "known"});
+  const YamlMap map(node, "'" + name + "'", octomap_keys().names());
   bool known = true;
+  map.text("name", name);
   map.read("known", known);
   const world::SpaceVector at = read_place(map);
   std::vector<world::Obstacle> boxes = world::read_octree(resolved(map.require("octomap"), "octomap"), name,

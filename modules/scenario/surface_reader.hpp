@@ -8,11 +8,14 @@
 #include <string>
 #include <vector>
 
-#include "modules/scenario/yaml_reader.hpp"
+#include "modules/scenario/keys.hpp"
 #include "world/description.hpp"
 #include "world/formats/left_out.hpp"
 
 namespace waitpoint::scenario {
+
+const KeyTable& mesh_keys();
+const KeyTable& octomap_keys();
 
 /// Omitted parts of the file are added to `left_out`. BadInput as from world::read_mesh_file().
 world::MeshObstacle read_mesh(const YamlNode& node, const std::string& name, world::LeftOut& left_out);

@@ -16,6 +16,15 @@ Json SchemaDefinitions::reference(const std::string& name, const std::function<J
   return {{"$ref", "#/$defs/" + key}};
 }
 
+Json SchemaDefinitions::part(const std::function<Json(SchemaDefinitions&)>& make) {
+  if (is_partial_) return make(*this);
+  SchemaDefinitions definitions(true);
+  definitions.made_.swap(made_);
+  Json schema = make(definitions);
+  made_.swap(definitions.made_);
+  return schema;
+}
+
 Json number_schema(const NumberRange& range) {
   const bool has_hole = range.least > least_nonzero && range.low < range.least;
   if (!has_hole) return {{"type", "number"}, {"minimum", range.low}, {"maximum", range.high}};
@@ -61,6 +70,12 @@ Json any_of(std::initializer_list<Json> schemas) {
   Json list = Json::array();
   for (const Json& schema : schemas) list.push_back(schema);
   return {{"anyOf", list}};
+}
+
+Json needed(std::initializer_list<const char*> keys) {
+  Json list = Json::array();
+  for (const char* key : keys) list.push_back(key);
+  return {{"required", list}};
 }
 
 Json or_null(Json schema) {

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <initializer_list>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <span>
@@ -27,6 +28,8 @@ class SchemaDefinitions {
   bool is_partial() const { return is_partial_; }
   /// A reference to the definition `name`, which `make` makes at first use.
   Json reference(const std::string& name, const std::function<Json()>& make);
+  /// The schema of a part, with its definitions beside these.
+  Json part(const std::function<Json(SchemaDefinitions&)>& make);
   const std::map<std::string, Json>& made() const { return made_; }
 
  private:
@@ -47,6 +50,8 @@ Json numbers_schema(const NumberRange& range, std::size_t size_min, std::size_t 
 /// A map of any keys, whose values are each of this kind.
 Json map_schema(Json value);
 Json any_of(std::initializer_list<Json> schemas);
+/// The keys are there.
+Json needed(std::initializer_list<const char*> keys);
 /// The same or null: a key without a value is the same as no key.
 Json or_null(Json schema);
 

@@ -94,9 +94,7 @@ YamlMap::YamlMap(const YamlNode& node, std::string what, std::span<const std::st
   if (node.kind != YamlNode::Kind::map) refuse(node, what_, "a map of keys");
   for (const YamlEntry& entry : node.entries) {
     if (std::find(known.begin(), known.end(), entry.key) != known.end()) continue;
-    const std::string hint = did_you_mean(entry.key, known);
-    throw entry.written.bad("unknown key '" + entry.key + "' in " + what_ +
-                            (hint.empty() ? ", expected " + word_list(known) : hint));
+    throw entry.written.bad("unknown key '" + entry.key + "' in " + what_ + did_you_mean_or_expected(entry.key, known));
   }
 }
 
@@ -116,10 +114,9 @@ std::string YamlMap::text(std::string_view key, const std::string& otherwise) co
   return has(key) ? text(key) : otherwise;
 }
 
-std::size_t YamlMap::one_of(std::string_view key, std::initializer_list<std::string_view> words,
+std::size_t YamlMap::one_of(std::string_view key, std::span<const std::string_view> words,
                             std::size_t otherwise) const {
-  if (!has(key)) return otherwise;
-  return read_word(*find(key), key, std::span(words.begin(), words.size()));
+  return has(key) ? read_word(*find(key), key, words) : otherwise;
 }
 
 void YamlMap::read(std::string_view key, double& value, const NumberRange& range) const {

@@ -59,7 +59,10 @@ class YamlMap {
   std::string text(std::string_view key) const;
   std::string text(std::string_view key, const std::string& otherwise) const;
   /// The index of the key's word in `words`; `otherwise` if the key is missing.
-  std::size_t one_of(std::string_view key, std::initializer_list<std::string_view> words, std::size_t otherwise) const;
+  std::size_t one_of(std::string_view key, std::span<const std::string_view> words, std::size_t otherwise) const;
+  std::size_t one_of(std::string_view key, std::initializer_list<std::string_view> words, std::size_t otherwise) const {
+    return one_of(key, std::span(words.begin(), words.size()), otherwise);
+  }
 
   // Overwrite `value` if the key is present.
   void read(std::string_view key, double& value, const NumberRange& range) const;

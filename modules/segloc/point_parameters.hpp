@@ -10,15 +10,15 @@
 namespace waitpoint::segloc {
 
 struct PointParameters {
-  bool from_start = false;  ///< from the first scan on, in place of segments; true where a log is replayed
-  double cell_m = 0.05;     ///< of the grids that scans are matched with
-  double reach_m = 0.3;     ///< greatest distance of a point from the map that pulls at it
-  double range_m_max = 20;  ///< farther echoes are not used
+  bool from_start = false;
+  double cell_m = 0.05;
+  double reach_m = 0.3;
+  double range_m_max = 20;
 
   // A scan is kept as a key scan after so much travel or turn.
   double key_travel_m = 0.3;
   double key_turn_rad = 0.3;
-  std::uint32_t submap_keys = 20;  ///< key scans of a sub-map; the next one begins at half of them
+  std::uint32_t submap_keys = 20;
 
   // Standard deviation of the odometry's motion between two scans: fixed parts, and shares of the motion.
   double odometry_m = 0.01, odometry_rad = 0.05;
@@ -26,53 +26,54 @@ struct PointParameters {
 
   double explained_min =
       0.55;  ///< share of a scan's points explained by the sub-map; below, its surroundings are searched
-  double point_worth = 0.8;        ///< of an explained point, against half a squared deviation from the odometry
-  double trusted_min = 0.25;       ///< below this the odometry is used instead, and the scan is no key scan
-  double contradicted_max = 0.35;  ///< likewise above this share of points where free space was seen
-  std::uint32_t lost_scans = 4;  ///< so many such scans in a row: the robot is lost until closures confirm where it is
-  double lost_m = 1.5;  ///< after so much travel without a match a sub-map begins that the odometry alone holds
-  double match_m = 0.01, match_rad = 0.004;  ///< least standard deviation of a match
+  double point_worth = 0.8;
+  double trusted_min = 0.25;
+  double contradicted_max = 0.35;
+  std::uint32_t lost_scans = 4;
+  double lost_m = 1.5;
+  double match_m = 0.01, match_rad = 0.004;
 
   // Loop closure: the drift assumed per metre of travel, which sets how far is searched, and what is accepted.
   double drift_m_per_m = 0.03;
-  double doubt_m = 0.1;  ///< added to the drift where old key scans are near and none matches
+  double doubt_m = 0.1;
   double search_m_min = 0.5, search_m_max = 5;
   double closure_score_min = 0.55;
   double closure_explained_min = 0.65;
-  double found_explained_min = 0.75;  ///< after a loss, on the whole map
+  double found_explained_min = 0.75;
   double rival_share = 0.9;
-  double agree_m = 0.3, agree_rad = 0.06;  ///< of two large corrections that confirm each other
+  double agree_m = 0.3, agree_rad = 0.06;
 
   static void fields(auto field) {
     using P = PointParameters;
-    field("from_start", &P::from_start);
-    field("cell_m", &P::cell_m);
-    field("reach_m", &P::reach_m);
-    field("range_m_max", &P::range_m_max);
+    field("from_start", &P::from_start, "from the first scan on, in place of segments; true where a log is replayed");
+    field("cell_m", &P::cell_m, "of the grids that scans are matched with");
+    field("reach_m", &P::reach_m, "greatest distance of a point from the map that pulls at it");
+    field("range_m_max", &P::range_m_max, "farther echoes are not used");
     field("key_travel_m", &P::key_travel_m);
     field("key_turn_rad", &P::key_turn_rad);
-    field("submap_keys", &P::submap_keys);
+    field("submap_keys", &P::submap_keys, "key scans of a sub-map; the next one begins at half of them");
     field("odometry_m", &P::odometry_m);
     field("odometry_rad", &P::odometry_rad);
     field("odometry_share", &P::odometry_share);
     field("odometry_turn_share", &P::odometry_turn_share);
-    field("contradicted_max", &P::contradicted_max);
-    field("lost_scans", &P::lost_scans);
-    field("lost_m", &P::lost_m);
+    field("contradicted_max", &P::contradicted_max, "likewise above this share of points where free space was seen");
+    field("lost_scans", &P::lost_scans,
+          "so many such scans in a row: the robot is lost until closures confirm where it is");
+    field("lost_m", &P::lost_m, "after so much travel without a match a sub-map begins that the odometry alone holds");
     field("explained_min", &P::explained_min);
-    field("point_worth", &P::point_worth);
-    field("trusted_min", &P::trusted_min);
-    field("match_m", &P::match_m);
+    field("point_worth", &P::point_worth, "of an explained point, against half a squared deviation from the odometry");
+    field("trusted_min", &P::trusted_min, "below this the odometry is used instead, and the scan is no key scan");
+    field("match_m", &P::match_m, "least standard deviation of a match");
     field("match_rad", &P::match_rad);
     field("drift_m_per_m", &P::drift_m_per_m);
-    field("doubt_m", &P::doubt_m);
+    field("doubt_m", &P::doubt_m, "added to the drift where old key scans are near and none matches");
     field("search_m_min", &P::search_m_min);
     field("search_m_max", &P::search_m_max);
     field("closure_score_min", &P::closure_score_min);
     field("closure_explained_min", &P::closure_explained_min);
-    field("found_explained_min", &P::found_explained_min);
+    field("found_explained_min", &P::found_explained_min, "after a loss, on the whole map");
     field("rival_share", &P::rival_share);
-    field("agree_m", &P::agree_m);
+    field("agree_m", &P::agree_m, "of two large corrections that confirm each other");
     field("agree_rad", &P::agree_rad);
   }
 };

@@ -24,39 +24,40 @@ namespace waitpoint::sick {
 
 /// Defaults for a SICK LMS indoors.
 struct SegmentExtractionParameters {
-  double range_noise_m = 0.005;                ///< standard deviation up to range_noise_near_m, then growing linearly
-  double range_noise_near_m = 8;               ///< range up to which the noise is constant
-  double range_noise_growth_m_per_m = 0.0004;  ///< growth beyond range_noise_near_m
-  double range_resolution_m = 0.01;            ///< quantisation, a uniform error
-  double range_bias_m = 0.004;                 ///< standard deviation of the error shared by all echoes of a scan
+  double range_noise_m = 0.005;
+  double range_noise_near_m = 8;
+  double range_noise_growth_m_per_m = 0.0004;
+  double range_resolution_m = 0.01;
+  double range_bias_m = 0.004;
   double bearing_noise_rad = 0.001;
-  double roughness_m = 0.013;       ///< standard deviation of a wall about its line: plaster, cells of a raster map
-  double range_min_m = 0.05;        ///< nearer echoes are of the robot itself
-  double beam_gap_rad_max = 0.035;  ///< between the beams of neighbouring echoes
-  double grazing_angle_rad = 0.12;  ///< flattest angle between beam and wall
-  double jump_m_min = 0.1;          ///< a smaller range jump never breaks
-  double chi2_split = 9.0;          ///< squared Mahalanobis distance of the farthest echo of a straight run
-  double merge_gap_m_max = 0.4;     ///< between runs that are merged
-  double bow_m_max = 0.012;         ///< height of the arc through the echoes; greater: a round object, not a wall
+  double roughness_m = 0.013;
+  double range_min_m = 0.05;
+  double beam_gap_rad_max = 0.035;
+  double grazing_angle_rad = 0.12;
+  double jump_m_min = 0.1;
+  double chi2_split = 9.0;
+  double merge_gap_m_max = 0.4;
+  double bow_m_max = 0.012;
   std::uint32_t points_min = 6;
   double length_m_min = 0.4;
 
   static void fields(auto field) {
     using P = SegmentExtractionParameters;
-    field("range_noise_m", &P::range_noise_m);
-    field("range_noise_near_m", &P::range_noise_near_m);
-    field("range_noise_growth_m_per_m", &P::range_noise_growth_m_per_m);
-    field("range_resolution_m", &P::range_resolution_m);
-    field("range_bias_m", &P::range_bias_m);
+    field("range_noise_m", &P::range_noise_m, "standard deviation up to range_noise_near_m, then growing linearly");
+    field("range_noise_near_m", &P::range_noise_near_m, "range up to which the noise is constant");
+    field("range_noise_growth_m_per_m", &P::range_noise_growth_m_per_m, "growth beyond range_noise_near_m");
+    field("range_resolution_m", &P::range_resolution_m, "quantisation, a uniform error");
+    field("range_bias_m", &P::range_bias_m, "standard deviation of the error shared by all echoes of a scan");
     field("bearing_noise_rad", &P::bearing_noise_rad);
-    field("roughness_m", &P::roughness_m);
-    field("range_min_m", &P::range_min_m);
-    field("beam_gap_rad_max", &P::beam_gap_rad_max);
-    field("grazing_angle_rad", &P::grazing_angle_rad);
-    field("jump_m_min", &P::jump_m_min);
-    field("chi2_split", &P::chi2_split);
-    field("merge_gap_m_max", &P::merge_gap_m_max);
-    field("bow_m_max", &P::bow_m_max);
+    field("roughness_m", &P::roughness_m,
+          "standard deviation of a wall about its line: plaster, cells of a raster map");
+    field("range_min_m", &P::range_min_m, "nearer echoes are of the robot itself");
+    field("beam_gap_rad_max", &P::beam_gap_rad_max, "between the beams of neighbouring echoes");
+    field("grazing_angle_rad", &P::grazing_angle_rad, "flattest angle between beam and wall");
+    field("jump_m_min", &P::jump_m_min, "a smaller range jump never breaks");
+    field("chi2_split", &P::chi2_split, "squared Mahalanobis distance of the farthest echo of a straight run");
+    field("merge_gap_m_max", &P::merge_gap_m_max, "between runs that are merged");
+    field("bow_m_max", &P::bow_m_max, "height of the arc through the echoes; greater: a round object, not a wall");
     field("points_min", &P::points_min);
     field("length_m_min", &P::length_m_min);
   }

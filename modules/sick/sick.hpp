@@ -15,13 +15,13 @@ namespace waitpoint::sick {
 
 /// Parameters of the module.
 struct Parameters {
-  double mount_x_m = 0.1, mount_y_m = 0, mount_heading_deg = 0;  ///< pose of the device on the robot
+  double mount_x_m = 0.1, mount_y_m = 0, mount_heading_deg = 0;
   /// Age of a scan at its date, which is that of its last beam: half the mirror's time for a scan.
   Duration scan_age_ms;
   SegmentExtractionParameters segments;
 
   static void fields(auto field) {
-    field("mount_x_m", &Parameters::mount_x_m);
+    field("mount_x_m", &Parameters::mount_x_m, "pose of the device on the robot");
     field("mount_y_m", &Parameters::mount_y_m);
     field("mount_heading_deg", &Parameters::mount_heading_deg);
     field("scan_age_ms", &Parameters::scan_age_ms);

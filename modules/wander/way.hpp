@@ -16,20 +16,20 @@ namespace waitpoint::wander {
 
 struct Parameters {
   double v_m_s = 0.4, w_rad_s = 0.8;
-  double clear_m = 0.6;  ///< turns if an obstacle in the lane is closer than this to the range finder
-  double slow_m = 0.6;   ///< full speed if the lane is clear this far beyond clear_m
+  double clear_m = 0.6;
+  double slow_m = 0.6;
   double half_width_m = 0.35;
-  Duration back_off_ms = std::chrono::seconds(1);  ///< duration of driving backwards after a stall
-  bool on = true;                                  ///< drives from the start; false: from the request Go
+  Duration back_off_ms = std::chrono::seconds(1);
+  bool on = true;
 
   static void fields(auto field) {
     field("v_m_s", &Parameters::v_m_s);
     field("w_rad_s", &Parameters::w_rad_s);
-    field("clear_m", &Parameters::clear_m);
-    field("slow_m", &Parameters::slow_m);
+    field("clear_m", &Parameters::clear_m, "turns if an obstacle in the lane is closer than this to the range finder");
+    field("slow_m", &Parameters::slow_m, "full speed if the lane is clear this far beyond clear_m");
     field("half_width_m", &Parameters::half_width_m);
-    field("back_off_ms", &Parameters::back_off_ms);
-    field("on", &Parameters::on);
+    field("back_off_ms", &Parameters::back_off_ms, "duration of driving backwards after a stall");
+    field("on", &Parameters::on, "drives from the start; false: from the request Go");
   }
 };
 

@@ -177,5 +177,33 @@ TEST(BoundedDeathTest, MoreThanItsCapacityIsABug) {
   EXPECT_DEATH(list.resize(2), "more elements than a bounded array holds");
 }
 
+struct WithFacts {
+  std::uint8_t small = 1;
+  double wide = 2;
+  static void fields(auto field) {
+    field("small", &WithFacts::small, CountRange{0, 9}, "a count");
+    field("wide", &WithFacts::wide, required, ranges::length);
+  }
+};
+
+TEST(Fields, FactsOfFieldsDoNotChangeTheHash) { EXPECT_EQ(hash(WithFacts()), hash(Inner())); }
+
+TEST(Fields, FactsMayBeInAnyOrder) {
+  constexpr FieldFacts facts = facts_of("how far", degrees, ranges::length, added);
+  EXPECT_EQ(facts.description, "how far");
+  EXPECT_EQ(facts.range->high, 1e5);
+  EXPECT_TRUE(facts.is_degrees && facts.is_added);
+  EXPECT_FALSE(facts.is_required || facts.count);
+}
+
+TEST(Fields, TheUnitIsAtTheEndOfTheName) {
+  EXPECT_EQ(unit_of("range_m"), "m");
+  EXPECT_EQ(unit_of("v_m_s_max"), "m/s");
+  EXPECT_EQ(unit_of("steering_rate_deg_s"), "deg/s");
+  EXPECT_EQ(unit_of("w_acceleration_rad_s2"), "rad/s2");
+  EXPECT_EQ(unit_of("slips_per_m"), "");
+  EXPECT_EQ(unit_of("beams"), "");
+}
+
 }  // namespace
 }  // namespace waitpoint

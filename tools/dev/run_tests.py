@@ -88,6 +88,7 @@ OWN_CASES = {
     "links of documents": [sys.executable, str(ROOT / "tests/docs/links_test.py")],
     "site of documents": [sys.executable, str(ROOT / "tests/docs/site_test.py")],
     "documents of JSON": [sys.executable, str(ROOT / "tests/programs/json_test.py"), BUILD],
+    "schemas": [sys.executable, str(ROOT / "tests/schema/schema_test.py"), BUILD],
     "dev: parts": [sys.executable, str(ROOT / "tests/dev/parts_test.py")],
     "recipes of packages": [sys.executable, str(ROOT / "tests/packages/recipes_test.py")],
 }

@@ -158,5 +158,22 @@ TEST(Settings, KeysMayHaveAPrefix) {
   settings.check_all_used();
 }
 
+TEST(Settings, DescribingOnesCollectWhatIsRead) {
+  Settings settings = Settings::describing();
+  Parameters parameters;
+  settings.read(parameters);
+  settings.check_least("gain", parameters.gain, 0.25);
+  const std::vector<SettingRow>& rows = settings.rows();
+  ASSERT_EQ(rows.size(), 10U);
+  EXPECT_EQ(rows[0].key, "gain");
+  EXPECT_EQ(rows[0].kind, SettingRow::Kind::number);
+  EXPECT_EQ(rows[0].least, 0.25);
+  EXPECT_EQ(rows[0].otherwise, "0.5");
+  EXPECT_EQ(rows[1].kind, SettingRow::Kind::truth);
+  EXPECT_EQ(rows[3].kind, SettingRow::Kind::integer);
+  EXPECT_EQ(rows[3].most, std::numeric_limits<std::int32_t>::max());
+  EXPECT_EQ(rows[8].otherwise, "2") << "in the unit of period_ms";
+}
+
 }  // namespace
 }  // namespace waitpoint::genom

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "modules/scenario/nodes_keys.hpp"
+
+namespace waitpoint::scenario {
+namespace {
+
+constexpr std::string_view masters[] = {"inside", "outside"}, kinds[] = {"path", "cloud", "grid"};
+
+/// Names in front of others, which may be empty.
+Json prefix_schema(SchemaDefinitions&) { return {{"type", {"string", "number", "boolean"}}}; }
+Json text_map_schema(SchemaDefinitions&) { return map_schema(or_null(text_schema())); }
+Json any_map_schema(SchemaDefinitions&) { return {{"type", "object"}}; }
+
+}  // namespace
+
+const Keys<RosScenario>& ros_keys() {
+  static const Keys<RosScenario> keys =
+      Keys<RosScenario>("ros")
+          .add("clock", &RosScenario::publishes_clock, truth_form(), "the topic `/clock` is published")
+          .add("master", &RosScenario::master, word_form<RosScenario::Master>(masters),
+               "`inside`: the run has one of its own; `outside`: Debian's `rosmaster`, a process of the run")
+          .add("delay_us", &RosScenario::delay, duration_form(std::chrono::microseconds(1)),
+               "of what is sent over a connection within a robot, and between it and the world");
+  return keys;
+}
+
+const KeyTable& robot_ros_keys() {
+  static const KeyTable keys =
+      KeyTable("ros of a robot")
+          .add("namespace", prefix_schema, "the namespace of its topics and nodes; no two robots have one")
+          .add("tf_prefix", prefix_schema, "in front of the names of its frames")
+          .add(
+              "map_to_odom", [](SchemaDefinitions&) { return word_schema(map_to_odom_words); },
+              "`truth`: the true transform from `map` to `odom` is published; `nodes`: a node estimates it")
+          .add("publish", text_map_schema, "posters and the topics as which they are published")
+          .add(
+              "show", [](SchemaDefinitions&) { return map_schema(or_null(word_schema(kinds))); },
+              "topics that pictures and recordings have, as `path`, `cloud` or `grid`");
+  return keys;
+}
+
+const KeyTable& node_keys() {
+  static const KeyTable keys =
+      KeyTable("node")
+          .add("name", text_form().schema, "of letters, digits and `_`", Need::required)
+          .add("command", texts(1), "a program and its arguments")
+          .add("package", text_form().schema, "with `type`: an executable of a package")
+          .add("type", text_form().schema, "the executable")
+          .add("arguments", texts(), "further arguments")
+          .add("namespace", text_form().schema, "within the robot's, unless it begins with `/`")
+          .add("params", any_map_schema, "its private parameters")
+          .add("remap", text_map_schema, "names of its code, and those used instead")
+          .add("environment", text_map_schema, "variables")
+          .add("after", texts(),
+               "what its start waits for: `NODE`, `NODE.started`, `topic:NAME`, `service:NAME`, `tcp:PORT`, a path "
+               "with a `/`")
+          .add("required", truth_form().schema, "its end is the end of the run")
+          .add(
+              "output", [](SchemaDefinitions&) { return word_schema(output_words); }, "of its messages")
+          .add("clear_params", truth_form().schema, "parameters in its private namespace are deleted before")
+          .add("clock", text_form().schema,
+               "the time that its computing takes: `fixed:US`, `interval:US..US` or `counted[:NS]`")
+          .add("enabled", truth_form().schema, "`false`: it is left out")
+          .require({{"oneOf", {needed({"command"}), needed({"package", "type"})}}});
+  return keys;
+}
+
+const KeyTable& launch_keys() {
+  static const KeyTable keys = KeyTable("launch file")
+                                   .add("file", text_form().schema, "the launch file", Need::required)
+                                   .add("args", text_map_schema, "values of its arguments");
+  return keys;
+}
+
+Json launch_schema(SchemaDefinitions& definitions) { return text_or(launch_keys())(definitions); }
+
+Json nodes_schema(SchemaDefinitions& definitions) { return list_of(node_keys())(definitions); }
+
+}  // namespace waitpoint::scenario

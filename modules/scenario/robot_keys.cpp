@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "modules/scenario/robot_keys.hpp"
+
+#include "modules/scenario/body_reader.hpp"
+#include "modules/scenario/nodes_keys.hpp"
+#include "modules/scenario/sensor_reader.hpp"
+#include "modules/scenario/shape_reader.hpp"
+
+namespace waitpoint::scenario {
+namespace {
+
+constexpr NumberRange latency{0, 3.6e9, "a number from 0 to 3600000000"};
+
+Json name_schema(SchemaDefinitions&) {
+  Json schema = text_schema();
+  schema["pattern"] = "^[A-Za-z0-9_-]{1,40}$";
+  schema["not"] = {{"enum", {"environment", "base"}}};
+  return schema;
+}
+
+Json dotted_schema(SchemaDefinitions&) { return {{"type", "string"}, {"pattern", "^[^.]+[.]."}}; }
+
+/// A definition that is given from outside.
+SchemaMaker outer(std::string name) {
+  return [name](SchemaDefinitions& definitions) {
+    return Json{{"$ref", "#/$defs/" + std::string(definitions.is_partial() ? "part_of_" : "") + name}};
+  };
+}
+
+Json names_schema(SchemaDefinitions& definitions) {
+  Json schema = list_schema(name_schema(definitions));
+  schema["uniqueItems"] = true;
+  return schema;
+}
+
+Json goals_schema(SchemaDefinitions& definitions) {
+  return list_schema(any_of({numbers_schema(ranges::coordinate, 2, 2), goal_keys().schema(definitions)}));
+}
+
+Json urdf_schema(SchemaDefinitions&) {
+  const Json value = {{"type", {"string", "number", "boolean", "null"}}};
+  return any_of({text_schema(),
+                 {{"type", "object"},
+                  {"properties", {{"file", text_schema()}, {"arguments", or_null(map_schema(value))}}},
+                  {"required", {"file"}},
+                  {"additionalProperties", false}}});
+}
+
+SchemaMaker list_of_outer(std::string name) {
+  return [name](SchemaDefinitions& definitions) { return list_schema(outer(name)(definitions)); };
+}
+
+/// What a robot consists of, without its body.
+KeyTable software(std::string name) {
+  return KeyTable(std::move(name))
+      .add("modules", list_of_outer("module"),
+           "a list, in starting order: `name`, `type`, `enabled`, and the module's own parameters")
+      .add("bridge", list_of(bridge_row_keys()), "the table of posters and values of devices")
+      .add("executive", outer("executive"), "parameters of the executive")
+      .add("processors", names_schema,
+           "names of processors that tasks of the modules can share; without it, each task has one of its own")
+      .add("programs", list_of(program_keys()), "programs: processes, or shared objects whose threads are tasks")
+      .add("control", control_schema, "rules between the clients of the modules and the modules")
+      .add("ros", map_of(robot_ros_keys()), "names and topics of the robot's nodes of ROS")
+      .add("launch", launch_schema, "a launch file of ROS")
+      .add("nodes", nodes_schema, "nodes of ROS, after those of the launch file");
+}
+
+Json battery_twice() {
+  const Json of_base = {{"anyOf",
+                         {needed({"battery_volts_full"}), needed({"battery_volts_empty"}),
+                          needed({"battery_capacity_s"}), needed({"battery_capacity_m"})}}};
+  return {{"not", {{"required", {"battery", "base"}}, {"properties", {{"base", of_base}}}}}};
+}
+
+/// The keys of a type.
+KeyTable equipment(std::string name) {
+  return KeyTable(std::move(name))
+      .add("shape", map_of(body_shape_keys()),
+           "`{radius_m, height_m}` or `{size_m: [length, width], height_m}`, about the robot's centre")
+      .add("urdf", urdf_schema, "instead of `shape`: a URDF, or `{file, arguments}`")
+      .add(device_keys())
+      .add(software(""))
+      .require(battery_twice())
+      .require({{"not", needed({"shape", "urdf"})}});
+}
+
+/// A robot whose modules a log drives.
+const KeyTable& logged_robot_keys() {
+  static const KeyTable keys = KeyTable("robot of a log")
+                                   .add("name", name_schema, "its name", Need::required)
+                                   .add("type", text_form().schema, "one of `robot_types`")
+                                   .add("modules", list_of_outer("module"), "as of a robot")
+                                   .add("bridge", list_of(bridge_row_keys()), "as of a robot")
+                                   .add("processors", names_schema, "as of a robot");
+  return keys;
+}
+
+Json no_goals() { return {{"properties", {{"goals", {{"maxItems", 0}}}}}}; }
+
+}  // namespace
+
+const KeyTable& goal_keys() {
+  static const KeyTable keys = KeyTable("goal")
+                                   .add("x_m", number_form(ranges::coordinate).schema, "", Need::required)
+                                   .add("y_m", number_form(ranges::coordinate).schema, "", Need::required)
+                                   .add("name", text_form().schema, "its name in messages");
+  return keys;
+}
+
+const KeyTable& bridge_row_keys() {
+  static const KeyTable keys =
+      KeyTable("row of the bridge")
+          .add("poster", dotted_schema, "`MODULE.POSTER`", Need::required)
+          .add("device", dotted_schema,
+               "`DEVICE.VALUE`: `base`, a laser by its name, `bumpers`, ...; `command` or `reading`", Need::required)
+          .add("latency_us", duration_form(std::chrono::microseconds(1), latency).schema,
+               "duration of the module's accesses to that poster");
+  return keys;
+}
+
+const KeyTable& program_keys() {
+  static const KeyTable keys =
+      KeyTable("program")
+          .add("name", name_schema, "its name", Need::required)
+          .add("file", text_form().schema, "a shared object with a `main()`: its threads are tasks of the robot")
+          .add("arguments", texts(), "of the shared object")
+          .add("command", texts(1), "a program and its arguments: processes")
+          .add("after", texts(), "what its start waits for: `NAME`, `NAME.started`, `tcp:PORT`, a path with a `/`")
+          .add("enabled", truth_form().schema, "`false`: it is left out")
+          .require({{"oneOf", {needed({"file"}), needed({"command"})}}})
+          .require({{"not", needed({"command", "arguments"})}});
+  return keys;
+}
+
+const KeyTable& robot_type_keys() {
+  static const KeyTable keys = equipment("robot type");
+  return keys;
+}
+
+const KeyTable& robot_of_map_keys() {
+  static const KeyTable keys = KeyTable("row of robots from the map")
+                                   .add("model", text_form().schema, "of these robots of the map alone")
+                                   .add("type", text_form().schema, "one of `robot_types`")
+                                   .add("goals", goals_schema, "as of a robot")
+                                   .add(equipment(""));
+  return keys;
+}
+
+const KeyTable& robot_keys() {
+  static const KeyTable keys =
+      KeyTable("robot")
+          .add("name", name_schema, "of letters, digits, `_` and `-`", Need::required)
+          .add("type", text_form().schema, "one of `robot_types`, whose keys the robot's own override")
+          .add("start", pose_form().schema, "`[x, y, heading_deg]`", Need::required)
+          .add("goals", goals_schema, "a list of `[x, y]` or `{x_m, y_m, name}`")
+          .add("start_height_m", number_form(ranges::height).schema, "of an aerial robot above the floor")
+          .add("plan", text_form().schema, "in place of goals: the file of a temporal plan")
+          .add("trajectory", text_form().schema, "in place of goals and plan: the file of a trajectory")
+          .add(equipment(""))
+          .require({{"anyOf", {needed({"shape"}), needed({"urdf"})}}})
+          .require({{"if", needed({"start_height_m"})},
+                    {"then",
+                     {{"required", {"base"}},
+                      {"properties",
+                       {{"base", {{"required", {"kind"}}, {"properties", {{"kind", {{"const", "aerial"}}}}}}}}}}}})
+          .require({{"if", {{"anyOf", {needed({"plan"}), needed({"trajectory"})}}}}, {"then", no_goals()}})
+          .require({{"not", needed({"plan", "trajectory"})}});
+  return keys;
+}
+
+Json robots_schema(SchemaDefinitions& definitions) {
+  const Json whole = robot_keys().schema(definitions);
+  // What a robot of a type must have is a name and a start: the rest may be the type's.
+  Json of_type = definitions.part([](SchemaDefinitions& partial) { return robot_keys().schema(partial); });
+  of_type = {{"allOf", {of_type, needed({"name", "start"})}}};
+  const Json robot = {{"if", needed({"type"})}, {"then", of_type}, {"else", whole}};
+  const Json of_log = logged_robot_keys().schema(definitions);
+  return list_schema(any_of({robot, of_log}), 1);
+}
+
+Json robots_from_map_schema(SchemaDefinitions& definitions) {
+  Json row = definitions.part([](SchemaDefinitions& partial) { return robot_of_map_keys().schema(partial); });
+  return any_of({text_schema(), list_schema(std::move(row), 1)});
+}
+
+Json control_schema(SchemaDefinitions& definitions) { return any_of({text_schema(), outer("control")(definitions)}); }
+
+}  // namespace waitpoint::scenario

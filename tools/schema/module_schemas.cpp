@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/schema/module_schemas.hpp"
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/number_text.hpp"
+#include "core/occupancy_grid.hpp"
+#include "modules/executive/executive.hpp"
+#include "modules/genom/module.hpp"
+#include "modules/genom/task_computing.hpp"
+
+namespace waitpoint::tools {
+namespace {
+
+using genom::SettingRow;
+using scenario::Json;
+
+/// Rows by the parts of their keys, which are joined by dots.
+struct Branch {
+  const SettingRow* row = nullptr;
+  std::vector<std::pair<std::string, Branch>> parts;  // in the order in which they are read
+
+  Branch& part(const std::string& name) {
+    for (auto& [known, branch] : parts)
+      if (known == name) return branch;
+    return parts.emplace_back(name, Branch()).second;
+  }
+};
+
+Branch tree_of(const std::vector<SettingRow>& rows) {
+  Branch root;
+  for (const SettingRow& row : rows) {
+    Branch* branch = &root;
+    for (std::size_t from = 0, dot = 0; dot != std::string::npos; from = dot + 1) {
+      dot = row.key.find('.', from);
+      branch = &branch->part(row.key.substr(from, dot - from));
+    }
+    branch->row = &row;
+  }
+  return root;
+}
+
+Json default_of(const SettingRow& row) {
+  double number = 0;
+  if (row.otherwise.empty()) return nullptr;
+  if (row.kind == SettingRow::Kind::truth) return row.otherwise == "true";
+  if (row.kind == SettingRow::Kind::text) return row.otherwise;
+  if (!parse_number(row.otherwise, number) || number < row.least || number > row.most) return nullptr;
+  if (row.kind == SettingRow::Kind::integer) return static_cast<std::int64_t>(number);
+  return number;
+}
+
+Json value_schema(const SettingRow& row) {
+  switch (row.kind) {
+    case SettingRow::Kind::truth: return scenario::truth_schema();
+    case SettingRow::Kind::integer: return {{"type", "integer"}, {"minimum", row.least}, {"maximum", row.most}};
+    case SettingRow::Kind::number: return {{"type", "number"}, {"minimum", row.least}, {"maximum", row.most}};
+    default: return {{"type", {"string", "number", "boolean"}}};
+  }
+}
+
+Json schema_of(const std::string& name, const Branch& branch);
+
+Json properties_of(const Branch& branch) {
+  Json properties = Json::object();
+  for (const auto& [name, part] : branch.parts) {
+    Json property = Json::object();
+    if (part.row != nullptr) {
+      const std::string_view unit = unit_of(name);
+      const std::string text =
+          std::string(part.row->description) +
+          (unit.empty() ? "" : (part.row->description.empty() ? "[" : " [") + std::string(unit) + "]");
+      if (!text.empty()) property["description"] = text;
+      if (const Json otherwise = default_of(*part.row); !otherwise.is_null()) property["default"] = otherwise;
+    }
+    property.update(scenario::or_null(schema_of(name, part)));
+    properties[name] = std::move(property);
+  }
+  return properties;
+}
+
+Json object_of(Json properties) {
+  return {{"type", "object"}, {"properties", std::move(properties)}, {"additionalProperties", false}};
+}
+
+Json schema_of(const std::string& name, const Branch& branch) {
+  if (name == "clock") return {{"$ref", "#/$defs/clock"}};
+  if (branch.row != nullptr && branch.row->kind == SettingRow::Kind::list) {
+    Json list = scenario::list_schema(schema_of("", branch.parts.front().second));
+    list["maxItems"] = branch.row->most;
+    return list;
+  }
+  return branch.parts.empty() ? value_schema(*branch.row) : object_of(properties_of(branch));
+}
+
+/// The properties that are read by `read(settings)`.
+template <class Read>
+Json properties_read_by(const Read& read) {
+  genom::Settings settings = genom::Settings::describing();
+  read(settings);
+  return properties_of(tree_of(settings.rows()));
+}
+
+Json parameters_of(const genom::ModuleType& type) {
+  genom::NameSpace names;
+  const auto map = std::make_shared<const OccupancyGrid>(1, 1, 1.0, Pose{});
+  genom::ModuleSetup setup{names, type.name, genom::Settings::describing(), nullptr, map};
+  const std::unique_ptr<genom::Module> module = type.make(setup);
+  return properties_of(tree_of(setup.settings.rows()));
+}
+
+/// The kind alone, or a map with it.
+Json clock_schema() {
+  Json kinds = scenario::word_schema(genom::clock_kinds()), alone = kinds;
+  auto& words = alone["enum"];
+  words.erase(std::remove(words.begin(), words.end(), Json("interval")), words.end());
+  const Json cost = {{"type", "number"}, {"minimum", 0}, {"maximum", 1e12}};
+  Json costs = scenario::list_schema(cost, 2);
+  costs["maxItems"] = 2;
+  const Json scale = scenario::any_of({{{"type", "number"}, {"minimum", 0}, {"maximum", 1e6}},
+                                       {{"type", "string"}, {"pattern", "^x?[0-9.]+(e[-+]?[0-9]+)?$"}}});
+  Json map = object_of({{"kind", scenario::or_null(kinds)},
+                        {"cost_us", scenario::or_null(costs)},
+                        {"block_cost_ns", scenario::or_null(cost)},
+                        {"scale", scenario::or_null(scale)}});
+  map["if"] = {{"properties", {{"kind", {{"const", "interval"}}}}}, {"required", {"kind"}}};
+  map["then"] = scenario::needed({"cost_us"});
+  map["else"] = {{"not", scenario::needed({"cost_us"})}};
+  return scenario::any_of({alone, map});
+}
+
+/// The effective type is `type`: it is given, or left out and the module's name.
+Json is_of_type(const std::string& type) {
+  const Json word = {{"const", type}};
+  return {{"anyOf",
+           {{{"properties", {{"type", word}}}, {"required", {"type"}}},
+            {{"properties", {{"name", word}, {"type", {{"type", "null"}}}}}, {"required", {"name"}}}}}};
+}
+
+Json own_keys_of_modules() {
+  const Json name = {{"type", {"string", "number", "boolean"}}, {"pattern", "^[A-Za-z0-9_-]{1,40}$"}};
+  return {{"name", name}, {"type", scenario::or_null(name)}, {"enabled", {{"type", {"boolean", "null"}}}}};
+}
+
+/// A module of any type: the parameters of its own.
+Json module_schema(std::span<const genom::ModuleType> types, bool is_partial) {
+  Json choices = Json::array(), of_type = Json::array();
+  for (const genom::ModuleType& type : types) {
+    of_type.push_back({{"if", is_of_type(type.name)}, {"then", {{"$ref", "#/$defs/module_" + type.name}}}});
+    choices.push_back(is_of_type(type.name));
+  }
+  // Laid over another module of the name, which has the type.
+  if (!is_partial) of_type.push_back({{"anyOf", choices}});
+  return {{"type", "object"}, {"properties", own_keys_of_modules()}, {"required", {"name"}}, {"allOf", of_type}};
+}
+
+}  // namespace
+
+Json module_definitions(std::span<const genom::ModuleType> types, bool is_partial) {
+  const std::string prefix = is_partial ? "part_of_" : "";
+  Json definitions = Json::object();
+  definitions[prefix + "module"] = module_schema(types, is_partial);
+  Json executive = properties_read_by([](genom::Settings& settings) {
+    executive::Parameters parameters;
+    executive::read(settings, parameters);
+    genom::read_computing(settings, "", genom::NameSpace(), {});
+  });
+  executive["tcl"] = {{"description", "a script in Tcl in place of the executive, or below a plan"},
+                      {"type", {"string", "null"}}};
+  definitions[prefix + "executive"] = object_of(executive);
+  Json control = properties_read_by(
+      [](genom::Settings& settings) { genom::read_computing(settings, "", genom::NameSpace(), {}); });
+  control["rules"] = {{"description", "the file of rules"}, {"type", "string"}};
+  definitions[prefix + "control"] = object_of(control);
+  if (!is_partial) definitions["control"]["required"] = {"rules"};
+  if (is_partial) return definitions;
+  for (const genom::ModuleType& type : types) {
+    Json properties = own_keys_of_modules();
+    properties.update(parameters_of(type));
+    definitions["module_" + type.name] = object_of(properties);
+  }
+  definitions["clock"] = clock_schema();
+  return definitions;
+}
+
+}  // namespace waitpoint::tools
