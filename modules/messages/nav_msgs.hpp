@@ -60,4 +60,11 @@ struct OccupancyGrid {
   }
 };
 
+/// The response of the service nav_msgs/GetMap, whose request is empty.
+struct GetMapResponse {
+  static constexpr std::string_view type_name = "nav_msgs/GetMapResponse";
+  OccupancyGrid map;
+  static void fields(auto field) { field("map", &GetMapResponse::map); }
+};
+
 }  // namespace waitpoint::messages::nav_msgs

@@ -50,6 +50,15 @@ sensor_msgs::LaserScan message_of(const posters::LaserReading& scan, const std::
   return message;
 }
 
+sensor_msgs::Imu message_of(const posters::Inertial& inertial, const std::string& frame) {
+  sensor_msgs::Imu message;
+  message.header = header_of(inertial.date, frame);
+  message.orientation_covariance[0] = -1;  // none is measured
+  message.angular_velocity.z = inertial.turn_rad_s;
+  message.linear_acceleration = {inertial.ahead_m_s2, inertial.left_m_s2, inertial.up_m_s2};
+  return message;
+}
+
 nav_msgs::OccupancyGrid message_of(const OccupancyGrid& grid, Time date, const std::string& frame) {
   constexpr std::int8_t free = 0, occupied = 100, unknown = -1;
   nav_msgs::OccupancyGrid message;

@@ -10,6 +10,7 @@
 #include "modules/messages/geometry_msgs.hpp"
 #include "modules/messages/nav_msgs.hpp"
 #include "modules/messages/sensor_msgs.hpp"
+#include "modules/posters/inertial.hpp"
 #include "modules/posters/laser.hpp"
 #include "modules/posters/position.hpp"
 
@@ -31,6 +32,9 @@ inline float range_or_infinity(double range_m, double range_max_m) {
   return range_m < range_max_m ? static_cast<float>(range_m) : std::numeric_limits<float>::infinity();
 }
 sensor_msgs::LaserScan message_of(const posters::LaserReading& scan, const std::string& frame);
+
+/// Rates and accelerations: no orientation is measured.
+sensor_msgs::Imu message_of(const posters::Inertial& inertial, const std::string& frame);
 
 nav_msgs::OccupancyGrid message_of(const OccupancyGrid& grid, Time date, const std::string& frame);
 

@@ -2,7 +2,7 @@
 // A bag of ROS 1 whose messages are published to nodes: a master, and a node that has the bag's topics, with the types,
 // definitions and latches of its connections. What the messages say is not interpreted.
 //
-// C++17, and plain values only, as in node_side.hpp.
+// Plain values only: the library has no other parts of this program.
 #pragma once
 
 #include <cstdint>

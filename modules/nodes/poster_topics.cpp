@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "modules/nodes/poster_topics.hpp"
 
-#include <fmt/format.h>
-
 #include "core/nearest_name.hpp"
-#include "modules/nodes/world_topics.hpp"
+#include "modules/messages/readings.hpp"
+#include "modules/messages/wire.hpp"
 #include "modules/posters/base.hpp"
 #include "modules/posters/inertial.hpp"
 #include "modules/posters/laser.hpp"
@@ -13,87 +12,87 @@
 namespace waitpoint::nodes {
 namespace {
 
-std::optional<PosterReading> reading_of(const posters::PositionEstimate& position) {
-  return PosterReading{0, position.date.since_start().ns(), PoseReading{place_of(position.pose), position.covariance}};
+// The date of a value; nothing for one that is not to be used.
+std::optional<Time> date_of(const posters::FusedPosition& fused) { return fused.position.date; }
+std::optional<Time> date_of(const posters::Localisation& found) {
+  return found.lost ? std::nullopt : std::optional(found.position.date);
 }
+std::optional<Time> date_of(const posters::Odometry& odometry) { return odometry.position.date; }
+std::optional<Time> date_of(const posters::Echoes& echoes) { return echoes.scan.date; }
+std::optional<Time> date_of(const posters::SpeedReference& speed) { return speed.date; }
+std::optional<Time> date_of(const posters::Inertial& inertial) { return inertial.date; }
 
-std::optional<PosterReading> reading_of(const posters::FusedPosition& fused) { return reading_of(fused.position); }
-
-std::optional<PosterReading> reading_of(const posters::Localisation& localisation) {
-  return localisation.lost ? std::nullopt : reading_of(localisation.position);
+auto message_of(const posters::FusedPosition& fused, const PosterFrames&) {
+  return messages::message_of(fused.position, "map");
 }
-
-std::optional<PosterReading> reading_of(const posters::Odometry& odometry) {
-  return PosterReading{0, odometry.position.date.since_start().ns(),
-                       OdometryReading{place_of(odometry.position.pose, odometry.height_m),
-                                       odometry.position.covariance, Speeds{odometry.v_m_s, 0, 0, odometry.w_rad_s}}};
+auto message_of(const posters::Localisation& found, const PosterFrames&) {
+  return messages::message_of(found.position, "map");
 }
-
-std::optional<PosterReading> reading_of(const posters::Echoes& echoes) {
-  const posters::LaserReading& scan = echoes.scan;
-  EchoesReading reading{scan.first_angle_rad, scan.angle_step_rad, scan.range_max_m, {}};
-  reading.ranges.assign(scan.range_m.begin(), scan.range_m.end());
-  return PosterReading{0, scan.date.since_start().ns(), std::move(reading)};
+auto message_of(const posters::Odometry& odometry, const PosterFrames& frames) {
+  return messages::message_of(odometry, frames.prefix + "modules_odom", frames.prefix + "base_link");
 }
-
-std::optional<PosterReading> reading_of(const posters::SpeedReference& speed) {
-  return PosterReading{0, speed.date.since_start().ns(),
-                       Speeds{speed.v_m_s, speed.side_m_s, speed.climb_m_s, speed.w_rad_s}};
+auto message_of(const posters::Echoes& echoes, const PosterFrames& frames) {
+  messages::sensor_msgs::LaserScan message = messages::message_of(echoes.scan, frames.laser);
+  message.scan_time = static_cast<float>(frames.scan_time_s);
+  return message;
 }
-
-std::optional<PosterReading> reading_of(const posters::Inertial& inertial) {
-  return PosterReading{0, inertial.date.since_start().ns(),
-                       ImuReading{inertial.turn_rad_s, inertial.ahead_m_s2, inertial.left_m_s2, inertial.up_m_s2}};
+auto message_of(const posters::SpeedReference& speed, const PosterFrames&) {
+  return messages::geometry_msgs::Twist{{speed.v_m_s, speed.side_m_s, speed.climb_m_s}, {0, 0, speed.w_rad_s}};
 }
-
-using Look = std::function<std::optional<PosterReading>()>;
-
-// Null for a poster of another type.
-template <class T>
-Look look_at(const genom::PosterBase& base, std::size_t topic) {
-  const auto* const poster = dynamic_cast<const genom::Poster<T>*>(&base);
-  if (poster == nullptr) return nullptr;
-  return [poster, topic]() -> std::optional<PosterReading> {
-    const std::optional<T> value = poster->look();
-    std::optional<PosterReading> reading = value ? reading_of(*value) : std::nullopt;
-    if (reading) reading->topic = topic;
-    return reading;
-  };
-}
-
-template <class... Types>
-Look look_at_any(const genom::PosterBase& base, std::size_t topic) {
-  Look look;
-  (void)((look = look_at<Types>(base, topic)) || ...);
-  return look;
+auto message_of(const posters::Inertial& inertial, const PosterFrames& frames) {
+  return messages::message_of(inertial, frames.prefix + "base_link");
 }
 
 }  // namespace
 
-PosterTopics::PosterTopics(const std::vector<scenario::PosterTopic>& table, const genom::NameSpace& names) {
-  rows_.reserve(table.size());
-  for (const scenario::PosterTopic& row : table) {
-    const genom::PosterBase* const poster = names.find_poster(row.poster);
+// Null for a poster of another type.
+template <class T>
+std::function<std::optional<PosterTopics::Value>(const std::optional<Time>&)> PosterTopics::look_at(
+    const genom::PosterBase& base) const {
+  const auto* const poster = dynamic_cast<const genom::Poster<T>*>(&base);
+  if (poster == nullptr) return nullptr;
+  return [poster, this](const std::optional<Time>& published) -> std::optional<Value> {
+    const std::optional<T> value = poster->look();
+    const std::optional<Time> date = value ? date_of(*value) : std::nullopt;
+    if (!date || date == published) return std::nullopt;
+    auto message = message_of(*value, frames_);
+    if constexpr (requires { message.header; })
+      message.header.stamp = messages::stamp_of(frames_.begin + date->since_start());
+    return Value{*date, &messages::ros1_type<decltype(message)>(), messages::encode<messages::Wire::ros1>(message)};
+  };
+}
+
+template <class... Types>
+bool PosterTopics::find_look(const genom::PosterBase& base, Row& row) const {
+  return ((row.look = look_at<Types>(base)) || ...);
+}
+
+PosterTopics::PosterTopics(const scenario::NodesScenario& nodes, const genom::NameSpace& names, PosterFrames frames)
+    : frames_(std::move(frames)) {
+  for (const scenario::PosterTopic& entry : scenario::poster_topics(nodes)) {
+    const genom::PosterBase* const poster = names.find_poster(entry.poster);
     if (poster == nullptr) {
       std::vector<std::string_view> known;
-      for (const auto& [name, entry] : names.posters()) known.push_back(name);
-      throw row.written.bad("no module writes poster '" + row.poster + "'" + did_you_mean(row.poster, known));
+      for (const auto& [name, other] : names.posters()) known.push_back(name);
+      throw entry.written.bad("no module writes poster '" + entry.poster + "'" + did_you_mean(entry.poster, known));
     }
-    Look look = look_at_any<posters::FusedPosition, posters::Localisation, posters::Odometry, posters::Echoes,
-                            posters::SpeedReference, posters::Inertial>(*poster, rows_.size());
-    if (look == nullptr)
-      throw row.written.bad("poster '" + row.poster +
-                            "' cannot be a topic: expected a position, odometry, echoes, a speed or inertial readings");
-    rows_.push_back({std::move(look), std::nullopt});
+    Row& row = rows_.emplace_back(Row{entry.topic, nullptr});
+    if (!find_look<posters::FusedPosition, posters::Localisation, posters::Odometry, posters::Echoes,
+                   posters::SpeedReference, posters::Inertial>(*poster, row))
+      throw entry.written.bad(
+          "poster '" + entry.poster +
+          "' cannot be a topic: expected a position, odometry, echoes, a speed or inertial readings");
   }
 }
 
-void PosterTopics::read(std::vector<PosterReading>& readings) {
+void PosterTopics::publish(NodeSide& nodes, const std::function<std::string(const std::string& topic)>& global) {
+  constexpr std::uint32_t queue = 10;
   for (Row& row : rows_) {
-    std::optional<PosterReading> reading = row.look();
-    if (!reading || row.given_ns == reading->date_ns) continue;
-    row.given_ns = reading->date_ns;
-    readings.push_back(std::move(*reading));
+    const std::optional<Value> value = row.look(row.published);
+    if (!value) continue;
+    row.published = value->date;
+    if (!row.advertised) row.advertised = nodes.advertise(global(row.topic), *value->type, queue, false);
+    nodes.publish(*row.advertised, value->bytes);
   }
 }
 

@@ -14,6 +14,7 @@
 
 #include <functional>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "modules/genom/name_space.hpp"
@@ -22,19 +23,44 @@
 
 namespace waitpoint::nodes {
 
+/// What the messages of a robot's posters have in their headers.
+struct PosterFrames {
+  std::string prefix;      ///< of the robot's frames
+  std::string laser;       ///< that of scans
+  double scan_time_s = 0;  ///< between two scans
+  Time begin;              ///< of the run, for nodes
+};
+
 class PosterTopics {
  public:
   /// Finds the posters; BadInput for one that is not there, or has a type that is no topic's.
-  PosterTopics(const std::vector<scenario::PosterTopic>& table, const genom::NameSpace& names);
+  PosterTopics(const scenario::NodesScenario& nodes, const genom::NameSpace& names, PosterFrames frames);
+  PosterTopics(const PosterTopics&) = delete;
+  PosterTopics& operator=(const PosterTopics&) = delete;
 
-  /// The values written since the last call, in the order of the table.
-  void read(std::vector<PosterReading>& readings);
+  /// Publishes the values written since the last call, in the order of the table. A topic is advertised with its first
+  /// value; `global` makes the name of it.
+  void publish(NodeSide& nodes, const std::function<std::string(const std::string& topic)>& global);
 
  private:
-  struct Row {
-    std::function<std::optional<PosterReading>()> look;  // nothing if it is empty
-    std::optional<std::int64_t> given_ns;                // date of the value that was read last
+  /// A poster's value as a message.
+  struct Value {
+    Time date;
+    const messages::Ros1Type* type = nullptr;
+    std::string bytes;
   };
+  struct Row {
+    std::string topic;
+    std::function<std::optional<Value>(const std::optional<Time>& published)> look;  // nothing if it is not newer
+    std::optional<Time> published = {};  // date of the value that was published last
+    std::optional<NodeSide::Topic> advertised = {};
+  };
+  template <class T>
+  std::function<std::optional<Value>(const std::optional<Time>&)> look_at(const genom::PosterBase& base) const;
+  template <class... Types>
+  bool find_look(const genom::PosterBase& base, Row& row) const;
+
+  PosterFrames frames_;
   std::vector<Row> rows_;
 };
 

@@ -7,12 +7,14 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "core/occupancy_grid.hpp"
 #include "core/pose.hpp"
 #include "core/time.hpp"
+#include "modules/messages/description.hpp"
 
 namespace waitpoint::nodes {
 
@@ -27,6 +29,13 @@ struct ShownMessage {
   std::vector<Pose> poses;            ///< of paths and clouds
   std::optional<OccupancyGrid> grid;  ///< of grids
 };
+
+/// The type of a kind's messages.
+const messages::Ros1Type& shown_type(ShownMessage::Kind kind);
+
+/// A message in ROS 1's wire format. Poses that are no numbers are left out, and a grid whose size is not that of its
+/// cells. BadInput for one that is cut off.
+ShownMessage shown_message(ShownMessage::Kind kind, const std::string& topic, std::string_view bytes, Time begin);
 
 /// The messages of a run.
 class ShownTopics {

@@ -10,13 +10,11 @@
 
 #include "modules/nodes/node_expectations.hpp"
 #include "modules/nodes/node_processes.hpp"
-#include "modules/nodes/node_side.hpp"
-#include "modules/nodes/poster_topics.hpp"
 #include "modules/nodes/robots_air.hpp"
 #include "modules/nodes/shown_topics.hpp"
+#include "modules/nodes/world_topics.hpp"
 #include "modules/outside/fault_counts.hpp"
 #include "modules/outside/partner.hpp"
-#include "modules/rflex/dead_reckoning.hpp"
 #include "modules/scenario/scenario.hpp"
 
 namespace waitpoint::nodes {
@@ -31,10 +29,10 @@ struct NodeRunOptions {
 
 class WorldNode final : public outside::Partner {
  public:
-  /// `robots`: indices of the scenario's, as `nodes` has them. `commands` of the nodes of all their launches, in their
-  /// order: the executable and its arguments. The scenario must outlive this.
-  WorldNode(const scenario::Scenario& scenario, const std::vector<std::size_t>& robots, std::unique_ptr<NodeSide> nodes,
-            std::vector<NodeCommand> commands, NodeRunOptions options);
+  /// `commands` of the nodes of all launches of the scenario's robots, in their order: the executable and its
+  /// arguments. The scenario must outlive this.
+  WorldNode(const scenario::Scenario& scenario, std::unique_ptr<WorldTopics> topics, std::vector<NodeCommand> commands,
+            NodeRunOptions options);
 
   void begin(outside::Host& host) override;
   void publish(outside::Host& host) override;
@@ -44,30 +42,23 @@ class WorldNode final : public outside::Partner {
 
  private:
   struct Robot {
-    std::size_t index;  // in the scenario
-    rflex::DeadReckoning odometry;
-    std::vector<std::uint64_t> scans = {}, firings = {};  // so far, by laser and ring
-    std::uint64_t imu_samples = 0;
-    std::optional<PosterTopics> posters = {};  // from the run's begin on
-    std::size_t goals_sent = 0;                // so far
-    Time sent_at = {};                         // the last one
-    std::uint32_t messages = 0;                // of cmd_vel, within a second
-    Time told_at = {};                         // its last message, or when the robot moved since
+    std::size_t index;           // in the scenario
+    std::size_t goals_sent = 0;  // so far
+    Time sent_at = {};           // the last one
+    std::uint32_t messages = 0;  // of cmd_vel, within a second
+    Time told_at = {};           // its last message, or when the robot moved since
   };
 
-  RobotReadings readings(Robot& robot, const world::World& world, Time now);
-  void read_sensors(Robot& robot, const world::World& world, Time now, RobotReadings& readings);
   void show_goal(outside::Host& host, std::size_t number);
   void count(outside::Host& host, Robot& robot, std::uint32_t messages);
-  void pass_pose(outside::Host& host, const Robot& robot, const PublishedPose& published);
+  void pass_pose(outside::Host& host, const Robot& robot, const posters::PositionEstimate& pose);
   void send_goal(std::size_t number, const Point& position, const world::BodyState& body, Time now);
-  void drive(outside::Host& host, const Robot& robot, const Speeds& speeds);
+  void drive(outside::Host& host, const Robot& robot, const messages::geometry_msgs::Twist& twist);
   void tell_news(outside::Host& host);
-  void show_topics(std::size_t robot);
 
   const scenario::Scenario& scenario_;
   std::vector<Robot> robots_;
-  std::unique_ptr<NodeSide> nodes_;
+  std::unique_ptr<WorldTopics> topics_;
   RobotsAir air_;
   std::shared_ptr<ShownTopics> shown_;
   bool is_brief_;

@@ -7,7 +7,7 @@ declare -A debian=(
   [run]='meson ninja-build g++ pkg-config python3 libboost-context-dev libfcl-dev libyaml-cpp-dev libcli11-dev libfmt-dev
          nlohmann-json3-dev libpng-dev libtinyxml2-dev zlib1g-dev libbz2-dev liblz4-dev libzstd-dev'
   [accesses]='libzydis-dev'
-  [bags]='librosbag-storage-dev libsensor-msgs-dev libnav-msgs-dev libtf2-msgs-dev libros-rosgraph-msgs-dev libvisualization-msgs-dev'
+  [bags]='librosbag-storage-dev'
   [bullet]='libbullet-dev'
   [meshes]='libassimp-dev'
   [ranks]='libopenmpi-dev openmpi-bin'
@@ -15,7 +15,7 @@ declare -A debian=(
   [test]='libgtest-dev liboctomap-dev clang gdb libz3-dev python3-rosbag zstd xz-utils pigz pbzip2 perl libtbb-dev
          libuv1-dev cmake catch2 doctest-dev python3-jsonschema jq zsh fish'
   [ros]='python3-rosmaster libroscpp-dev libstd-msgs-dev libnav-msgs-dev libsensor-msgs-dev libtf2-ros-dev
-        libnodeletlib-dev libnodeletlib-tools ros-robot-state-publisher python3-rospy python3-nav-msgs python3-sensor-msgs python3-tf2-ros librosbag-dev python3-rosbag'
+        libnodeletlib-dev libnodeletlib-tools libvisualization-msgs-dev ros-robot-state-publisher python3-rospy python3-nav-msgs python3-sensor-msgs python3-tf2-ros librosbag-dev python3-rosbag'
   [ros2]='cyclonedds-dev cyclonedds-tools libfastrtps-dev libfastcdr-dev'
   [view]="chromium $(command -v node >/dev/null && command -v npm >/dev/null || echo nodejs npm)"
   [builds]='clang libc++-dev libc++abi-dev'
@@ -36,7 +36,7 @@ declare -A upstream=(
          yaml-cpp, CLI11, fmt, nlohmann_json, libpng, TinyXML-2, zlib; for compressed
          logs, if wanted, bzip2, lz4, zstd'
   [accesses]='for accesses as switch points of explored programs: Zydis 4'
-  [bags]='for recordings as ROS bags: rosbag_storage and its messages'
+  [bags]='for recordings as ROS bags: rosbag_storage'
   [bullet]='for the dynamic world: Bullet 3.24 in double precision'
   [meshes]='for meshes of other kinds than STL and OBJ: Assimp 5.2'
   [ranks]='for runs of several processes: Open MPI 4'

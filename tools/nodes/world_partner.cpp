@@ -42,15 +42,18 @@ std::unique_ptr<outside::Partner> make_world_partner(const scenario::Scenario& s
   std::optional<scenario::MapFile> map = scenario.map;
   if (map) map->read();
   const OccupancyGrid known = run::known_map(scenario, map ? map->contents.get() : nullptr, first);
-  std::unique_ptr<nodes::NodeSide> side;
+  std::unique_ptr<nodes::WorldTopics> topics;
   const sync::UnnotedThreads of_ros;
   try {
-    side = library_of_nodes(first.nodes->written).make(nodes::node_side_setup(scenario, known));
+    topics = std::make_unique<nodes::WorldTopics>(
+        scenario, known, library_of_nodes(first.nodes->written).make(nodes::node_side_setup(scenario)));
+  } catch (const BadInput&) {
+    throw;
   } catch (const std::runtime_error& error) {
     throw first.nodes->written.bad(error.what());
   }
-  return std::make_unique<nodes::WorldNode>(scenario, nodes::robots_with_nodes(scenario), std::move(side),
-                                            std::move(commands), options_of(scenario, std::move(shown), is_brief));
+  return std::make_unique<nodes::WorldNode>(scenario, std::move(topics), std::move(commands),
+                                            options_of(scenario, std::move(shown), is_brief));
 }
 
 }  // namespace waitpoint::tools

@@ -14,6 +14,7 @@
 
 #include <map>
 
+#include "tools/record/foxglove_messages.hpp"
 #include "tools/record/mcap_file.hpp"
 #include "tools/record/viewer_recording.hpp"
 
@@ -25,12 +26,22 @@ class FoxgloveRecording final : public ViewerRecording {
   FoxgloveRecording(const std::filesystem::path& path, const scenario::Scenario& scenario);
 
  private:
-  using Topic = McapFile::Topic;
+  /// Of messages of one type.
+  template <messages::Message M>
+  struct Channel {
+    McapFile::Topic number = 0;
+  };
   /// Of one robot.
   struct Topics {
-    std::vector<Topic> scans;
-    Topic odometry, position, truth, log;
+    std::vector<Channel<foxglove::LaserScan>> scans;
+    Channel<foxglove::PoseInFrame> odometry, position, truth;
+    Channel<foxglove::Log> log;
   };
+
+  template <messages::Message M>
+  Channel<M> add(const std::string& topic);
+  template <messages::Message M>
+  void write(Channel<M> channel, Time received, const M& message);
 
   void add_topics(const OfRobot& robot);
   void set_time(Time now) override { now_ = now; }
@@ -46,12 +57,16 @@ class FoxgloveRecording final : public ViewerRecording {
   void write_shown(const nodes::ShownMessage& message, const std::string& frame) override;
   void write_log(const OfRobot& robot, const ModuleLog::Line& line) override;
   void close(const bridge::RunResult& result) override;
+  void write_pose(Channel<foxglove::PoseInFrame> channel, Time date, const Pose& pose);
   void write_goals(const bridge::RobotResult& robot);
 
   McapFile file_;
-  Topic frames_, world_, clock_;
+  Channel<foxglove::FrameTransform> frames_;
+  Channel<foxglove::SceneUpdate> world_;
+  Channel<foxglove::Clock> clock_;
   std::vector<Topics> topics_;  // by robot
-  std::map<std::string, Topic> shown_;
+  std::map<std::string, Channel<foxglove::SceneUpdate>> grids_;
+  std::map<std::string, Channel<foxglove::PosesInFrame>> poses_;
   Time now_;
 };
 

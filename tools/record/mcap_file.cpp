@@ -71,16 +71,17 @@ void McapFile::append(std::string_view bytes) {
   size_ += bytes.size();
 }
 
-std::uint16_t McapFile::number_of(const foxglove::Schema& of) {
-  const auto [found, is_new] = numbers_.try_emplace(of.name, schemas_.size() + 1);  // 0 is none
+std::uint16_t McapFile::number_of(const std::string& name, const std::string& text) {
+  const auto [found, is_new] = numbers_.try_emplace(name, schemas_.size() + 1);  // 0 is none
   if (!is_new) return found->second;
-  schemas_.push_back(Fields().number(found->second).text(of.name).text("jsonschema").text(of.text).as_record(schema));
+  schemas_.push_back(Fields().number(found->second).text(name).text("jsonschema").text(text).as_record(schema));
   chunk_ += schemas_.back();
   return found->second;
 }
 
-McapFile::Topic McapFile::add(const foxglove::Schema& of_schema, const std::string& topic) {
-  const std::uint16_t number = number_of(of_schema);
+McapFile::Topic McapFile::add(const std::string& schema_name, const std::string& schema_text,
+                              const std::string& topic) {
+  const std::uint16_t number = number_of(schema_name, schema_text);
   const auto id = static_cast<Topic>(channels_.size());
   channels_.push_back(Fields().number(id).number(number).text(topic).text("json").map(Fields()).as_record(channel));
   chunk_ += channels_.back();

@@ -19,15 +19,6 @@
 
 namespace waitpoint::tools {
 
-namespace foxglove {
-
-/// A schema's name and its JSON Schema text.
-struct Schema {
-  std::string name, text;
-};
-
-}  // namespace foxglove
-
 class McapFile {
  public:
   /// Counts the topics, which are channels of the file, from 0.
@@ -36,8 +27,8 @@ class McapFile {
   /// Throws BadInput if the file cannot be written; so do write() and finish().
   explicit McapFile(const std::filesystem::path& path);
 
-  /// Adds a topic with JSON messages of a schema. Schemas of one name have one text.
-  Topic add(const foxglove::Schema& schema, const std::string& topic);
+  /// Adds a topic with JSON messages of a JSON Schema. Schemas of one name have one text.
+  Topic add(const std::string& schema_name, const std::string& schema, const std::string& topic);
   /// Appends a message that was received at `time`; times need not ascend.
   void write(Topic topic, Time time, std::string_view message);
   /// Writes the index and renames the file into place; called last.
@@ -53,7 +44,7 @@ class McapFile {
     std::uint64_t offset, length;
   };
 
-  std::uint16_t number_of(const foxglove::Schema& schema);
+  std::uint16_t number_of(const std::string& schema_name, const std::string& schema);
   void append(std::string_view bytes);
   void end_chunk();
   static std::string as_record(const ChunkPlace& place);

@@ -3,7 +3,6 @@
 
 #include <ros/callback_queue.h>
 #include <ros/ros.h>
-#include <rosgraph_msgs/Clock.h>
 
 #include <chrono>
 #include <exception>
@@ -12,6 +11,9 @@
 #include <stdexcept>
 #include <thread>
 
+#include "modules/messages/roscpp_traits.hpp"
+#include "modules/messages/rosgraph_msgs.hpp"
+#include "modules/messages/wire.hpp"
 #include "modules/nodes/library/heard_topics.hpp"
 #include "modules/nodes/library/node_with_master.hpp"
 #include "modules/nodes/library/played_bag.hpp"
@@ -19,6 +21,10 @@
 
 namespace waitpoint::nodes {
 namespace {
+
+using messages::rosgraph_msgs::Clock;
+
+const messages::Ros1Type& clock_type() { return messages::ros1_type<Clock>(); }
 
 constexpr std::uint32_t any_number = 0;  // of messages in a queue: none is lost on this side
 
@@ -45,7 +51,10 @@ class BagAndMaster final : public NodeWithMaster<BagSide> {
  public:
   explicit BagAndMaster(const BagSideSetup& setup) : hears_(setup.hears), bag_(opened(setup.choice)) {
     open_node(setup.has_debian_master, setup.has_clock, setup.parameters);
-    if (setup.has_clock) clock_ = node_->advertise<rosgraph_msgs::Clock>("/clock", any_number);
+    if (setup.has_clock) {
+      ros::AdvertiseOptions options("/clock", any_number, clock_type().md5, clock_type().name, clock_type().definition);
+      clock_ = node_->advertise(options);
+    }
     // A bag may have its own clock, which is that of the run.
     for (const rosbag::ConnectionInfo* connection : bag_->connections())
       if (!setup.has_clock || topic_of(connection->topic) != "/clock") advertise(*connection);
@@ -75,9 +84,9 @@ class BagAndMaster final : public NodeWithMaster<BagSide> {
   }
 
   void show_clock(std::int64_t time_ns) override {
-    rosgraph_msgs::Clock clock;
-    clock.clock = first_ + ros::Duration().fromNSec(time_ns);
-    clock_.publish(clock);
+    const ros::Time now = first_ + ros::Duration().fromNSec(time_ns);
+    const std::string bytes = messages::encode<messages::Wire::ros1>(Clock{{now.sec, now.nsec}});
+    clock_.publish(messages::SerializedMessage{&clock_type(), bytes});
   }
 
   std::vector<HeardMessage> hear() override {

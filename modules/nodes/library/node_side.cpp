@@ -1,110 +1,108 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "modules/nodes/node_side.hpp"
 
-#include <nav_msgs/GetMap.h>
 #include <ros/callback_queue.h>
 #include <ros/ros.h>
-#include <rosgraph_msgs/Clock.h>
-#include <tf2_msgs/TFMessage.h>
 
-#include "modules/nodes/library/messages.hpp"
+#include <optional>
+
+#include "modules/messages/roscpp_traits.hpp"
 #include "modules/nodes/library/node_with_master.hpp"
-#include "modules/nodes/library/robot_node.hpp"
-#include "modules/nodes/library/shown_subscriptions.hpp"
 #include "modules/nodes/library/sides.hpp"
 #include "modules/nodes/library/topic_watch.hpp"
 
 namespace waitpoint::nodes {
 namespace {
 
-constexpr std::uint32_t queue = 100;
-constexpr bool latched = true;
+using messages::ReceivedMessage;
+using messages::Ros1Type;
+using messages::SerializedMessage;
 
 class WorldAndMaster final : public NodeWithMaster<NodeSide> {
  public:
-  explicit WorldAndMaster(const NodeSideSetup& setup) : has_clock_(setup.has_clock) {
+  explicit WorldAndMaster(const NodeSideSetup& setup) {
     open_node(setup.has_debian_master, setup.has_clock, setup.parameters);
     const ros::WallTime now = ros::WallTime::now();
-    begin_ = has_clock_ ? ros::Time(1, 0) : ros::Time(now.sec, now.nsec);
-    advertise(setup);
-    watch_.emplace(*node_, setup.bounds);
+    // With a clock from 1 s on: roscpp takes 0 for a clock that has not begun.
+    begin_ = setup.has_clock ? messages::time_of({1, 0}) : messages::time_of({now.sec, now.nsec});
   }
   ~WorldAndMaster() override {
     watch_.reset();
-    robots_.clear();
-    shown_.clear();
-    map_server_ = {};
+    topics_.clear();
+    subscribers_.clear();
+    services_.clear();
     close_node();
   }
   WorldAndMaster(const WorldAndMaster&) = delete;
   WorldAndMaster& operator=(const WorldAndMaster&) = delete;
 
-  void publish(std::int64_t now_ns, const std::vector<RobotReadings>& robots) override {
-    stamp_ = begin_ + ros::Duration().fromNSec(now_ns);
-    if (has_clock_) {
-      rosgraph_msgs::Clock clock;
-      clock.clock = stamp_;
-      clock_.publish(clock);
-    }
-    tf2_msgs::TFMessage tf;
-    for (std::size_t i = 0; i < robots_.size(); ++i) robots_[i]->publish(now_ns, stamp_, robots[i], tf);
-    if (!tf.transforms.empty()) tf_.publish(tf);
+  Time begin() const override { return begin_; }
+
+  Topic advertise(const std::string& name, const Ros1Type& type, std::uint32_t queue, bool is_latched) override {
+    ros::AdvertiseOptions options(name, queue, type.md5, type.name, type.definition);
+    options.latch = is_latched;
+    // roscpp counts the messages in their headers.
+    options.has_header = type.definition.starts_with("std_msgs/Header ");
+    topics_.push_back({node_->advertise(options), &type});
+    return topics_.size() - 1;
   }
 
-  bool has_driver(std::size_t robot) const override { return robots_[robot]->has_driver(); }
-  void send_goal(std::size_t robot, const Place& goal) override { robots_[robot]->send_goal(stamp_, goal); }
+  void publish(Topic topic, std::string_view bytes) override {
+    topics_[topic].publisher.publish(SerializedMessage{topics_[topic].type, bytes});
+  }
+  bool has_subscribers(Topic topic) const override { return topics_[topic].publisher.getNumSubscribers() > 0; }
 
-  std::vector<std::optional<Command>> take_commands() override {
+  Subscription subscribe(const std::string& name, const Ros1Type& type, std::uint32_t queue) override {
+    const Subscription number = subscribers_.size();
+    ros::SubscribeOptions options;
+    options.init<ReceivedMessage>(name, queue, [this, number](const boost::shared_ptr<const ReceivedMessage>& message) {
+      received_.push_back({number, message->bytes});
+    });
+    options.md5sum = type.md5;
+    options.datatype = type.name;
+    subscribers_.push_back(node_->subscribe(options));
+    return number;
+  }
+
+  std::vector<Received> take_received() override {
     ros::getGlobalCallbackQueue()->callAvailable();
-    std::vector<std::optional<Command>> commands;
-    commands.reserve(robots_.size());
-    for (const auto& robot : robots_) commands.push_back(robot->take_command());
-    return commands;
+    return std::exchange(received_, {});
   }
 
-  std::vector<std::optional<PublishedPose>> take_poses() override {
-    std::vector<std::optional<PublishedPose>> poses;
-    poses.reserve(robots_.size());
-    for (const auto& robot : robots_) poses.push_back(robot->take_pose(begin_));
-    return poses;
+  void serve(const std::string& name, const std::string& service_type, const Ros1Type& type,
+             std::string response) override {
+    using Spec = ros::ServiceSpec<ReceivedMessage, SerializedMessage>;
+    const Spec::CallbackType give = [&type, response = std::move(response)](ReceivedMessage&,
+                                                                            SerializedMessage& given) {
+      given = {&type, response};
+      return true;
+    };
+    ros::AdvertiseServiceOptions options;
+    options.service = name;
+    options.md5sum = type.md5;  // that of an empty request and this response
+    options.datatype = service_type;
+    options.req_datatype = service_type + "Request";
+    options.res_datatype = type.name;
+    options.helper = boost::make_shared<ros::ServiceCallbackHelperT<Spec>>(give);
+    services_.push_back(node_->advertiseService(options));
   }
+
+  void watch(const std::vector<TopicBound>& bounds) override { watch_.emplace(*node_, bounds); }
   std::vector<std::string> take_breaches() override { return watch_->take_breaches(); }
   std::vector<std::string> unheard_topics() const override { return watch_->unheard(); }
 
-  std::vector<ShownReading> take_shown(std::size_t robot) override { return shown_[robot]->take(begin_); }
-
  private:
-  void advertise(const NodeSideSetup& setup) {
-    if (has_clock_) clock_ = node_->advertise<rosgraph_msgs::Clock>("/clock", queue);
-    tf_ = node_->advertise<tf2_msgs::TFMessage>("/tf", queue);
-    fixed_ = node_->advertise<tf2_msgs::TFMessage>("/tf_static", queue, latched);
-    map_ = node_->advertise<nav_msgs::OccupancyGrid>("/map", 1, latched);
-    const nav_msgs::OccupancyGrid map = grid(begin_, "map", setup.map);
-    map_.publish(map);
-    using Request = nav_msgs::GetMap::Request;
-    using Response = nav_msgs::GetMap::Response;
-    const boost::function<bool(Request&, Response&)> give_map = [map](Request&, Response& response) {
-      response.map = map;
-      return true;
-    };
-    map_server_ = node_->advertiseService("/static_map", give_map);
-    tf2_msgs::TFMessage fixed;
-    for (const RobotTopics& topics : setup.robots) {
-      robots_.push_back(std::make_unique<RobotNode>(topics));
-      shown_.push_back(std::make_unique<ShownSubscriptions>(topics));
-      robots_.back()->add_fixed(begin_, fixed);
-      robots_.back()->send_start(begin_);
-    }
-    fixed_.publish(fixed);
-  }
+  struct Advertised {
+    ros::Publisher publisher;
+    const Ros1Type* type;
+  };
 
-  bool has_clock_;
-  ros::Time begin_, stamp_;  // of the run's beginning; of the last step
-  ros::Publisher clock_, tf_, fixed_, map_;
-  ros::ServiceServer map_server_;
-  std::vector<std::unique_ptr<RobotNode>> robots_;
+  Time begin_;
+  std::vector<Advertised> topics_;
+  std::vector<ros::Subscriber> subscribers_;
+  std::vector<ros::ServiceServer> services_;
+  std::vector<Received> received_;
   std::optional<TopicWatch> watch_;
-  std::vector<std::unique_ptr<ShownSubscriptions>> shown_;  // by robot
 };
 
 }  // namespace
