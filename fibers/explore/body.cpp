@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fibers/explore/body.hpp"
 
+#include <algorithm>
 #include <sstream>
 
+#include "core/error.hpp"
 #include "fibers/explore/races/races.hpp"
+#include "fibers/explore/schedules/course.hpp"
 #include "fibers/explore/strategies/fifo.hpp"
+#include "fibers/explore/target/evidence_recorder.hpp"
 #include "fibers/sync/system_calls/system_calls.hpp"
 
 namespace waitpoint::exploration {
@@ -56,33 +60,78 @@ void Body::start(Strategy& strategy, const Played& played) {
   simulation_.spawn(simulation_.environment(), {.name = "main"}, function_);
 }
 
-Outcome Body::run(Strategy& strategy, const Played& played) {
+RunVerdict Body::run(Strategy& strategy, const Played& played) { return carry_out(strategy, played, until_, nullptr); }
+
+RunVerdict Body::carry_out(Strategy& strategy, const Played& played, Time until, EvidenceRecorder* recording) {
   start(strategy, played);
-  Outcome outcome;
+  RunVerdict verdict;
+  RunEnd end = RunEnd::ended;
   bool ended_by_checks = false;
   try {
-    outcome.end = simulation_.run_before(until_);
+    end = simulation_.run_before(until);
   } catch (...) {  // reported by trouble()
     ended_by_checks = checks_ != nullptr && checks_->is_own(std::current_exception());
   }
-  outcome.failure = simulation_.trouble();
-  outcome.was_cut = explorer_.was_cut();
-  if (!outcome.was_cut && outcome.failure.empty() && outcome.end == RunEnd::time_reached)
-    outcome.failure = "not finished at " + to_string(until_) + " s of virtual time";
-  if (outcome.failure.empty() && sync::has_started_outside_of_virtual_time())
-    outcome.failure = sync::started_outside_of_virtual_time;
-  outcome.digest = simulation_.digest().value();
-  outcome.trace = explorer_.trace();
-  outcome.end_time = simulation_.global_time();
-  outcome.events = simulation_.scheduler().events();
+  verdict.was_cut = explorer_.was_cut();
+  const bool has_stopped = recording != nullptr && recording->has_stopped();
+  judge(end, until, verdict.was_cut || has_stopped || until < until_, verdict);
+  verdict.digest = simulation_.digest().value();
+  verdict.order = explorer_.trace();
+  verdict.end = simulation_.global_time();
+  verdict.events = simulation_.scheduler().events();
+  verdict.is_beyond_enumeration = explorer_.is_beyond_enumeration();
+  if (recording != nullptr) recording->finish();
   simulation_.unwind();
-  outcome.abandoned = simulation_.abandoned();
   if (checks_ != nullptr)
-    if (std::string failures = checks_->end(); !failures.empty())
-      outcome.failure = outcome.failure.empty() || ended_by_checks ? failures : failures + "\n" + outcome.failure;
-  outcome.only_raced = fails_on_races_ && outcome.failure.empty() && races::any_found();
-  if (outcome.only_raced) outcome.failure = describe_races(places_);
-  return outcome;
+    if (std::string failures = checks_->end(); !failures.empty()) {
+      failure_ = failure_.empty() || ended_by_checks ? failures : failures + "\n" + failure_;
+    }
+  if (!failure_.empty() && verdict.passed()) verdict.kind = RunVerdict::Kind::unmet;
+  if (fails_on_races_ && failure_.empty() && races::any_found()) {
+    verdict.kind = RunVerdict::Kind::race;
+    failure_ = describe_races(places_);
+  }
+  return verdict;
+}
+
+void Body::judge(RunEnd end, Time until, bool may_end_early, RunVerdict& verdict) {
+  failure_ = simulation_.trouble();
+  if (!failure_.empty())
+    verdict.kind = end == RunEnd::deadlock      ? RunVerdict::Kind::deadlock
+                   : end == RunEnd::no_progress ? RunVerdict::Kind::no_progress
+                                                : RunVerdict::Kind::unmet;
+  else if (end == RunEnd::time_reached && !may_end_early)
+    failure_ = "not finished at " + to_string(until) + " s of virtual time";
+  if (failure_.empty() && sync::has_started_outside_of_virtual_time()) failure_ = sync::started_outside_of_virtual_time;
+}
+
+Finding Body::finding_of(const RunVerdict& verdict) const {
+  Finding finding;
+  static_cast<RunVerdict&>(finding) = verdict;
+  finding.words = failure_;
+  finding.take(explorer_.schedule(), explorer_.parted());
+  return finding;
+}
+
+Finding Body::repeat(const Plan& plan, const WantedEvidence& wanted) {
+  WAITPOINT_CHECK(!plan.drawn, "a body's schedule is to be repeated by its draws");
+  tell(wanted.places ? sync::Places::told : sync::Places::left_out);
+  const std::unique_ptr<Strategy> strategy =
+      begin_course({.number = plan.attempt, .at_random_from = plan.at_random_from}, explorer_, {});
+  Finding finding;
+  {
+    EvidenceRecorder recording(wanted, simulation_, explorer_, finding);
+    const RunVerdict verdict = carry_out(*strategy, {.switches = plan.switches, .deviations = plan.deviations},
+                                         std::min(until_, plan.until), &recording);
+    static_cast<RunVerdict&>(finding) = verdict;
+  }
+  tell(sync::Places::left_out);
+  finding.words = failure_;
+  finding.take(explorer_.schedule(), explorer_.parted());
+  if (wanted.choices) finding.lesson.choices = explorer_.schedule().decisions;
+  if (wanted.places && races::any_found())
+    for (const races::Race& race : races::found()) finding.evidence.races.push_back(told(race));
+  return finding;
 }
 
 void Body::run_up_to(const Played& played, const std::function<void()>& look) {
@@ -97,13 +146,6 @@ void Body::run_up_to(const Played& played, const std::function<void()>& look) {
   }
   simulation_.unwind();
   if (checks_ != nullptr) (void)checks_->end();
-}
-
-void Body::run_watched_by(kernel::Decisions& decisions, const Schedule& schedule) {
-  Fifo rest;
-  simulation_.scheduler().set_decisions(decisions);
-  (void)run(rest, {.prefix = schedule.decisions});
-  simulation_.scheduler().set_decisions(explorer_);
 }
 
 }  // namespace waitpoint::exploration

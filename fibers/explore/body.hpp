@@ -8,10 +8,15 @@
 
 #include "fibers/explore/schedules/explorer.hpp"
 #include "fibers/explore/strategies/memory_option.hpp"
+#include "fibers/explore/target/finding.hpp"
+#include "fibers/explore/target/plan.hpp"
+#include "fibers/explore/target/wanted_evidence.hpp"
 #include "fibers/kernel/fault_reports.hpp"
 #include "fibers/sync/simulation.hpp"
 
 namespace waitpoint::exploration {
+
+class EvidenceRecorder;
 
 /// An external source of failures, beside the kernel's checks: a test framework's expectations.
 class ExternalChecks {
@@ -44,21 +49,6 @@ class ExternalChecks {
 /// never reached, the program ends here, with a line and status 2.
 void on_tests_finished();
 
-/// The result of a schedule.
-struct Outcome {
-  RunEnd end = RunEnd::ended;
-  std::string failure;      ///< the report, whose first line is the failure; empty if it passed
-  bool only_raced = false;  ///< the failure is a data race: otherwise it passed
-  bool was_cut = false;     ///< abandoned, since nothing new could follow; counts as passed
-  std::uint64_t digest = 0;
-  std::uint64_t trace = 0;  ///< see Explorer::trace()
-  Time end_time;
-  std::uint64_t events = 0;
-  std::vector<std::string> abandoned;
-
-  bool passed() const { return failure.empty(); }
-};
-
 class Body {
  public:
   /// `checks` may be null. The limits of a schedule are `until` in virtual time, and `steps_max` switch points at one
@@ -67,27 +57,31 @@ class Body {
        Memory memory = Memory::sc);
 
   /// Runs it from the beginning: first `played`, then `strategy`, which must have begun this schedule.
-  Outcome run(Strategy& strategy, const Played& played = {});
+  RunVerdict run(Strategy& strategy, const Played& played = {});
+  /// The last run's failure, whose first line is the headline; empty if it passed.
+  const std::string& failure() const { return failure_; }
+  /// The finding of the last run, which had this verdict.
+  Finding finding_of(const RunVerdict& verdict) const;
+  /// Runs it by a plan that is not drawn, and records what is wanted.
+  Finding repeat(const Plan& plan, const WantedEvidence& wanted);
   /// As run(), up to the decision where `played` stops; then calls `look`, before everything is unwound.
   void run_up_to(const Played& played, const std::function<void()>& look);
-
-  /// As run() with that schedule, with `decisions` between the kernel and the explorer.
-  void run_watched_by(kernel::Decisions& decisions, const Schedule& schedule);
 
   ~Body();
 
   Memory memory() const { return memory_; }
   /// Data races no longer count as failures.
   void ignore_races() { fails_on_races_ = false; }
-  /// Controls the source locations in failures, off by default: looking them up takes a second.
-  void tell(sync::Places places);
-
   const Explorer& explorer() const { return explorer_; }
   Explorer& explorer() { return explorer_; }
   Simulation& simulation() { return simulation_; }
 
  private:
   void start(Strategy& strategy, const Played& played);
+  RunVerdict carry_out(Strategy& strategy, const Played& played, Time until, EvidenceRecorder* recording);
+  void judge(RunEnd end, Time until, bool may_end_early, RunVerdict& verdict);
+  // Looking up source locations takes a second.
+  void tell(sync::Places places);
 
   std::function<void()> function_;
   ExternalChecks* checks_;
@@ -96,6 +90,7 @@ class Body {
   kernel::FaultReports reports_;  // installed once, not per schedule
   Explorer explorer_;
   sync::Places places_ = sync::Places::left_out;
+  std::string failure_;
   const Memory memory_;
   bool fails_on_races_ = true;
   bool used_ = false;

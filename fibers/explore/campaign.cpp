@@ -8,9 +8,9 @@
 #include <fstream>
 
 #include "core/error.hpp"
+#include "fibers/explore/analysis/analysis.hpp"
 #include "fibers/explore/body_watch.hpp"
 #include "fibers/explore/environment.hpp"
-#include "fibers/explore/explain.hpp"
 #include "fibers/explore/play.hpp"
 #include "fibers/explore/races/races.hpp"
 #include "fibers/explore/strategies/fifo.hpp"
@@ -20,12 +20,9 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::uint64_t runs_to_minimize = 200'000;
-constexpr std::uint64_t runs_to_explain = 20'000;
-
 // Identifies the result of a run: equal for two runs of one schedule.
-std::uint64_t number_of(const Outcome& outcome) {
-  return Digest::mix(outcome.digest) ^ static_cast<std::uint64_t>(outcome.passed());
+std::uint64_t number_of(const RunVerdict& verdict) {
+  return Digest::mix(verdict.digest) ^ static_cast<std::uint64_t>(verdict.passed());
 }
 
 // The token to replay, or that of the campaign's schedules, without their numbers.
@@ -48,12 +45,13 @@ Campaign::Campaign(ExternalChecks* checks, std::function<void()> body, const Exp
       title_(title_of(checks)),
       command_(command_line(checks)),
       body_(std::move(body), checks, options.until, options.steps_max, options.memory),
+      target_(body_, title_),
       supervisor_({.explored = -1,
                    .token = first_token(options, call),
                    .replay = "replay: WAITPOINT_REPLAY=",
                    .after = " " + command_,
                    .run = [this](const Token& token) { return number_of(play(token)); },
-                   .limit_s = options.schedule_limit_s}) {
+                   .limit_s = options.schedule_limit_s.value_or(ExploreOptions::usual_schedule_limit_s)}) {
   if (options.races == Races::ignore) body_.ignore_races();
 }
 
@@ -71,19 +69,21 @@ ExploreReport Campaign::run() {
 // Runs the default order twice: for the profile, and to check that the body repeats.
 bool Campaign::begins_well() {
   supervisor_.begin_default();
-  const Outcome first = take_profile(body_, profile_);
+  const RunVerdict first = take_profile(body_, profile_);
   usual_digest_ = first.digest;
-  exhaustion_.take_drawn(first.trace, false);
+  exhaustion_.take_drawn(first.order, false);
   report_.schedules = 1;
   if (!first.passed()) {
-    const Failure failure{body_.explorer().schedule(), first};
-    const Found found{failure, token_of(failure), "the default schedule", true, nullptr};
+    Found found = last_run(first);
+    found.token = token_of(found.finding);
+    found.which = "the default schedule";
+    found.is_default = true;
     if (!goes_on_after(found)) {
       tell(found);
       return false;
     }
   }
-  usual_ = take_timeline(body_, {});
+  usual_ = take_timeline(body_);
   report_.text = difference_to_the_first();
   look_for_leaks();
   supervisor_.pause();
@@ -93,8 +93,12 @@ bool Campaign::begins_well() {
 // Notes the races of the failed run. True if the campaign goes on.
 bool Campaign::goes_on_after(const Found& found) {
   if (options_.races != Races::report) return false;
-  races_.take(found.which, replay_line(found.token));
-  if (!found.failure.outcome.only_raced) return false;
+  std::vector<ToldRace> races;
+  for (const races::Race& race : new_races_.take()) races.push_back(told(race));
+  // At once, as the process may end in a later schedule.
+  for (const std::string& line : races_.take(races, found.which, replay_command(to_text(found.token))))
+    std::fprintf(stderr, "waitpoint: %s\n", line.c_str());
+  if (found.finding.kind != RunVerdict::Kind::race) return false;
   if (!first_race_) {
     first_race_ = found;
     report_.failed_at = found.token.number;
@@ -124,7 +128,7 @@ void Campaign::look_for_leaks() {
 // Compares with the first run of the default order.
 std::string Campaign::difference_to_the_first() {
   const Timeline& before = usual_;
-  const Timeline after = take_timeline(body_, {});
+  const Timeline after = take_timeline(body_);
   for (std::size_t i = 0; i < before.events.size() || i < after.events.size(); ++i) {
     const auto text = [&](const Timeline& timeline) {
       if (i >= timeline.events.size()) return std::string("the end");
@@ -138,30 +142,42 @@ std::string Campaign::difference_to_the_first() {
   return "";
 }
 
-Token Campaign::token_of(const Failure& failure) const {
-  return {call_, token_digest(failure.outcome.digest), "", 0, 0, failure.schedule.deviations(), {}, options_.memory};
+Campaign::Found Campaign::last_run(const RunVerdict& verdict) const {
+  return {.finding = body_.finding_of(verdict), .schedule = body_.explorer().schedule(), .token = {}, .which = {}};
 }
 
-std::string Campaign::replay_line(const Token& token) const {
-  return "replay: WAITPOINT_REPLAY=" + to_text(token) + " " + command_;
+Token Campaign::token_of(const Finding& finding) const {
+  return {call_, token_digest(finding.digest), "", 0, 0, finding.deviations, {}, options_.memory};
 }
 
-std::string Campaign::replay_by(const Token& token, const Failure& failure) {
-  return to_text_with(token, take_trail(body_, failure.schedule, log_spacing_for(failure.outcome.events)));
+std::string Campaign::replay_command(const std::string& token) const {
+  return "WAITPOINT_REPLAY=" + token + " " + command_;
+}
+
+Trail Campaign::trail_of(const Finding& finding, std::uint32_t log_spacing) {
+  const Finding again = body_.repeat({.drawn = false, .deviations = finding.deviations}, {.trail = log_spacing});
+  Trail trail;
+  (void)read_trail(again.evidence.trail, trail);
+  return trail;
+}
+
+std::string Campaign::replay_by(const Token& token, const Finding& finding) {
+  return to_text_with(token, trail_of(finding, log_spacing_for(finding.events)));
 }
 
 // True if a fresh process gets the same result by the failure's schedule. There is none under a debugger: then true is
 // assumed.
-bool Campaign::is_reproducible(const Failure& failure) {
-  const std::optional<std::uint64_t> fresh = supervisor_.outcome_when_fresh(token_of(failure));
-  return !fresh || *fresh == number_of(failure.outcome);
+bool Campaign::is_reproducible(const Finding& finding) {
+  const std::optional<std::uint64_t> fresh = supervisor_.outcome_when_fresh(token_of(finding));
+  return !fresh || *fresh == number_of(finding);
 }
 
 void Campaign::report_irreproducible(const Found& found) {
   supervisor_.pause();
-  report_.schedule = found.failure.schedule;
+  report_.schedule = found.schedule;
+  const Finding again = body_.repeat({.drawn = false, .deviations = found.finding.deviations}, {.places = true});
   report_.text =
-      found.which + " failed: " + with_places(body_, found.failure).outcome.failure +
+      found.which + " failed: " + (again.passed() ? found.finding : again).words +
       "\nnot reproducible: in a fresh process the same schedule gives another run. The body leaks state from one "
       "schedule into the next, or reads a clock or random numbers that are not simulated; there is no replay line";
 }
@@ -169,53 +185,52 @@ void Campaign::report_irreproducible(const Found& found) {
 // A failure of another kind is analysed without regard to races, which may be in each run. Races that are not part of
 // the failure come last.
 void Campaign::tell(const Found& found) {
-  if (!found.failure.outcome.only_raced) body_.ignore_races();
-  if (!found.is_default && !is_reproducible(found.failure)) return report_irreproducible(found);
-  Failure least = found.failure;
-  supervisor_.begin_minimizing(found.token.number, found.enumeration, found.failure.outcome.failure);
-  if (options_.minimize) least = minimize(body_, found.failure, {runs_to_minimize});
-  least = with_places(body_, least);
-  const std::vector<races::Race> told = least.outcome.only_raced ? races::found() : std::vector<races::Race>();
+  const bool is_race = found.finding.kind == RunVerdict::Kind::race;
+  if (!is_race) body_.ignore_races();
+  if (!found.is_default && !is_reproducible(found.finding)) return report_irreproducible(found);
+  supervisor_.begin_minimizing(found.token.number, found.enumeration, found.finding.words);
+  const std::string file = finding_file(), trace = trace_file();
+  const AnalysisOptions wanted{.minimize = options_.minimize, .page = !file.empty(), .trace = !trace.empty()};
+  Analysis analysis =
+      analyse(target_, nullptr, {.drawn = false, .deviations = found.finding.deviations}, found.finding, wanted);
+  const Finding& least = analysis.least;
+  report_.schedule = body_.explorer().schedule();  // of the last run of the analysis, by the least plan
   // The runs in between may have leaked state, too.
   if (!found.is_default && !is_reproducible(least)) return report_irreproducible(found);
   report_.replay = replay_by(token_of(least), least);
   const bool is_shortest = report_.replay.size() <= token_length_max;
-  if (!is_shortest) report_.replay = replay_by(found.token, found.failure);
-  report_.schedule = least.schedule;
-  std::string& text = report_.text;
-  text = found.which + " failed: " + least.outcome.failure + "\n";
-  if (least.schedule.switches.empty() && !found.is_default && usual_digest_ != 0)
-    text +=
-        "the default order, which passed at first, now fails: the body leaks state from one schedule into the next\n";
-  const Explanation explanation = explain(body_, least, {runs_to_explain});
-  text += explanation.text;
-  if (const std::string file = trace_file(); !file.empty()) {
-    std::ofstream out(file);
-    write_trace(out, take_timeline(body_, least.schedule.decisions));
-    if (!out.flush()) text += "waitpoint: WAITPOINT_TRACE: cannot write to '" + file + "'\n";
-  }
-  const std::string file = finding_file();
-  FindingFile finding{.title = title_};
-  if (!file.empty()) add_schedules(body_, least, explanation.choice, finding);
+  if (!is_shortest) report_.replay = replay_by(found.token, found.finding);
   supervisor_.pause();
-  if (!is_shortest && !found.token.strategy.empty() && least.schedule.switches != found.failure.schedule.switches)
+  std::string& text = report_.text;
+  const std::string words = analysis.words.empty() ? least.words : analysis.words;
+  text = found.which + " failed: " + words + "\n";
+  if (least.switches.empty()) text += "the default order fails\n";
+  text += analysis.text;
+  if (!trace.empty()) {
+    std::ofstream out(trace);
+    out << analysis.trace;
+    if (!out.flush()) text += "waitpoint: WAITPOINT_TRACE: cannot write to '" + trace + "'\n";
+  }
+  if (!is_shortest && !found.token.strategy.empty() && least.switches != found.finding.switches)
     text += "too many switches for one line: the replay line repeats the run as it was found, with " +
-            std::to_string(found.failure.schedule.switches.size()) + "\n";
-  text += "replay: WAITPOINT_REPLAY=" + report_.replay + " " + command_ + races_.besides(told);
+            std::to_string(found.finding.switches.size()) + "\n";
+  text += "replay: " + replay_command(report_.replay);
+  if (std::string others = races_.besides(is_race ? analysis.races : std::vector<ToldRace>()); !others.empty()) {
+    others.pop_back();
+    text += "\n" + others;
+  }
   if (file.empty()) return;
-  finding.seed = options_.seed;
-  finding.schedule = found.which;
-  finding.failure = least.outcome.failure;
-  finding.choice = explanation.choice_words;
-  finding.steps = explanation.steps;
-  write_finding(file, std::move(finding));
+  analysis.finding.title = title_;
+  analysis.finding.seed = options_.seed;
+  analysis.finding.schedule = found.which;
+  analysis.finding.failure = words;
+  write_finding(file, std::move(analysis.finding));
 }
 
 // With the commands and the text of the report, which must be complete.
 void Campaign::write_finding(const std::string& file, FindingFile finding) {
-  const std::string token = "WAITPOINT_REPLAY=" + report_.replay + " ";
-  finding.replay = token + command_;
-  finding.debug = token + "waitpoint gdb -- " + command_;
+  finding.replay = replay_command(report_.replay);
+  finding.debug = "WAITPOINT_REPLAY=" + report_.replay + " waitpoint gdb -- " + command_;
   finding.report = report_.text;
   std::ofstream out(file);
   out << to_text(finding);
@@ -224,7 +239,7 @@ void Campaign::write_finding(const std::string& file, FindingFile finding) {
 
 // For a written-out schedule no other is run, so that a debugger stops in this one only; but shared memory must be
 // learned.
-Outcome Campaign::play(const Token& token) {
+RunVerdict Campaign::play(const Token& token) {
   if (!token.strategy.empty() || races::present()) (void)take_profile(body_, profile_);
   return exploration::play(body_, token, profile_);
 }
@@ -242,42 +257,44 @@ std::string Campaign::event_at(const Token& token, std::uint32_t decision) {
 }
 
 // The difference of the run from the token's; empty if there is none.
-std::string Campaign::difference_to(const Token& token, const Outcome& outcome) {
+std::string Campaign::difference_to(const Token& token, const RunVerdict& verdict) {
   const std::vector<Decision> decisions = body_.explorer().schedule().decisions;
   for (const Deviation& deviation : token.deviations) {
     const std::string which = "choice " + std::to_string(deviation.decision);
     if (deviation.decision >= decisions.size())
-      return which + " was not reached: the run diverged and ended after event " + std::to_string(outcome.events) +
-             ", at " + to_string(outcome.end_time) + " s";
+      return which + " was not reached: the run diverged and ended after event " + std::to_string(verdict.events) +
+             ", at " + to_string(verdict.end) + " s";
     // Without that alternative, the explorer takes the last or the usual one.
     if (deviation.chosen >= decisions[deviation.decision].count)
       return which + " has only " + std::to_string(decisions[deviation.decision].count) + " alternatives, not number " +
              std::to_string(deviation.chosen) + ": the run diverged at " + event_at(token, deviation.decision);
   }
-  if (token.digest == 0) return outcome.passed() ? "the recorded run ended its process, this one passed" : "";
-  if (token.digest == token_digest(outcome.digest)) return "";
-  std::string digests = "it had " + std::to_string(outcome.events) + " events, and its digest begins with " +
-                        digest_text(token_digest(outcome.digest)) + ", the token's with " + digest_text(token.digest);
+  if (token.digest == 0) return verdict.passed() ? "the recorded run ended its process, this one passed" : "";
+  if (token.digest == token_digest(verdict.digest)) return "";
+  std::string digests = "it had " + std::to_string(verdict.events) + " events, and its digest begins with " +
+                        digest_text(token_digest(verdict.digest)) + ", the token's with " + digest_text(token.digest);
   if (token.trail.marks.empty()) return digests;
-  const Schedule schedule = body_.explorer().schedule();
-  return digests + ": the run diverged " + parting(token.trail, take_trail(body_, schedule, token.trail.log_spacing));
+  const Finding finding{verdict, "", {}, {}, body_.explorer().schedule().deviations(), {}, {}};
+  return digests + ": the run diverged " + parting(token.trail, trail_of(finding, token.trail.log_spacing));
 }
 
 ExploreReport Campaign::replay(const Token& token) {
   options_.minimize = false;
   supervisor_.begin_replay();
-  const Outcome outcome = play(token);
+  const RunVerdict verdict = play(token);
   report_.schedules = 1;
   report_.distinct = 1;
   report_.failed_at = token.number;
-  const Failure failure{body_.explorer().schedule(), outcome};
-  std::string difference = difference_to(token, outcome);
+  Found found = last_run(verdict);
+  found.token = token;
+  found.which = "the replayed schedule";
+  std::string difference = difference_to(token, verdict);
   if (!difference.empty()) {
     difference = "the token belongs to another run: " + difference + "; the program or the test has changed";
     if (has_replay_variable()) throw BadInput(options_.replay, difference);
   }
-  if (!outcome.passed()) tell({failure, token, "the replayed schedule", false, nullptr});
-  report_.text = difference + (difference.empty() || outcome.passed() ? "" : "\n") + report_.text;
+  if (!verdict.passed()) tell(found);
+  report_.text = difference + (difference.empty() || verdict.passed() ? "" : "\n") + report_.text;
   report_.passed = report_.text.empty();
   return report_;
 }

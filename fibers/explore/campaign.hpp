@@ -6,14 +6,15 @@
 #include <optional>
 
 #include "fibers/explore/body.hpp"
+#include "fibers/explore/body_target.hpp"
 #include "fibers/explore/explore_options.hpp"
 #include "fibers/explore/explore_report.hpp"
-#include "fibers/explore/minimize.hpp"
-#include "fibers/explore/race_findings.hpp"
+#include "fibers/explore/races/distinct_races.hpp"
 #include "fibers/explore/report/finding_file.hpp"
 #include "fibers/explore/report/timeline.hpp"
 #include "fibers/explore/schedules/exhaustion.hpp"
 #include "fibers/explore/schedules/token.hpp"
+#include "fibers/explore/search/race_findings.hpp"
 #include "fibers/explore/strategies/profile.hpp"
 #include "fibers/explore/supervisor.hpp"
 
@@ -30,7 +31,8 @@ class Campaign {
 
  private:
   struct Found {
-    Failure failure;
+    Finding finding;
+    Schedule schedule;
     Token token;
     std::string which;                  // name of the schedule
     bool is_default = false;            // the default order
@@ -42,7 +44,6 @@ class Campaign {
     const char* name;
     std::unique_ptr<Strategy> strategy = nullptr;
     std::uint64_t number = 0;  // of its next schedule
-    bool is_over = false;      // without a proof
 
     explicit Enumeration(const char* of_strategy) : name(of_strategy) {}
   };
@@ -59,25 +60,29 @@ class Campaign {
   void tell(const Found& found);
   void report_irreproducible(const Found& found);
   void write_finding(const std::string& file, FindingFile finding);
-  Outcome play(const Token& token);
-  std::string difference_to(const Token& token, const Outcome& outcome);
+  RunVerdict play(const Token& token);
+  std::string difference_to(const Token& token, const RunVerdict& verdict);
   std::string event_at(const Token& token, std::uint32_t decision);
-  Token token_of(const Failure& failure) const;
-  bool is_reproducible(const Failure& failure);
-  std::string replay_line(const Token& token) const;
-  std::string replay_by(const Token& token, const Failure& failure);
+  Found last_run(const RunVerdict& verdict) const;
+  Token token_of(const Finding& finding) const;
+  bool is_reproducible(const Finding& finding);
+  std::string replay_command(const std::string& token) const;
+  Trail trail_of(const Finding& finding, std::uint32_t log_spacing);
+  std::string replay_by(const Token& token, const Finding& finding);
 
   ExploreOptions options_;
   std::uint32_t call_;
   const std::string title_;    // of the test, or else the program
   const std::string command_;  // that reruns this program
   Body body_;
+  BodyTarget target_;
   Profile profile_;
   Supervisor supervisor_;
   std::uint64_t usual_digest_ = 0;  // of the default schedule
   Timeline usual_;                  // its first run
   Exhaustion exhaustion_;
   std::optional<Enumeration> enumeration_;
+  races::DistinctRaces new_races_;
   RaceFindings races_;
   std::optional<Found> first_race_;
   ExploreReport report_;

@@ -5,6 +5,7 @@
 
 #include "fibers/explore/campaign.hpp"
 #include "fibers/explore/races/races.hpp"
+#include "fibers/explore/search/omissions.hpp"
 #include "fibers/explore/strategies/dpor.hpp"
 #include "fibers/explore/strategies/factory.hpp"
 #include "fibers/explore/strategies/fifo.hpp"
@@ -18,49 +19,46 @@ bool Campaign::fails(Strategy& strategy, std::uint64_t number, const char* enume
   const std::string name = enumeration != nullptr ? enumeration : options_.strategy;
   supervisor_.begin(number, enumeration);
   strategy.begin(number, Draws(options_.seed, name, number), profile_);
-  const Outcome outcome = body_.run(strategy);
+  const RunVerdict verdict = body_.run(strategy);
   ++report_.schedules;
-  if (outcome.was_cut)
+  if (verdict.was_cut)
     exhaustion_.take_cut();
   else if (enumeration != nullptr)
-    exhaustion_.take_enumerated(outcome.trace);
+    exhaustion_.take_enumerated(verdict.order);
   else
-    exhaustion_.take_drawn(outcome.trace, body_.explorer().is_beyond_enumeration());
-  if (outcome.passed()) return false;
-  const Found found{
-      .failure = {body_.explorer().schedule(), outcome},
-      .token = {call_, token_digest(outcome.digest), name, options_.seed, number, {}, {}, options_.memory},
-      .which =
-          "schedule " + std::to_string(number) + " of strategy " + name + ", seed " + std::to_string(options_.seed),
-      .enumeration = enumeration};
+    exhaustion_.take_drawn(verdict.order, verdict.is_beyond_enumeration);
+  if (verdict.passed()) return false;
+  Found found = last_run(verdict);
+  found.token = {call_, token_digest(verdict.digest), name, options_.seed, number, {}, {}, options_.memory};
+  found.which =
+      "schedule " + std::to_string(number) + " of strategy " + name + ", seed " + std::to_string(options_.seed);
+  found.enumeration = enumeration;
   if (goes_on_after(found)) return false;
   report_.failed_at = number;
   tell(found);
   return true;
 }
 
-// Events that race are not independent, whatever their objects.
 void Campaign::begin_enumeration() {
-  const bool is_first = !enumeration_;
-  enumeration_.emplace(is_first && !first_race_ ? "dpor" : "dfs");
+  enumeration_.emplace(exhaustion_.strategy());
   enumeration_->strategy = make_strategy(enumeration_->name);
   races::note_unlearned(true);
 }
 
 // Runs its next schedule; false if the campaign is over.
 bool Campaign::enumerate() {
-  if (!enumeration_) begin_enumeration();
+  if (!enumeration_) {
+    if (first_race_) exhaustion_.keep_equivalent();
+    begin_enumeration();
+  }
   Strategy& strategy = *enumeration_->strategy;
   if (fails(strategy, enumeration_->number++, enumeration_->name)) return false;
   if (strategy.end()) return true;
-  if (exhaustion_.is_complete()) {
+  if (exhaustion_.end_enumeration()) {
     set_scope(strategy, "exhausted, no other ordering exists");
     return false;
   }
-  if (enumeration_->name == std::string_view("dfs"))
-    enumeration_->is_over = true;
-  else
-    begin_enumeration();
+  begin_enumeration();
   return true;
 }
 
@@ -75,7 +73,7 @@ void Campaign::search() {
     if (options_.time_limit_s > 0 &&
         std::chrono::duration<double>(Clock::now() - start).count() >= options_.time_limit_s)
       break;
-    if (draws && exhaustion_.is_next_enumerated() && !(enumeration_ && enumeration_->is_over)) {
+    if (draws && exhaustion_.is_next_enumerated()) {
       if (enumerate()) continue;
       if (!report_.text.empty()) return;
       break;
@@ -97,20 +95,11 @@ void Campaign::search() {
 }
 
 void Campaign::set_scope(const Strategy& strategy, const std::string& what) {
-  const LeftOut& left_out = body_.explorer().left_out();
-  std::string but;
-  const auto add = [&](bool is_left_out, const char* what) {
-    if (is_left_out) but += (but.empty() ? ", except " : " and ") + std::string(what);
-  };
-  add(left_out.turns, "turns of spinning tasks");
-  add(left_out.costs, "computing costs between the bounds");
-  add(left_out.spurious, "spurious wake-ups");
-  add(races::noted_unlearned(), "switches at first accesses to memory that the default order does not share");
-  add(races::left_out_values(), values_left_out);
+  Omissions omissions{body_.explorer().left_out(), races::noted_unlearned(), races::left_out_values()};
   const bool is_up_to_equivalence = enumeration_ && enumeration_->name == std::string_view("dpor");
-  report_.scope = what + (is_up_to_equivalence ? up_to_equivalence : strategy.scope()) + but;
-  report_.complete = strategy.scope().empty() && !left_out.turns && !left_out.costs && !races::noted_unlearned() &&
-                     !races::left_out_values();
+  report_.scope = what + (is_up_to_equivalence ? up_to_equivalence : strategy.scope()) + omissions.in_words();
+  omissions.spurious = false;
+  report_.complete = strategy.scope().empty() && !omissions.any();
 }
 
 }  // namespace waitpoint::exploration

@@ -83,7 +83,9 @@ ExploreOptions with_environment(ExploreOptions options) {
   take(seed_name, options.seed, Zero::allowed, "a whole number from 0 to 2^64 - 1");
   take(iterations_name, options.iterations, Zero::refused, "a positive whole number");
   take(time_limit_name, options.time_limit_s, Zero::refused, "a positive number of seconds, or the variable unset");
-  take(schedule_limit_name, options.schedule_limit_s, Zero::allowed, "a whole number of seconds, 0 for none");
+  double limit_s = options.schedule_limit_s.value_or(ExploreOptions::usual_schedule_limit_s);
+  take(schedule_limit_name, limit_s, Zero::allowed, "a number of seconds, 0 for none");
+  options.schedule_limit_s = limit_s;
   if (const std::string races = variable(races_name); !races.empty()) {
     const std::optional<Races> meant = races_named(races);
     if (!meant) throw BadInput(races_name, std::string("expected ") + races_words + ", found '" + races + "'");

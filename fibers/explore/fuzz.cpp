@@ -4,7 +4,8 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "fibers/explore/explain.hpp"
+#include "fibers/explore/analysis/analysis.hpp"
+#include "fibers/explore/body_target.hpp"
 #include "fibers/explore/explore.hpp"
 #include "fibers/explore/strategies/bytes.hpp"
 
@@ -22,13 +23,14 @@ fuzz_target::fuzz_target(std::function<void()> body)
 int fuzz_target::run(const std::uint8_t* data, std::size_t size) {
   exploration::Bytes bytes({data, size});
   bytes.begin(0, {}, {});
-  const exploration::Outcome outcome = body_.run(bytes);
-  if (outcome.passed()) return 0;
-  const exploration::Failure failure{body_.explorer().schedule(), outcome};
-  const exploration::Failure least =
-      exploration::with_places(body_, exploration::minimize(body_, failure, {runs_to_minimize}));
-  const std::string text = least.outcome.failure + "\n" + exploration::explain(body_, least, {runs_to_explain}).text;
-  std::fputs(text.c_str(), stderr);
+  const exploration::RunVerdict verdict = body_.run(bytes);
+  if (verdict.passed()) return 0;
+  const exploration::Finding found = body_.finding_of(verdict);
+  exploration::BodyTarget target(body_, "", runs_to_minimize, runs_to_explain);
+  const exploration::Analysis analysis =
+      exploration::analyse(target, nullptr, {.drawn = false, .deviations = found.deviations}, found, {});
+  const std::string& words = analysis.words.empty() ? analysis.least.words : analysis.words;
+  std::fputs((words + "\n" + analysis.text).c_str(), stderr);
   std::abort();
 }
 

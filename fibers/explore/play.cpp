@@ -9,7 +9,7 @@
 
 namespace waitpoint::exploration {
 
-Outcome play(Body& body, const Token& token, const Profile& profile) {
+RunVerdict play(Body& body, const Token& token, const Profile& profile) {
   if (token.strategy.empty()) {
     Fifo rest;
     return body.run(rest, {.deviations = token.deviations});
@@ -18,8 +18,8 @@ Outcome play(Body& body, const Token& token, const Profile& profile) {
   const auto from = [&](std::uint64_t number) { return std::min(strategy->first_learned(number), token.number); };
   for (std::uint64_t number = from(0);; number = from(number + 1)) {
     strategy->begin(number, Draws(token.seed, token.strategy, number), profile);
-    Outcome outcome = body.run(*strategy);
-    if (number == token.number) return outcome;
+    const RunVerdict verdict = body.run(*strategy);
+    if (number == token.number) return verdict;
     if (!strategy->end())
       throw BadInput("replay", "expected schedule " + std::to_string(token.number) + ", but there are only " +
                                    std::to_string(number + 1));

@@ -10,6 +10,6 @@ namespace waitpoint::exploration {
 
 /// Runs the body by that token; a token of a strategy needs the body's profile. Throws BadInput if the strategy ends
 /// before the token's number.
-Outcome play(Body& body, const Token& token, const Profile& profile);
+RunVerdict play(Body& body, const Token& token, const Profile& profile);
 
 }  // namespace waitpoint::exploration

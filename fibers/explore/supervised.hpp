@@ -40,7 +40,7 @@ struct Supervision {
   Token token;                                     ///< without the number; for a replay, complete
   std::string replay, after;                       ///< the replay line's parts before and after the token
   std::function<std::uint64_t(const Token&)> run;  ///< the result of a token's run, as a number
-  std::uint32_t limit_s;                           ///< wall-clock limit of a schedule; 0: none
+  double limit_s;                                  ///< wall-clock limit of a schedule; 0: none
 };
 
 /// Runs in the supervising process: waits until the explored one ends, which closes the other end of `pipe`, or reports

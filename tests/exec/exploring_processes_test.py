@@ -95,7 +95,7 @@ class Processes(ExecCase):
         for words in ("0", "0"), ("1", "0"):
             done = explore("--strategy", "dfs", "--", program, *words)
             self.assertEqual(done.returncode, 0, done.stdout)
-            self.assertTrue(done.stdout.splitlines()[0].endswith("; exhaustive, switching at calls, except for turns of spinning tasks"), done.stdout)
+            self.assertTrue(done.stdout.splitlines()[0].endswith("; exhaustive, switching at calls, except turns of spinning tasks"), done.stdout)
         for strategy in "fifo", "random":
             for wait_us in "0", "2000":
                 done = explore("--strategy", strategy, "--iterations", "10", "--", program, "3", wait_us)

@@ -139,7 +139,7 @@ class Exhaustive(ExecCase):
                           "  pthread_create(&poster, NULL, post, NULL);\n  sleep(1);\n"
                           "  for (int i = 0; i < 30; ++i) sem_trywait(&posted);\n  return pthread_join(poster, NULL);\n}\n")
         line = explore("--strategy", "bounded:0", "--", self.compile(str(source))).stdout.splitlines()[0]
-        self.assertTrue(line.endswith("exhaustive with at most 0 preemptions, switching at calls, except for turns of spinning tasks"), line)
+        self.assertTrue(line.endswith("exhaustive with at most 0 preemptions, switching at calls, except turns of spinning tasks"), line)
 
     def test_findings_are_replayed(self):
         program = self.compile("lost_update.c")
@@ -249,7 +249,7 @@ class Instrumented(ExecCase):
                           "int main() {\n  pthread_t publisher;\n  pthread_create(&publisher, nullptr, publish, nullptr);\n"
                           "  if (auto* value = shared.load()) value->store(1);\n  return pthread_join(publisher, nullptr);\n}\n")
         line = explore("--strategy", "bounded:2", "--", self.compile(str(source), "-fsanitize=thread")).stdout.splitlines()[0]
-        self.assertTrue(line.endswith("exhaustive with at most 2 preemptions, except for switches at first accesses to memory that "
+        self.assertTrue(line.endswith("exhaustive with at most 2 preemptions, except switches at first accesses to memory that "
                                       "the default order does not share"), line)
 
     def test_races_are_told_with_both_accesses_and_their_lines(self):

@@ -33,16 +33,16 @@ void store(const std::string& file, std::uint64_t seeds) {
       const auto found = search.find("portfolio", seed, schedules_max);
       if (!found) continue;
       ++failures;
-      const exploration::Outcome& outcome = found->failure.outcome;
+      const exploration::Finding& failure = found->failure;
       const auto line = [&](const Token& token) {
         const std::string text = to_text(token);
         char digest[17];
-        std::snprintf(digest, sizeof digest, "%016" PRIx64, outcome.digest);
+        std::snprintf(digest, sizeof digest, "%016" PRIx64, failure.digest);
         if (text.size() <= exploration::token_length_max) out << text << ' ' << digest << ' ' << specimen.name << '\n';
       };
-      const std::uint32_t digest = exploration::token_digest(outcome.digest);
+      const std::uint32_t digest = exploration::token_digest(failure.digest);
       line({1, digest, "portfolio", seed, found->schedules - 1, {}});
-      line({1, digest, "", 0, 0, found->failure.schedule.deviations()});
+      line({1, digest, "", 0, 0, failure.deviations});
     }
   }
   if (!out.flush()) throw BadInput(file, "cannot be written");
@@ -61,8 +61,8 @@ bool replay(const std::string& file) {
     std::getline(words, name);
     for (const Specimen& specimen : specimens()) {
       if (specimen.name != name) continue;
-      const exploration::Outcome outcome = Search(specimen.buggy).play(exploration::read_token(token));
-      const bool is_same = outcome.digest == digest && !outcome.passed();
+      const exploration::RunVerdict verdict = Search(specimen.buggy).play(exploration::read_token(token));
+      const bool is_same = verdict.digest == digest && !verdict.passed();
       same += is_same;
       if (!is_same) std::printf("another run: %s\n", line.c_str());
     }

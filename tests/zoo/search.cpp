@@ -14,8 +14,8 @@ std::optional<Found> Search::find(const std::string& strategy, std::uint64_t see
   const auto tried = exploration::make_strategy(strategy);
   for (std::uint64_t number = 0; number < most; ++number) {
     tried->begin(number, exploration::Draws(seed, strategy, number), profile_);
-    const exploration::Outcome outcome = body_.run(*tried);
-    if (!outcome.passed()) return Found{number + 1, {body_.explorer().schedule(), outcome}};
+    const exploration::RunVerdict verdict = body_.run(*tried);
+    if (!verdict.passed()) return Found{number + 1, body_.finding_of(verdict)};
     if (!tried->end()) return std::nullopt;
   }
   return std::nullopt;

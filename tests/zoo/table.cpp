@@ -27,10 +27,9 @@ struct Repeats {
   std::uint64_t failures = 0, same = 0;
 };
 
-bool is_repeated(waitpoint::zoo::Search& search, const waitpoint::exploration::Failure& failure) {
+bool is_repeated(waitpoint::zoo::Search& search, const waitpoint::exploration::Finding& failure) {
   waitpoint::exploration::Fifo rest;
-  const auto deviations = failure.schedule.deviations();
-  return search.body().run(rest, {.deviations = deviations}).digest == failure.outcome.digest;
+  return search.body().run(rest, {.deviations = failure.deviations}).digest == failure.digest;
 }
 
 // Of the random walk's schedules.

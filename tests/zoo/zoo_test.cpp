@@ -7,6 +7,7 @@
 #include <set>
 #include <string>
 
+#include "fibers/explore/analysis/fewer_switches.hpp"
 #include "fibers/explore/campaign.hpp"
 #include "fibers/explore/strategies/fifo.hpp"
 #include "tests/zoo/search.hpp"
@@ -15,7 +16,7 @@ namespace waitpoint::zoo {
 namespace {
 
 using exploration::Campaign;
-using exploration::Outcome;
+using exploration::RunVerdict;
 
 constexpr std::uint64_t schedules_max = 10'000;
 constexpr std::uint64_t runs_to_minimize = 5'000;
@@ -33,15 +34,15 @@ TEST(Zoo, HasAtLeastThirtySpecimensOfManyKinds) {
 
 TEST(Zoo, PassesInTheDefaultOrder) {
   for (const Specimen& specimen : specimens()) {
-    EXPECT_EQ(Search(specimen.buggy).usual().failure, "") << specimen.name;
-    EXPECT_EQ(Search(specimen.correct).usual().failure, "") << specimen.name;
+    EXPECT_TRUE(Search(specimen.buggy).usual().passed()) << specimen.name;
+    EXPECT_TRUE(Search(specimen.correct).usual().passed()) << specimen.name;
   }
 }
 
 TEST(Zoo, NoCorrectTwinIsReported) {
   for (const Specimen& specimen : specimens()) {
     const auto found = Search(specimen.correct).find("portfolio", seeds[0], 2'000);
-    EXPECT_FALSE(found) << specimen.name << ": " << found->failure.outcome.failure;
+    EXPECT_FALSE(found) << specimen.name << ": " << found->failure.words;
   }
 }
 
@@ -56,9 +57,12 @@ TEST(Zoo, ThePortfolioFindsEachAndItIsCutShort) {
       const auto found = search.find("portfolio", seed, schedules_max);
       EXPECT_TRUE(found) << specimen.name << ", seed " << seed;
       if (!found) continue;
-      const auto least = exploration::minimize(search.body(), found->failure, {runs_to_minimize});
-      EXPECT_TRUE(exploration::is_same_failure(least.outcome, found->failure.outcome)) << specimen.name;
-      const std::size_t switches = least.schedule.switches.size();
+      exploration::BodyTarget target(search.body(), "", runs_to_minimize);
+      exploration::Trials trials(target, nullptr, target.traits().to_minimize);
+      exploration::FewerSwitches fewer(trials, 0, found->failure);
+      fewer.run();
+      EXPECT_TRUE(exploration::is_same_failure(fewer.least(), found->failure)) << specimen.name;
+      const std::size_t switches = fewer.least().switches.size();
       ++failures;
       longer += switches > specimen.switches + 1;
       EXPECT_GE(switches, specimen.switches) << specimen.name << " needs fewer than it says";
@@ -74,10 +78,9 @@ TEST(Zoo, RecordedChoicesRepeatTheFailure) {
     Search search(specimen.buggy);
     const auto found = search.find("portfolio", seeds[0], schedules_max);
     ASSERT_TRUE(found) << specimen.name;
-    const auto deviations = found->failure.schedule.deviations();
-    const Outcome again = search.body().run(rest, {.deviations = deviations});
-    EXPECT_EQ(again.digest, found->failure.outcome.digest) << specimen.name;
-    EXPECT_EQ(again.failure, found->failure.outcome.failure) << specimen.name;
+    const RunVerdict again = search.body().run(rest, {.deviations = found->failure.deviations});
+    EXPECT_EQ(again.digest, found->failure.digest) << specimen.name;
+    EXPECT_EQ(search.body().failure(), found->failure.words) << specimen.name;
   }
 }
 
@@ -89,14 +92,14 @@ TEST(Zoo, ATokenRepeatsTheFailure) {
     if (specimen.is_rare) continue;
     const auto found = Search(specimen.buggy).find("portfolio", seeds[0], schedules_max);
     ASSERT_TRUE(found) << specimen.name;
-    const std::uint32_t digest = exploration::token_digest(found->failure.outcome.digest);
+    const std::uint32_t digest = exploration::token_digest(found->failure.digest);
     ExploreOptions options;
     options.minimize = false;
     Campaign campaign(nullptr, specimen.buggy, options, 1);
     const ExploreReport report = campaign.replay({1, digest, "portfolio", seeds[0], found->schedules - 1, {}});
     EXPECT_FALSE(report.passed) << specimen.name;
     EXPECT_EQ(report.text.find("belongs to another run"), std::string::npos) << specimen.name << ": " << report.text;
-    const std::string& failure = found->failure.outcome.failure;
+    const std::string& failure = found->failure.words;
     EXPECT_NE(report.text.find(failure.substr(0, failure.find('\n'))), std::string::npos) << specimen.name;
   }
 }

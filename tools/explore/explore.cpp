@@ -94,21 +94,21 @@ void tell(const FailureReport& report, Files& files, bool is_json) {
 }
 
 /// Ends a search with its status, and its document if that is wanted.
-int end_search(const Target& target, int status, const std::optional<SearchCounts>& counts,
+int end_search(const ProcessTarget& target, int status, const std::optional<SearchCounts>& counts,
                const ReportedFailure* failure) {
   if (!target.options().json) return status;
   return end_with_json("explore", status, search_json(target.name(), counts, failure));
 }
 
 /// The default order has failed, and nothing else is run.
-int end_at_once(Target& target, SearchProgress& progress, const Finding& usual, Files& files) {
+int end_at_once(ProcessTarget& target, SearchProgress& progress, const ProcessFinding& usual, Files& files) {
   const FailureReport report = report_default(target, progress, usual);
   tell(report, files, target.options().json);
   const ReportedFailure failure{usual, report};
   return end_search(target, 1, std::nullopt, &failure);
 }
 
-std::string sum(const Target& target, const Search& search, double seconds, bool is_interrupted) {
+std::string sum(const ProcessTarget& target, const Search& search, double seconds, bool is_interrupted) {
   const std::string all = search.has_drawn() ? "; exhausted, no other ordering exists" : "; exhaustive";
   const char* const natives = target.options().conditions.children ? "" : "; native children in one timing each";
   const std::string scope = search.scope() ? all + *search.scope() + natives : "";
@@ -122,12 +122,12 @@ std::string sum(const Target& target, const Search& search, double seconds, bool
 }
 
 // Failures of a graver kind than a data race are analysed without regard to races, which may be in each run.
-FailureReport report_of(Target& target, SearchProgress& progress, const Discoveries& discoveries) {
+FailureReport report_of(ProcessTarget& target, SearchProgress& progress, const Discoveries& discoveries) {
   const FailedRun& gravest = *discoveries.gravest();
-  const bool is_race = gravest.finding.kind == Finding::Kind::race;
+  const bool is_race = gravest.finding.kind == ProcessFinding::Kind::race;
   if (!is_race) target.ignore_races();
   if (gravest.finding.switch_at == SwitchAt::accesses) {
-    target.set_profile(gravest.finding.profile);
+    target.set_profile(gravest.finding.lesson.profile);
     target.switch_at(SwitchAt::accesses);
   }
   FailureReport result =
@@ -138,13 +138,15 @@ FailureReport report_of(Target& target, SearchProgress& progress, const Discover
 
 // The default order. A program that is in a loop without a call may wait there for another thread: then accesses are
 // switch points of all schedules.
-std::optional<Finding> run_usual(Target& target) {
-  std::optional<Finding> usual = run_apart(target, {.drawn = false}, {.profile = true});
-  const bool may_wait = usual && usual->kind == Finding::Kind::no_progress && usual->switch_at == SwitchAt::calls &&
-                        target.options().switch_at == SwitchAt::automatic && target.options().snapshots == 0;
+std::optional<ProcessFinding> run_usual(ProcessTarget& target) {
+  std::optional<ProcessFinding> usual = target.run_apart({.drawn = false}, {.profile = true});
+  const bool may_wait = usual && usual->kind == ProcessFinding::Kind::no_progress &&
+                        usual->switch_at == SwitchAt::calls && target.options().switch_at == SwitchAt::automatic &&
+                        target.options().snapshots == 0;
   if (!may_wait) return usual;
   target.switch_at(SwitchAt::accesses);
-  if (std::optional<Finding> again = run_apart(target, {.drawn = false}, {.profile = true}); !again || again->passed())
+  if (std::optional<ProcessFinding> again = target.run_apart({.drawn = false}, {.profile = true});
+      !again || again->passed())
     return again;
   target.switch_at(std::nullopt);
   return usual;
@@ -153,24 +155,25 @@ std::optional<Finding> run_usual(Target& target) {
 // A schedule counts as endless beyond the fixed limit plus this multiple of the default order's time.
 constexpr double usual_times_max = 10;
 
-int search(Target& target, Files& files) {
+int search(ProcessTarget& target, Files& files) {
   heed_signals();
   target.prepare();
   SearchProgress progress(stderr, isatty(STDERR_FILENO) != 0);
   if (files.viewers() != nullptr) files.viewers()->listen_to(progress);
   target.set_limit(target.options().schedule_limit_s.value_or(0));
   const double usual_start_s = progress.seconds();
-  std::optional<Finding> usual = run_usual(target);
+  std::optional<ProcessFinding> usual = run_usual(target);
   const double usual_s = progress.seconds() - usual_start_s;
-  target.set_limit(target.options().schedule_limit_s.value_or(least_limit_s + usual_times_max * usual_s));
-  if (usual) std::fputs(usual->system_calls.c_str(), stderr);
+  target.set_limit(
+      target.options().schedule_limit_s.value_or(ExploreOptions::usual_schedule_limit_s + usual_times_max * usual_s));
+  if (usual) std::fputs(usual->evidence.system_calls.c_str(), stderr);
   Discoveries discoveries(target, progress);
   if (usual && goes_on_after(usual->kind, target.options())) {
     discoveries.take({std::nullopt, *usual});
   } else if (usual && !usual->passed() && files.results() == nullptr) {
     return end_at_once(target, progress, *usual, files);
   }
-  if (usual) target.set_profile(std::move(usual->profile));
+  if (usual) target.set_profile(std::move(usual->lesson.profile));
   Search search(target, progress, discoveries, files.results());
   const double start_s = progress.seconds();
   if (usual) search.run();

@@ -21,7 +21,7 @@ struct SearchCounts {
 
 /// A failure, and how it is repeated.
 struct ReportedFailure {
-  const Finding& finding;
+  const ProcessFinding& finding;
   const FailureReport& report;
 };
 

@@ -62,28 +62,4 @@ ChoiceText in_words(Choice choice, const Task& task, std::uint32_t chosen, std::
   }
 }
 
-void ChoiceWords::say(const Task& task, ChoiceText chosen, ChoiceText instead) {
-  chosen_ = std::move(chosen);
-  chosen_.words = "at " + to_string(task.scheduler->global_time()) + " s: " + about_to(task) + ", " + chosen_.words;
-  other_ = std::move(instead);
-}
-
-std::uint32_t ChoiceWords::among(Choice choice, const Task& task, std::uint32_t count) {
-  const bool is_asked = is_it();
-  ChoiceText instead;
-  if (is_asked) instead = in_words(choice, task, instead_, count);
-  const std::uint32_t chosen = explorer_.among(choice, task, count);
-  if (is_asked) say(task, in_words(choice, task, chosen, count), std::move(instead));
-  return chosen;
-}
-
-Duration ChoiceWords::computing(const Task& task, Duration least, Duration greatest) {
-  const bool is_asked = is_it();
-  const Duration chosen = explorer_.computing(task, least, greatest);
-  if (is_asked)
-    say(task, {"computes " + to_string(Time() + chosen) + " s"},
-        {"computes " + to_string(Time() + Explorer::cost(least, greatest, instead_)) + " s"});
-  return chosen;
-}
-
 }  // namespace waitpoint::exploration

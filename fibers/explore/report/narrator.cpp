@@ -5,7 +5,6 @@
 #include <cstdio>
 
 #include "core/number_text.hpp"
-#include "fibers/explore/report/choice_text.hpp"
 #include "fibers/sync/report/object_names.hpp"
 
 namespace waitpoint::exploration {
@@ -55,6 +54,7 @@ std::uint32_t Narrator::next(Task* const* ready, std::uint32_t count) {
 
 std::uint32_t Narrator::among(Choice choice, const Task& task, std::uint32_t count) {
   const std::size_t before = decisions();
+  if (is_asked() && instead_) narration_.instead = in_words(choice, task, *instead_, count);
   const std::uint32_t chosen = explorer_.among(choice, task, count);
   tell(before, [&](const Decision& decision) {
     ChoiceText text = in_words(choice, task, decision.chosen, count);
@@ -66,6 +66,8 @@ std::uint32_t Narrator::among(Choice choice, const Task& task, std::uint32_t cou
 
 Duration Narrator::computing(const Task& task, Duration least, Duration greatest) {
   const std::size_t before = decisions();
+  if (is_asked() && instead_)
+    narration_.instead = ChoiceText{"computes " + milliseconds(Explorer::cost(least, greatest, *instead_))};
   const Duration chosen = explorer_.computing(task, least, greatest);
   tell(before, [&](const Decision& decision) -> ChoiceText {
     return {title_of(task) + " computes " + milliseconds(chosen) +

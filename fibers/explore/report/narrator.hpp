@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "fibers/explore/report/choice_text.hpp"
 #include "fibers/explore/schedules/explorer.hpp"
-#include "fibers/sync/report/code_place.hpp"
 
 namespace waitpoint::exploration {
 
@@ -23,7 +23,8 @@ struct Told {
 
 struct Narration {
   std::vector<Told> switches;
-  std::optional<Told> answer;  ///< the decision that was asked for
+  std::optional<Told> answer;         ///< the decision that was asked for
+  std::optional<ChoiceText> instead;  ///< the alternative to it, of a choice that is not between tasks
 
   void add(const Told& told, bool is_switch, bool is_answer);
 };
@@ -32,8 +33,11 @@ class Narrator : public kernel::Decisions {
  public:
   Narrator(kernel::Scheduler& scheduler, Explorer& explorer) : scheduler_(scheduler), explorer_(explorer) {}
 
-  /// Also describes decision `number`, default or not.
-  void ask_for(std::size_t number) { asked_ = number; }
+  /// Also describes decision `number`, default or not, and this alternative to it.
+  void ask_for(std::size_t number, std::optional<std::uint32_t> instead = {}) {
+    asked_ = number;
+    instead_ = instead;
+  }
 
   const Narration& narration() const { return narration_; }
 
@@ -52,9 +56,12 @@ class Narrator : public kernel::Decisions {
   void tell(std::size_t decisions_before, const Words& words);
   std::size_t decisions() const { return explorer_.schedule().decisions.size(); }
 
+  bool is_asked() const { return asked_ && *asked_ == decisions(); }
+
   kernel::Scheduler& scheduler_;
   Explorer& explorer_;
   std::optional<std::size_t> asked_;
+  std::optional<std::uint32_t> instead_;
   Narration narration_;
 };
 

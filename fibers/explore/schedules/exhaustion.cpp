@@ -2,6 +2,7 @@
 #include "fibers/explore/schedules/exhaustion.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace waitpoint::exploration {
 
@@ -24,6 +25,12 @@ void Exhaustion::take_drawn(std::uint64_t trace, bool is_beyond) {
 void Exhaustion::take_enumerated(std::uint64_t trace) {
   ++enumerated_;
   take(trace, by_enumeration);
+}
+
+bool Exhaustion::end_enumeration(bool has_all) {
+  if (has_all && is_complete()) return true;
+  is_unproved_ = !std::exchange(leaves_out_equivalent_, false);
+  return false;
 }
 
 }  // namespace waitpoint::exploration

@@ -28,9 +28,17 @@ class Exhaustion {
   /// True once the draws bring nothing new.
   bool has_begun() const { return has_begun_; }
   /// The next schedule is the enumeration's.
-  bool is_next_enumerated() const { return has_begun_ && enumerated_ < drawn_; }
-  /// True if the enumeration, which has ended, came upon all that was drawn.
+  bool is_next_enumerated() const { return has_begun_ && !is_unproved_ && enumerated_ < drawn_; }
+
+  /// The exhaustive strategy that takes over: dpor, or dfs where that is not possible, or has missed what was drawn.
+  const char* strategy() const { return leaves_out_equivalent_ ? "dpor" : "dfs"; }
+  /// Events that race are not independent, whatever their objects; of several processes it is not known which are.
+  void keep_equivalent() { leaves_out_equivalent_ = false; }
+  /// True if the enumeration has come upon all that was drawn.
   bool is_complete() const { return only_drawn_ == 0; }
+  /// That strategy has come to its end; `has_all`: no schedule was lost. True if it has tried all schedules: else the
+  /// next one takes over, if there is one.
+  bool end_enumeration(bool has_all = true);
 
  private:
   enum By : std::uint8_t { by_draw = 1, by_enumeration = 2 };
@@ -40,7 +48,7 @@ class Exhaustion {
   std::uint64_t only_drawn_ = 0;                            // the traces that an enumeration must still come upon
   std::uint64_t drawn_ = 0, enumerated_ = 0;
   std::uint64_t known_ = 0;  // the drawn schedules since the last new trace
-  bool has_begun_ = false;
+  bool has_begun_ = false, leaves_out_equivalent_ = true, is_unproved_ = false;
 };
 
 }  // namespace waitpoint::exploration

@@ -16,10 +16,10 @@ Speed by_strategy(const std::string& name, double seconds) {
   const auto strategy = exploration::make_strategy(name);
   return carry_on(seconds, Clock::processor, [&](std::uint64_t number) -> Done {
     strategy->begin(number, exploration::Draws(1, name, number), profile);
-    const exploration::Outcome outcome = body.run(*strategy);
-    WAITPOINT_CHECK(outcome.passed(), "a body without bugs fails");
+    const exploration::RunVerdict verdict = body.run(*strategy);
+    WAITPOINT_CHECK(verdict.passed(), "a body without bugs fails");
     (void)strategy->end();
-    return {body.explorer().steps(), outcome.digest};
+    return {body.explorer().steps(), verdict.digest};
   });
 }
 

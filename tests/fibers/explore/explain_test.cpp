@@ -44,8 +44,8 @@ TEST(Explain, NamesTheTwoEventsAtOneObjectWhoseOrderMatters) {
     ASSERT_FALSE(report.passed);
     const std::string here = told_under(report.text, "first in the failing run:");
     const std::string there = told_under(report.text, "first in a passing run:");
-    EXPECT_TRUE(contains(here, "  reader#3, about to load atomic #")) << report;
-    EXPECT_TRUE(contains(there, "  writer#2, about to store atomic #")) << report;
+    EXPECT_TRUE(contains(here, " s: reader#3, about to load atomic #")) << report;
+    EXPECT_TRUE(contains(there, " s: writer#2, about to store atomic #")) << report;
     // Both have a call stack, since both were running when they reached the object.
     EXPECT_TRUE(contains(here, "\n      at ")) << report;
     EXPECT_TRUE(contains(there, "\n      at ")) << report;

@@ -35,7 +35,7 @@ TEST(Explore, ALostWakeUpIsFoundMinimizedAndExplained) {
   EXPECT_TRUE(contains(report.text, "deadlock at ")) << report;
   EXPECT_TRUE(contains(report.text, "task consumer of environment waits (wait) for condition variable")) << report;
   EXPECT_EQ(report.schedule.switches.size(), 1U) << report;
-  EXPECT_TRUE(contains(report.text, "one switch away from the default order fails")) << report;
+  EXPECT_TRUE(contains(report.text, "1 switch away from the default order fails")) << report;
   EXPECT_TRUE(contains(report.text, "the last choice from which it could still have passed")) << report;
   EXPECT_TRUE(contains(report.text, "producer#2, about to ")) << report;
   EXPECT_TRUE(contains(report.text, "consumer#1  wait condition variable")) << report;

@@ -26,7 +26,7 @@ Found first_failure(const std::string& name, std::uint64_t seed) {
   const auto strategy = exploration::make_strategy(name);
   for (std::uint64_t number = 0; number < 10'000; ++number) {
     strategy->begin(number, exploration::Draws(seed, name, number), profile);
-    const exploration::Outcome outcome = body.run(*strategy);
+    const exploration::RunVerdict outcome = body.run(*strategy);
     if (!outcome.passed()) return {number, outcome.digest};
     (void)strategy->end();
   }

@@ -44,7 +44,7 @@ TEST_F(ExploreCommandLine, ScenarioAloneHasDefaults) {
   EXPECT_EQ(options.shard.count, 1u);
   EXPECT_TRUE(options.minimize);
   EXPECT_TRUE(options.assignments.empty() && options.replay.empty());
-  EXPECT_FALSE(options.until || options.from || options.results || options.trace || options.schedule);
+  EXPECT_FALSE(options.has_until() || options.from || options.results || options.trace || options.schedule);
 }
 
 TEST_F(ExploreCommandLine, ReadsEveryOption) {
@@ -68,7 +68,7 @@ TEST_F(ExploreCommandLine, ReadsEveryOption) {
   EXPECT_EQ(options.jobs, 2u);
   EXPECT_EQ(options.seed, 9u);
   EXPECT_EQ(options.assignments, (std::vector<std::string>{"world.step_ms=5", "expect.collisions=0"}));
-  EXPECT_EQ(options.until, Duration(std::chrono::seconds(20)));
+  EXPECT_EQ(options.until, Time() + std::chrono::seconds(20));
   EXPECT_EQ(options.from, Duration(std::chrono::seconds(10)));
   EXPECT_EQ(options.shard.index, 2u);
   EXPECT_EQ(options.shard.count, 3u);

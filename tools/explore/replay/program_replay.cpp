@@ -53,20 +53,20 @@ struct ReplayedProgram {
 };
 
 /// A run; the program's output is discarded.
-Finding look(const ReplayedProgram& replayed, const ExploreOptions& options, const Plan& plan,
-             const Target::Request& request, const exploration::Profile& known) {
+ProcessFinding look(const ReplayedProgram& replayed, const ExploreOptions& options, const Plan& plan,
+                    const WantedEvidence& wanted, const exploration::Profile& known) {
   RunMemory memory(settings_of(options));
-  ask_for_run(memory, replayed.files, options, plan, request, known);
+  ask_for_run(memory, replayed.files, options, plan, wanted, known);
   const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
   const ProgramRun run(replayed.files, memory, replayed.begin_run(nowhere),
-                       options.schedule_limit_s.value_or(least_limit_s));
+                       options.schedule_limit_s.value_or(ExploreOptions::usual_schedule_limit_s));
   close(nowhere);
-  Finding finding = finding_of_run(memory, run.status(), "", request, false, false);
-  if (run.is_over_limit()) finding.kind = Finding::Kind::no_progress;
+  ProcessFinding finding = finding_of_run(memory, run.status(), "", wanted, false);
+  if (run.is_over_limit()) finding.kind = ProcessFinding::Kind::no_progress;
   return finding;
 }
 
-void check_obstacle(const Finding& finding) {
+void check_obstacle(const ProcessFinding& finding) {
   if (const std::string words = words_of(finding.obstacle); !words.empty())
     throw BadInput("--switch-at", words + "; expected calls");
 }
@@ -76,12 +76,12 @@ exploration::Profile take_profile(const ReplayedProgram& replayed, const Explore
   exploration::Profile known, profile;
   known.code = learn_code(replayed.files, [&](const Plan& learning, const std::vector<std::uint64_t>& code) {
     known.code = code;
-    Finding finding = look(replayed, options, learning, {.learn = true}, known);
+    ProcessFinding finding = look(replayed, options, learning, {.learn = true}, known);
     check_obstacle(finding);
     return finding;
   });
   if (plan.drawn && needs_profile(options.strategy))
-    profile = look(replayed, options, {.drawn = false}, {.profile = true}, known).profile;
+    profile = look(replayed, options, {.drawn = false}, {.profile = true}, known).lesson.profile;
   profile.code = known.code;
   return profile;
 }
@@ -101,20 +101,20 @@ int replay_program(const ExploreOptions& asked) {
   const auto learn_from = [&](const Plan& plan) { return look(replayed, options, plan, {.pairs = true}, profile); };
   const Plan plan = record.plan.drawn ? Feedback(options.strategy, options.seed).plan_of(record.plan.number, learn_from)
                                       : record.plan;
-  const Target::Request request{.words = !record.plan.drawn, .places = true, .events = trace.has_value()};
+  WantedEvidence wanted{.words = !record.plan.drawn, .places = true};
+  if (trace) wanted.events = {.trace = true};
   RunMemory memory(settings_of(options));
-  ask_for_run(memory, replayed.files, options, plan, request, profile);
-  const double limit_s = options.schedule_limit_s.value_or(least_limit_s);
+  ask_for_run(memory, replayed.files, options, plan, wanted, profile);
+  const double limit_s = options.schedule_limit_s.value_or(ExploreOptions::usual_schedule_limit_s);
   // The program's output is in the way of a document.
   const ProgramRun run(replayed.files, memory, replayed.begin_run(options.json ? STDERR_FILENO : -1), limit_s);
   const std::string output = replayed.streams ? replayed.streams->whole_output() : "";
   write_text(output, options.json);
-  Finding finding =
-      finding_of_run(memory, run.status(), output, request, trace.has_value(), options.races != Races::ignore);
+  ProcessFinding finding = finding_of_run(memory, run.status(), output, wanted, options.races != Races::ignore);
   if (options.has_nodes) tell_unmet(finding);
   if (options.has_nodes) finding.words = finding.headline();
   if (run.is_over_limit()) {
-    finding.kind = Finding::Kind::no_progress;
+    finding.kind = ProcessFinding::Kind::no_progress;
     finding.words = over_limit(limit_s);
   }
   check_obstacle(finding);
@@ -124,11 +124,11 @@ int replay_program(const ExploreOptions& asked) {
       history != nullptr ? history->narration.switches : std::vector<exploration::Told>();
   check_is_run_of(record, {schedule_of(memory.record()), told, finding}, options.replay);
   if (trace) {
-    trace->write(finding.trace);
+    trace->write(finding.evidence.trace);
     trace->commit();
   }
   std::fprintf(stderr, "waitpoint: %s%s\n", finding.passed() ? "passed" : "failed: ", finding.words.c_str());
-  std::fputs(finding.details.c_str(), stderr);
+  std::fputs(finding.evidence.details.c_str(), stderr);
   if (record.digest_bits > 0) std::fprintf(stderr, "waitpoint: the same run as in the record\n");
   const int status = finding.passed() ? 0 : 1;
   return options.json ? end_with_json("explore", status, replay_json(options, record, finding, "")) : status;

@@ -25,13 +25,14 @@ int replay(const ExploreOptions& asked, const scenario::Scenario& scenario, std:
   if (record.plan.drawn && needs_profile(options.strategy)) {
     Scene usual(scenario, types, options, command);
     usual.prepare();
-    scene.set_profile(usual.run({.drawn = false}, {.profile = true}).profile);
+    scene.set_profile(usual.run({.drawn = false}, {.profile = true}).lesson.profile);
   }
   const double start_s = wall_clock_s();
   scene.prepare();
-  Target::Request request{.words = !record.plan.drawn, .places = true, .events = options.trace.has_value()};
-  if (!request.events && !record.trail.marks.empty()) request.trail = record.trail.log_spacing;
-  const Finding finding = scene.run(record.plan, request);
+  WantedEvidence wanted{.words = !record.plan.drawn, .places = true};
+  if (options.trace) wanted.events = {.trace = true};
+  if (!wanted.events && !record.trail.marks.empty()) wanted.trail = record.trail.log_spacing;
+  const ProcessFinding finding = scene.run(record.plan, wanted);
   check_is_run_of(record, {scene.schedule(), scene.switches(), finding}, options.replay);
   bridge::RunResult result = scene.result();
   result.seed = options.seed;  // not the seed of the schedule's noise, which is derived from it
@@ -39,7 +40,7 @@ int replay(const ExploreOptions& asked, const scenario::Scenario& scenario, std:
   result.real_time_factor = result.wall_s > 0 ? result.simulated.seconds() / result.wall_s : 0;
   write_text(summary_text(result), options.json);
   if (trace) {
-    trace->write(finding.trace);
+    trace->write(finding.evidence.trace);
     trace->commit();
   }
   if (record.digest_bits > 0) write_text("\nthe same run as in the record\n", options.json);

@@ -80,7 +80,7 @@ std::string known_before(const Replayed& run, std::size_t i) {
 
 /// Where the run left the record, in words; empty if nowhere.
 std::string parting(const ReplayRecord& record, const Replayed& run) {
-  const Finding& finding = run.finding;
+  const ProcessFinding& finding = run.finding;
   const std::string where = fmt::format("after event {} at {} s", finding.events, to_string(finding.end));
   std::vector<Switch> met = run.schedule.switches;
   std::sort(met.begin(), met.end());
@@ -120,7 +120,7 @@ void check_is_run_of(const ReplayRecord& record, const Replayed& run, const std:
                   exploration::digest_text(exploration::token_digest(run.finding.digest)),
                   exploration::digest_text(exploration::token_digest(record.digest)));
   exploration::Trail met;
-  if (!record.trail.marks.empty() && exploration::read_trail(run.finding.trail, met))
+  if (!record.trail.marks.empty() && exploration::read_trail(run.finding.evidence.trail, met))
     digests += ": it left the record " + exploration::parting(record.trail, met);
   throw BadInput(source, "this is not the run of the record: " + (where.empty() ? digests : where));
 }

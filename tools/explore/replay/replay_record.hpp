@@ -3,10 +3,10 @@
 #pragma once
 
 #include "fibers/explore/report/narrator.hpp"
+#include "fibers/explore/target/plan.hpp"
 #include "tools/explore/replay/schedule_file.hpp"
 #include "tools/explore/runs/explore_options.hpp"
 #include "tools/explore/runs/finding.hpp"
-#include "tools/explore/runs/plan.hpp"
 
 namespace waitpoint::tools {
 
@@ -22,7 +22,7 @@ struct ReplayRecord {
 struct Replayed {
   const exploration::Schedule& schedule;
   const std::vector<exploration::Told>& told;  ///< its switches
-  const Finding& finding;
+  const ProcessFinding& finding;
 };
 
 /// Reads options.replay, for the target with this fingerprint; the record's strategy and seed become the options'.

@@ -24,8 +24,8 @@ struct FailureReport {
 };
 
 /// The report of a failing default order.
-FailureReport report_default(Target& target, SearchProgress& progress, const Finding& finding);
+FailureReport report_default(ProcessTarget& target, SearchProgress& progress, const ProcessFinding& finding);
 /// The report of a failure found by a search. Takes at most a few minutes.
-FailureReport report(Target& target, SearchProgress& progress, const FailedRun& failed);
+FailureReport report(ProcessTarget& target, SearchProgress& progress, const FailedRun& failed);
 
 }  // namespace waitpoint::tools

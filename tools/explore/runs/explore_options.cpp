@@ -305,10 +305,9 @@ ExploreOptions ExploreArguments::options(const std::vector<std::string>& words) 
   if (!jobs_.empty() && (!parse_number(jobs_, options.jobs) || options.jobs < 1 || options.jobs > jobs_max))
     refuse("--jobs", "a whole number from 1 to " + std::to_string(jobs_max), jobs_);
   take_program_options(options);
-  options.until = positive_seconds("--until", until_);
+  if (const auto until = positive_seconds("--until", until_)) options.until = Time() + *until;
   options.from = positive_seconds("--from", from_);
-  if (options.from && options.until && *options.from >= *options.until)
-    refuse("--from", "a time before --until", from_);
+  if (options.from && Time() + *options.from >= options.until) refuse("--from", "a time before --until", from_);
   if (!shard_.empty()) options.shard = shard_of(shard_);
   take_outputs(options);
   options.minimize = !keep_all_;

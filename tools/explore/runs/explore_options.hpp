@@ -9,8 +9,7 @@
 #include <vector>
 
 #include "core/time.hpp"
-#include "fibers/explore/races_option.hpp"
-#include "fibers/explore/strategies/memory_option.hpp"
+#include "fibers/explore/explore_options.hpp"
 #include "tools/command/command_line.hpp"
 #include "tools/command/confinement_options.hpp"
 #include "tools/exec/program_conditions.hpp"
@@ -23,10 +22,13 @@ struct Shard {
   std::uint64_t index = 1, count = 1;
 };
 
-/// Of one schedule, in seconds of the wall clock, if none is asked for; a replay's is the same.
-inline constexpr double least_limit_s = 60;
+/// The options of any exploration, and those of `waitpoint explore` alone.
+struct ExploreOptions : waitpoint::ExploreOptions {
+  ExploreOptions() {
+    iterations = 1000;
+    until = Time::max();
+  }
 
-struct ExploreOptions {
   std::filesystem::path scenario;
   std::vector<std::filesystem::path> confined_to;  ///< the only folders to read from; empty: all
   std::vector<std::string> program;                ///< its words; instead of a scenario, or for it
@@ -34,32 +36,24 @@ struct ExploreOptions {
   std::vector<std::string> assignments;            ///< of --set, then of --property: "expect.collisions=0"
   std::size_t sets = 0;                            ///< so many of them are of --set
   std::vector<std::string> properties;             ///< of --property: "collisions=0"
-  std::string strategy = "portfolio";
-  std::uint64_t seed = 1;
-  bool seed_is_asked = false;                   ///< given explicitly
-  std::uint64_t iterations = 1000;              ///< the maximum number of schedules, over all shards
-  double time_limit_s = 0;                      ///< wall clock; 0: none
-  std::optional<double> schedule_limit_s = {};  ///< of one schedule; 0: none; default: from the default order's time
-  std::uint32_t jobs = 1;                       ///< processes at once
-  std::optional<Duration> until;                ///< overrides the scenario's
-  std::optional<Duration> from;                 ///< the end of the part that all schedules share
+  bool seed_is_asked = false;                      ///< given explicitly
+  std::uint32_t jobs = 1;                          ///< processes at once
+  std::optional<Duration> from;                    ///< the end of the part that all schedules share
   Shard shard;
   std::optional<std::filesystem::path> results, trace, schedule, page, finding;  ///< output files
   std::optional<std::string> serve;  ///< address and port at which browsers see the search and its finding; empty: any
-  std::string replay;                ///< a token or a file's name, to run only that schedule
-  bool minimize = true;
-  bool json = false;                         ///< the result as JSON to standard output
-  bool forks_each = false;                   ///< each schedule of a program has a process of its own
-  std::uint32_t snapshots = 0;               ///< of a program: the most that are kept
-  ProgramConditions conditions;              ///< of a program
-  Races races = Races::report;               ///< of a program compiled with -fsanitize=thread
-  Memory memory = Memory::sc;                ///< the same
-  SwitchAt switch_at = SwitchAt::automatic;  ///< of a program without it
+  bool json = false;                 ///< the result as JSON to standard output
+  bool forks_each = false;           ///< each schedule of a program has a process of its own
+  std::uint32_t snapshots = 0;       ///< of a program: the most that are kept
+  ProgramConditions conditions;      ///< of a program
+  SwitchAt switch_at = SwitchAt::automatic;  ///< of a program without -fsanitize=thread
 
   /// The failure is wanted with its events, for a page.
   bool tells_finding() const { return page || finding || serve; }
   /// The end of a run, for a scenario whose own limit is `own`.
-  Time limit(Duration own) const { return Time() + until.value_or(own); }
+  Time limit(Duration own) const { return has_until() ? until : Time() + own; }
+  /// `until` overrides the scenario's limit.
+  bool has_until() const { return until != Time::max(); }
 };
 
 /// The arguments as text, and their definition.

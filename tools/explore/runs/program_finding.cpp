@@ -13,6 +13,7 @@
 #include "core/error.hpp"
 #include "fibers/explore/report/reordered_events.hpp"
 #include "fibers/explore/strategies/dpor.hpp"
+#include "fibers/explore/target/evidence_text.hpp"
 #include "fibers/posix/exec/exploration.hpp"
 #include "tools/command/signal_words.hpp"
 #include "tools/exec/access_obstacles.hpp"
@@ -62,28 +63,28 @@ std::vector<posix::AccessInstruction> learned(const std::vector<posix::AccessIns
   return found;
 }
 
-void judge(const RunMemory& memory, int status, Finding& finding) {
+void judge(const RunMemory& memory, int status, ProcessFinding& finding) {
   const posix::Ending ending = memory.record().ending;
-  finding.kind = Finding::Kind::unmet;
+  finding.kind = ProcessFinding::Kind::unmet;
   if (!memory.record().began) {
     finding.words = "did not reach main()";
   } else if (ending == posix::Ending::deadlock) {
-    finding.kind = Finding::Kind::deadlock;
+    finding.kind = ProcessFinding::Kind::deadlock;
     finding.words = "deadlock";
   } else if (ending == posix::Ending::no_progress) {
-    finding.kind = Finding::Kind::no_progress;
+    finding.kind = ProcessFinding::Kind::no_progress;
     finding.words = "no progress: the threads poll without end";
   } else if (ending == posix::Ending::idle) {
-    finding.kind = Finding::Kind::no_progress;
+    finding.kind = ProcessFinding::Kind::no_progress;
     finding.words = "idle: only timers expire, and no thread wakes another";
   } else if (WIFSIGNALED(status)) {
     // An abort is how assertions fail.
-    if (WTERMSIG(status) != SIGABRT) finding.kind = Finding::Kind::crash;
+    if (WTERMSIG(status) != SIGABRT) finding.kind = ProcessFinding::Kind::crash;
     finding.words = "terminated by " + signal_in_words(WTERMSIG(status));
   } else if (WEXITSTATUS(status) != 0) {
     finding.words = "exit status " + std::to_string(WEXITSTATUS(status));
   } else {
-    finding.kind = Finding::Kind::passed;
+    finding.kind = ProcessFinding::Kind::passed;
   }
 }
 
@@ -99,8 +100,8 @@ std::uint64_t hash_of(const sync::CodePlaces& calls) {
   return digest.value();
 }
 
-std::vector<RacingCode> racing_code(const posix::Record& record) {
-  std::vector<RacingCode> code;
+std::vector<exploration::RacingCode> racing_code(const posix::Record& record) {
+  std::vector<exploration::RacingCode> code;
   for (const races::LocatedRace& race : located_races(record)) {
     const auto [first, second] = std::minmax({hash_of(race.first_calls), hash_of(race.second_calls)});
     code.push_back({first, second});
@@ -117,13 +118,13 @@ posix::Settings settings_of(const ExploreOptions& options) {
   settings.looks_at_once = looks_at_once;
   settings.batches_at_once = batches_at_once;
   settings.makes_reruns = !options.forks_each && !options.conditions.own_machine;
-  if (options.until && !options.has_nodes) settings.until = Time() + *options.until;
+  if (options.has_until() && !options.has_nodes) settings.until = options.until;
   options.conditions.apply_to(settings);
   return settings;
 }
 
 void ask_for_run(RunMemory& memory, const ProgramFiles& files, const ExploreOptions& options, const Plan& plan,
-                 const Target::Request& request, const exploration::Profile& profile) {
+                 const WantedEvidence& wanted, const exploration::Profile& profile) {
   posix::Record& record = memory.record();
   Asked& asked = *new (record.arena.take(sizeof(Asked))) Asked();
   const std::string strategy = plan.drawing_strategy(options.strategy);
@@ -139,18 +140,18 @@ void ask_for_run(RunMemory& memory, const ProgramFiles& files, const ExploreOpti
   if (plan.drawn) tell_profile(record.arena, profile, asked);
   asked.code = copied(record.arena, profile.code);
   if (!files.instrumented)
-    asked.accesses = copied(record.arena, request.learn ? files.accesses : learned(files.accesses, profile.code));
+    asked.accesses = copied(record.arena, wanted.learn ? files.accesses : learned(files.accesses, profile.code));
   asked.memory = options.memory;
-  asked.learn = request.learn;
-  asked.notes = request.choices;
-  asked.profile = request.profile;
-  asked.words = request.words;
-  asked.events = request.events;
-  asked.events_from = request.events_from;
-  asked.decision = request.decision.value_or(Asked::none);
-  asked.log_from = request.log_from.value_or(Asked::none);
-  asked.stops = request.stop_before.has_value();
-  asked.stop_before = request.stop_before.value_or(exploration::EventOf());
+  asked.learn = wanted.learn;
+  asked.notes = wanted.choices;
+  asked.profile = wanted.profile;
+  asked.words = wanted.words;
+  asked.events = wanted.events.has_value();
+  if (wanted.events) asked.events_from = wanted.events->from;
+  asked.decision = wanted.decision.value_or(Asked::none);
+  asked.log_from = wanted.log_from.value_or(Asked::none);
+  asked.stops = wanted.stop_before.has_value();
+  asked.stop_before = wanted.stop_before.value_or(exploration::EventOf());
   record.settings.asked = &asked;
   record.settings.until = std::min(record.settings.until, plan.until);
 }
@@ -173,35 +174,30 @@ bool has_parted_elsewhere(const posix::Record& record) {
 
 }  // namespace
 
-void tell_races(const posix::Record& record, Finding& finding) {
+void tell_races(const posix::Record& record, ProcessFinding& finding) {
   for (const auto& [process, races] : races_by_process(record))
-    for (const races::Race& race : races) {
-      std::ostringstream text;
-      text << race;
-      finding.races.push_back({race.lines().first + "\n" + race.lines().second,
-                               headline(race) + (process.empty() ? "" : " in " + process), text.str()});
-    }
+    for (const races::Race& race : races) finding.evidence.races.push_back(exploration::told(race, process));
 }
 
-Finding finding_of_run(const RunMemory& memory, int status, const std::string& output, const Target::Request& request,
-                       bool trace_too, bool races_fail) {
-  Finding finding;
+ProcessFinding finding_of_run(const RunMemory& memory, int status, const std::string& output,
+                              const WantedEvidence& wanted, bool races_fail) {
+  ProcessFinding finding;
   judge(memory, status, finding);
   if (!finding.passed() && !output.empty()) finding.words += "\n" + output;
   const posix::Record& record = memory.record();
   finding.obstacle = obstacle_of(record);
   finding.racing = racing_code(record);
-  if (request.places) tell_races(record, finding);
-  if (request.places && !finding.passed()) finding.details = last_calls_of(record);
+  if (wanted.places) tell_races(record, finding);
+  if (wanted.places && !finding.passed()) finding.evidence.details = last_calls_of(record);
   if (const std::string misuse = first_misuse(record); finding.passed() && !misuse.empty()) {
-    finding.kind = Finding::Kind::misuse;
+    finding.kind = ProcessFinding::Kind::misuse;
     finding.words = "misuse: " + misuse;
-    if (request.places) finding.details = misuses_of(record);
+    if (wanted.places) finding.evidence.details = misuses_of(record);
   }
   if (finding.passed() && races_fail && !finding.racing.empty()) {
-    finding.kind = Finding::Kind::race;
+    finding.kind = ProcessFinding::Kind::race;
     finding.words = "a data race";
-    if (request.places) finding.details = races_of(record);
+    if (wanted.places) finding.evidence.details = races_of(record);
   }
   if (record.explored == nullptr) return finding;
   const posix::Explored& explored = *record.explored;
@@ -214,33 +210,35 @@ Finding finding_of_run(const RunMemory& memory, int status, const std::string& o
   // The dependences between events of several processes are not known: no two different runs count as one.
   finding.order = is_single(record) ? explored.explorer.trace() : finding.digest;
   finding.is_beyond_enumeration = explored.explorer.is_beyond_enumeration();
-  if (request.pairs && explored.pairs != nullptr) {
-    finding.pairs = *explored.pairs;
-    std::ranges::sort(finding.pairs);
-    finding.pairs.erase(std::unique(finding.pairs.begin(), finding.pairs.end()), finding.pairs.end());
+  if (wanted.pairs && explored.pairs != nullptr) {
+    finding.lesson.pairs = *explored.pairs;
+    std::ranges::sort(finding.lesson.pairs);
+    finding.lesson.pairs.erase(std::unique(finding.lesson.pairs.begin(), finding.lesson.pairs.end()),
+                               finding.lesson.pairs.end());
   }
-  if (request.choices) finding.choices = schedule.decisions;
-  if (request.choices && std::string_view(record.settings.asked->strategy) == "dpor" && is_single(record))
+  if (wanted.choices) finding.lesson.choices = schedule.decisions;
+  if (wanted.choices && std::string_view(record.settings.asked->strategy) == "dpor" && is_single(record))
     // The run's own process has another table of virtual functions.
-    finding.progress = static_cast<const exploration::Dpor&>(*explored.strategy).progress();
+    finding.lesson.progress = static_cast<const exploration::Dpor&>(*explored.strategy).progress();
   finding.has_unlearned_code = has_unlearned_code(record);
   finding.has_left_out_values = has_left_out_values(record);
-  if (request.profile) {
-    finding.profile = explored.profile;
-    finding.profile.finish(explored.explorer.steps());
+  if (wanted.profile) {
+    finding.lesson.profile = explored.profile;
+    finding.lesson.profile.finish(explored.explorer.steps());
   }
-  if (request.learn) {
+  if (wanted.learn) {
     const std::span<const std::uint64_t> code = code_of(record);
-    finding.profile.code.assign(code.begin(), code.end());
+    finding.lesson.profile.code.assign(code.begin(), code.end());
   }
   if (const posix::History* const history = history_of(record); history != nullptr) {
-    finding.tell(history->narration, request.decision.has_value(), request.words);
-    if (request.events) finding.tell(history->timeline, {trace_too, request.page, request.marks()});
+    tell(history->narration, wanted, finding.evidence);
+    if (wanted.events) tell(history->timeline, *wanted.events, finding.evidence);
   }
-  if (request.log_from) finding.log = explored.log;
-  if (request.stop_before && !explored.stopped_before.empty()) {
+  if (wanted.log_from) finding.evidence.log = explored.log;
+  if (wanted.stop_before && !explored.stopped_before.empty()) {
     const sync::CodePlaces stacks[] = {explored.stopped_calls};
-    finding.tell(explored.stopped_before, sync::user_source_lines(stacks, exploration::frames_shown).front());
+    tell(finding.end, explored.stopped_before, sync::user_source_lines(stacks, exploration::frames_shown).front(),
+         finding.evidence);
   }
   return finding;
 }

@@ -19,8 +19,6 @@
 namespace waitpoint::tools {
 namespace {
 
-constexpr int look_around_ms = 100;
-
 // The process of one run is asked to end by SIGTERM: see Children.
 volatile std::sig_atomic_t is_to_stop = 0;
 void note_stop(int) { is_to_stop = 1; }
@@ -37,7 +35,7 @@ std::uint64_t fingerprint_of(const ProgramFiles& files, const ExploreOptions& op
   }
   for (const std::string& word : options.program) digest.add(std::string_view(word));
   digest.add(options.seed);
-  if (options.until) digest.add(static_cast<std::uint64_t>(options.until->ns()));
+  if (options.has_until()) digest.add(static_cast<std::uint64_t>(options.until.since_start().ns()));
   digest.add(std::string_view(options.conditions.words()));
   if (options.memory == Memory::weak) digest.add(std::string_view("weak memory"));
   return digest.value();
@@ -74,19 +72,28 @@ ProgramTarget::ProgramTarget(const ExploreOptions& options)
 
 ProgramTarget::~ProgramTarget() = default;
 
+exploration::TargetTraits ProgramTarget::traits() const {
+  exploration::TargetTraits traits = ProcessTarget::traits();
+  traits.default_fails_too = "the default order fails too, intermittently\n";
+  // In the first process they are the world's, which is right.
+  if (options_.has_nodes)
+    traits.incomparable = "the two events whose order matters are not looked for in the processes of nodes\n";
+  return traits;
+}
+
 void ProgramTarget::prepare() {
   if (options_.switch_at == SwitchAt::accesses && !has_disassembler()) (void)access_instructions({});  // refuses
   const ForkServer server(calls_.files, settings_of(options_));
 }
 
-Finding ProgramTarget::run(const Plan& plan, const Request& request) {
+ProcessFinding ProgramTarget::run(const Plan& plan, const WantedEvidence& wanted) {
   const SwitchAt at = fixed_switch_at().value_or(switch_points_of(plan, options_));
-  return at == SwitchAt::calls || calls_.files.instrumented ? run_at_calls(plan, request)
-                                                            : run_at_accesses(plan, request);
+  return at == SwitchAt::calls || calls_.files.instrumented ? run_at_calls(plan, wanted)
+                                                            : run_at_accesses(plan, wanted);
 }
 
-Finding ProgramTarget::run_at_calls(const Plan& plan, const Request& request) {
-  const bool learns = request.profile && calls_.files.instrumented;
+ProcessFinding ProgramTarget::run_at_calls(const Plan& plan, const WantedEvidence& wanted) {
+  const bool learns = wanted.profile && calls_.files.instrumented;
   exploration::Profile learned;
   // The default order's profile is taken with the switch points that all runs have.
   if (learns)
@@ -94,28 +101,28 @@ Finding ProgramTarget::run_at_calls(const Plan& plan, const Request& request) {
       learned.code = code;
       return run_once(calls_, learning, {.learn = true}, learned);
     });
-  Finding finding = run_once(calls_, plan, request, learns ? learned : profile_of_calls());
-  if (request.profile) finding.profile.code = learned.code;
+  ProcessFinding finding = run_once(calls_, plan, wanted, learns ? learned : profile_of_calls());
+  if (wanted.profile) finding.lesson.profile.code = learned.code;
   if (!calls_.files.instrumented) finding.switch_at = SwitchAt::calls;
   return finding;
 }
 
 // A run that would be disturbed by breakpoints is made again without, so that a correct program does not fail.
-Finding ProgramTarget::run_at_accesses(const Plan& plan, const Request& request) {
+ProcessFinding ProgramTarget::run_at_accesses(const Plan& plan, const WantedEvidence& wanted) {
   posix::AccessObstacle obstacle = prepare_accesses();
   if (obstacle == posix::AccessObstacle::none) {
     const exploration::Profile& known = *accesses_->profile;
-    Finding finding = run_once(*accesses_, plan, request, known);
+    ProcessFinding finding = run_once(*accesses_, plan, wanted, known);
     finding.switch_at = SwitchAt::accesses;
     // Of other instructions than the learned ones nothing is known.
-    if (request.choices) finding.has_unlearned_code = true;
-    if (request.profile) finding.profile.code = known.code;
-    if (!request.profile && !finding.passed()) finding.profile = known;
+    if (wanted.choices) finding.has_unlearned_code = true;
+    if (wanted.profile) finding.lesson.profile.code = known.code;
+    if (!wanted.profile && !finding.passed()) finding.lesson.profile = known;
     if (finding.obstacle == posix::AccessObstacle::none || is_to_stop != 0) return finding;
     obstacle = finding.obstacle;
     if (obstacle == posix::AccessObstacle::endless) obstacle_ = obstacle;  // the next could take as long
   }
-  Finding finding = run_at_calls(plan, request);
+  ProcessFinding finding = run_at_calls(plan, wanted);
   finding.obstacle = obstacle;
   return finding;
 }
@@ -127,7 +134,7 @@ const exploration::Profile& ProgramTarget::profile_of_calls() {
   if (is_given || !needs_profile(options_.strategy)) return profile_;
   if (!calls_.profile) {
     calls_.profile.emplace();
-    calls_.profile = run_once(calls_, {.drawn = false}, {.profile = true}, *calls_.profile).profile;
+    calls_.profile = run_once(calls_, {.drawn = false}, {.profile = true}, *calls_.profile).lesson.profile;
   }
   return *calls_.profile;
 }
@@ -152,7 +159,7 @@ posix::AccessObstacle ProgramTarget::learn_accesses() {
   bool has_failed = false;
   profile.code = learn_code(accesses_->files, [&](const Plan& learning, const std::vector<std::uint64_t>& code) {
     profile.code = code;
-    Finding finding = run_once(*accesses_, learning, {.learn = true}, profile);
+    ProcessFinding finding = run_once(*accesses_, learning, {.learn = true}, profile);
     obstacle = finding.obstacle;
     has_failed = has_failed || !finding.passed();
     return finding;
@@ -160,22 +167,22 @@ posix::AccessObstacle ProgramTarget::learn_accesses() {
   if (obstacle != AccessObstacle::none) return obstacle;
   if (profile.code.empty()) return has_failed ? AccessObstacle::unlearned : AccessObstacle::nothing_shared;
   if (!needs_profile(options_.strategy)) return obstacle;
-  const Finding usual = run_once(*accesses_, {.drawn = false}, {.profile = true}, profile);
+  const ProcessFinding usual = run_once(*accesses_, {.drawn = false}, {.profile = true}, profile);
   const std::vector<std::uint64_t> code = std::move(profile.code);
-  profile = usual.profile;
+  profile = usual.lesson.profile;
   profile.code = code;
   return usual.obstacle;
 }
 
 // Looking up source lines takes a second: a process tells of each race once, in the first run that shows it.
-bool ProgramTarget::shows_new_races(const Finding& finding) {
+bool ProgramTarget::shows_new_races(const ProcessFinding& finding) {
   const std::size_t before = told_.size();
   told_.insert(finding.racing.begin(), finding.racing.end());
   return told_.size() > before;
 }
 
-Finding ProgramTarget::run_once(Runs& runs, const Plan& plan, const Request& request,
-                                const exploration::Profile& profile) {
+ProcessFinding ProgramTarget::run_once(Runs& runs, const Plan& plan, const WantedEvidence& wanted,
+                                       const exploration::Profile& profile) {
   posix::Settings settings = settings_of(options_);
   if (!runs.server) {
     // A process has one memory of runs.
@@ -186,39 +193,41 @@ Finding ProgramTarget::run_once(Runs& runs, const Plan& plan, const Request& req
     runs.server.emplace(runs.files, settings);
   }
   if (options_.snapshots > 0) settings.makes_reruns = false;
-  Finding finding = run_in_process(runs, settings, plan, request, profile, true);
-  if (!runs.server->is_followed() || finding.kind <= Finding::Kind::misuse || is_to_stop != 0 ||
+  ProcessFinding finding = run_in_process(runs, settings, plan, wanted, profile, true);
+  if (!runs.server->is_followed() || finding.kind <= ProcessFinding::Kind::misuse || is_to_stop != 0 ||
       finding.obstacle != posix::AccessObstacle::none)
     return finding;
   // A failure is reported as it happens in a process of its own, whose calls are not trapped.
   runs.server->fork_next();
   settings.makes_reruns = false;
-  return run_in_process(runs, settings, plan, request, profile, false);
+  return run_in_process(runs, settings, plan, wanted, profile, false);
 }
 
 // In a snapshot, if one is on the way.
 RunMemory& ProgramTarget::begin_run(Runs& runs, const posix::Settings& settings, const Plan& plan,
-                                    const Request& request, bool makes_snapshots) {
+                                    const WantedEvidence& wanted, bool makes_snapshots) {
   for (;;) {
-    const Snapshot* const begin = snapshots_.best_for(plan, request);
-    const SnapshotsAsked asked = makes_snapshots ? snapshots_.to_make(plan, request) : SnapshotsAsked();
+    const Snapshot* const begin = snapshots_.best_for(plan, wanted);
+    const SnapshotsAsked asked = makes_snapshots ? snapshots_.to_make(plan, wanted) : SnapshotsAsked();
     if (begin == nullptr) return runs.server->begin(settings, asked);
     if (RunMemory* const memory = runs.server->begin_in(*begin, settings, asked)) return *memory;
     snapshots_.drop(*begin);
   }
 }
 
-Finding ProgramTarget::run_in_process(Runs& runs, const posix::Settings& settings, const Plan& plan,
-                                      const Request& request, const exploration::Profile& profile,
-                                      bool makes_snapshots) {
+ProcessFinding ProgramTarget::run_in_process(Runs& runs, const posix::Settings& settings, const Plan& plan,
+                                             const WantedEvidence& wanted, const exploration::Profile& profile,
+                                             bool makes_snapshots) {
   if (own_logs_) own_logs_->clear();
-  RunMemory& memory = begin_run(runs, settings, plan, request, makes_snapshots);
-  ask_for_run(memory, runs.files, options_, plan, request, profile);
+  RunMemory& memory = begin_run(runs, settings, plan, wanted, makes_snapshots);
+  ask_for_run(memory, runs.files, options_, plan, wanted, profile);
   runs.server->is_rerun() ? runs.streams.rewind() : runs.streams.open();
   const pid_t process = runs.server->start(runs.streams.input(), runs.streams.output());
   // The limit is not known yet where code is learned, and only the default order may be assumed to end.
-  RunWatch watch(memory.record(), limit_s() <= 0 && request.learn && plan.at_random_from ? least_limit_s : limit_s(),
-                 is_to_stop);
+  RunWatch watch(
+      memory.record(),
+      limit_s() <= 0 && wanted.learn && plan.at_random_from ? ExploreOptions::usual_schedule_limit_s : limit_s(),
+      is_to_stop);
   std::optional<int> status;
   while (!(status = runs.server->wait(look_around_ms)))
     if (watch.words().empty() && watch.is_to_end()) kill(process, SIGKILL);
@@ -228,14 +237,13 @@ Finding ProgramTarget::run_in_process(Runs& runs, const posix::Settings& setting
     looked_s = wall_clock_s();
     return watch.is_to_end();
   };
-  if (watch.words().empty() && !request.stop_before) end_others(memory.record(), is_to_end_by_now);
-  Finding finding =
-      finding_of_run(memory, *status, runs.streams.end_of_output(), request, options_.trace.has_value(), races_fail());
+  if (watch.words().empty() && !wanted.stop_before) end_others(memory.record(), is_to_end_by_now);
+  ProcessFinding finding = finding_of_run(memory, *status, runs.streams.end_of_output(), wanted, races_fail());
   if (options_.has_nodes) tell_unmet(finding);
-  if (options_.races == Races::report && !request.learn && !request.places && shows_new_races(finding))
+  if (options_.races == Races::report && !wanted.learn && !wanted.places && shows_new_races(finding))
     tell_races(memory.record(), finding);
   if (!watch.words().empty()) {
-    finding.kind = Finding::Kind::no_progress;
+    finding.kind = ProcessFinding::Kind::no_progress;
     finding.words = watch.words();
     if (watch.has_gone_on()) finding.digest = 0;
     if (!runs.files.accesses.empty()) finding.obstacle = posix::AccessObstacle::endless;

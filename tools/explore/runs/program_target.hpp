@@ -16,7 +16,7 @@
 
 namespace waitpoint::tools {
 
-class ProgramTarget final : public Target {
+class ProgramTarget final : public ProcessTarget {
  public:
   /// BadInput for a program that cannot be simulated. The options must outlive this.
   explicit ProgramTarget(const ExploreOptions& options);
@@ -27,12 +27,12 @@ class ProgramTarget final : public Target {
     return options_.has_nodes ? options_.scenario.stem().string() : calls_.files.programs.title();
   }
   std::uint64_t fingerprint() const override { return fingerprint_; }
-  bool has_noise() const override { return false; }
+  exploration::TargetTraits traits() const override;
   const ExploreOptions& options() const override { return options_; }
   /// Starts it once, up to main().
   void prepare() override;
-  using Target::run;
-  Finding run(const Plan& plan, const Request& request) override;
+  using ProcessTarget::run;
+  ProcessFinding run(const Plan& plan, const WantedEvidence& wanted) override;
 
  private:
   bool has_processes() const override { return true; }
@@ -47,16 +47,18 @@ class ProgramTarget final : public Target {
     std::optional<ForkServer> server = {};
   };
 
-  bool shows_new_races(const Finding& finding);
+  bool shows_new_races(const ProcessFinding& finding);
   const exploration::Profile& profile_of_calls();
   posix::AccessObstacle prepare_accesses();
   posix::AccessObstacle learn_accesses();
-  Finding run_at_accesses(const Plan& plan, const Request& request);
-  Finding run_at_calls(const Plan& plan, const Request& request);
-  Finding run_once(Runs& runs, const Plan& plan, const Request& request, const exploration::Profile& profile);
-  Finding run_in_process(Runs& runs, const posix::Settings& settings, const Plan& plan, const Request& request,
-                         const exploration::Profile& profile, bool makes_snapshots);
-  RunMemory& begin_run(Runs& runs, const posix::Settings& settings, const Plan& plan, const Request& request,
+  ProcessFinding run_at_accesses(const Plan& plan, const WantedEvidence& wanted);
+  ProcessFinding run_at_calls(const Plan& plan, const WantedEvidence& wanted);
+  ProcessFinding run_once(Runs& runs, const Plan& plan, const WantedEvidence& wanted,
+                          const exploration::Profile& profile);
+  ProcessFinding run_in_process(Runs& runs, const posix::Settings& settings, const Plan& plan,
+                                const WantedEvidence& wanted, const exploration::Profile& profile,
+                                bool makes_snapshots);
+  RunMemory& begin_run(Runs& runs, const posix::Settings& settings, const Plan& plan, const WantedEvidence& wanted,
                        bool makes_snapshots);
 
   const ExploreOptions& options_;
@@ -64,7 +66,7 @@ class ProgramTarget final : public Target {
   std::optional<Runs> accesses_;  // with breakpoints
   std::optional<posix::AccessObstacle> obstacle_ = {};
   std::uint64_t fingerprint_;
-  std::set<RacingCode> told_;                      // the races of this process's findings so far
+  std::set<exploration::RacingCode> told_;         // the races of this process's findings so far
   std::optional<LogFolder> logs_, own_logs_ = {};  // of all processes that make runs, and of this one; for nodes
   SnapshotTree snapshots_;                         // of runs at calls; they end before their server
 };

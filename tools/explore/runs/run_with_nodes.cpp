@@ -21,7 +21,7 @@ std::vector<std::string> words_of_run(const ExploreOptions& options, const scena
     words.push_back(value);
   };
   words.emplace_back("--brief");
-  if (options.until) add("--until", to_string(Time() + *options.until));
+  if (options.has_until()) add("--until", to_string(options.until));
   for (const std::string& assignment : options.assignments) add("--set", assignment);
   // A part of the run is not expected to reach all goals.
   const bool is_cut = options.limit(scenario.until) < Time() + scenario.until;
@@ -46,8 +46,8 @@ ExploreOptions with_run_as_program(const ExploreOptions& options, const scenario
   return all;
 }
 
-void tell_unmet(Finding& finding) {
-  if (finding.kind != Finding::Kind::unmet) return;
+void tell_unmet(ProcessFinding& finding) {
+  if (finding.kind != ProcessFinding::Kind::unmet) return;
   constexpr std::string_view mark = "waitpoint: not as expected: ";
   std::string unmet;
   for (std::size_t at = finding.words.find(mark); at != std::string::npos; at = finding.words.find(mark, at)) {

@@ -12,8 +12,8 @@
 #include <span>
 #include <string>
 
-#include "fibers/explore/report/narrator.hpp"
 #include "fibers/explore/schedules/explorer.hpp"
+#include "fibers/explore/target/evidence_recorder.hpp"
 #include "modules/run/experiment.hpp"
 #include "tools/explore/runs/target.hpp"
 
@@ -21,7 +21,7 @@ namespace waitpoint::tools {
 
 class FloorFrames;
 
-class Scene final : public Target {
+class Scene final : public ProcessTarget {
  public:
   /// BadInput for an invalid scenario. The arguments must outlive the scene.
   Scene(const scenario::Scenario& scenario, std::span<const genom::ModuleType> types, const ExploreOptions& options,
@@ -30,12 +30,12 @@ class Scene final : public Target {
 
   std::string name() const override { return scenario_.name; }
   std::uint64_t fingerprint() const override { return scenario_.fingerprint; }
-  bool has_noise() const override { return true; }
+  exploration::TargetTraits traits() const override;
   const ExploreOptions& options() const override { return options_; }
   /// Advances to the time at which runs part, if one is set.
   void prepare() override;
-  using Target::run;
-  Finding run(const Plan& plan, const Request& request) override;
+  using ProcessTarget::run;
+  ProcessFinding run(const Plan& plan, const WantedEvidence& wanted) override;
 
   /// After run().
   bridge::RunResult result() const;
@@ -48,11 +48,10 @@ class Scene final : public Target {
  private:
   bool has_processes() const override { return false; }
   struct Stage;
-  void watch_and_carry_out(const Plan& plan, const Request& request, Finding& finding);
-  void carry_out(Time until, FloorFrames* floor, Finding& finding);
-  void judge(Finding& finding, bool goals_too) const;
-  bool is_stopped() const;
-  void tell_stop(Finding& finding) const;
+  void record_and_carry_out(const Plan& plan, const WantedEvidence& wanted, ProcessFinding& finding);
+  void carry_out(Time until, const exploration::EvidenceRecorder& recording, FloorFrames* floor,
+                 ProcessFinding& finding);
+  void judge(ProcessFinding& finding, bool goals_too) const;
 
   const scenario::Scenario& scenario_;
   std::span<const genom::ModuleType> types_;

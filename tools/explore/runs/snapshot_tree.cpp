@@ -9,9 +9,9 @@ namespace {
 using exploration::Deviation;
 
 // Others need to see the run from its beginning.
-bool is_of_end_only(const Target::Request& request) {
-  return !request.profile && !request.learn && !request.pairs && !request.words && !request.places && !request.events &&
-         !request.decision && !request.log_from && !request.trail && !request.stop_before;
+bool is_of_end_only(const WantedEvidence& wanted) {
+  return !wanted.profile && !wanted.learn && !wanted.pairs && !wanted.words && !wanted.places && !wanted.events &&
+         !wanted.decision && !wanted.log_from && !wanted.trail && !wanted.stop_before;
 }
 
 // Others also draw, count or learn at events without an alternative. Without a name: the default order.
@@ -23,8 +23,8 @@ bool acts_at_choices_only(const std::string& strategy) {
 
 SnapshotTree::SnapshotTree(std::size_t most, const std::string& strategy) : most_(most), strategy_(strategy) {}
 
-bool SnapshotTree::can_begin(const Plan& plan, const Target::Request& request) const {
-  return most_ > 0 && is_of_end_only(request) && acts_at_choices_only(plan.drawing_strategy(strategy_));
+bool SnapshotTree::can_begin(const Plan& plan, const WantedEvidence& wanted) const {
+  return most_ > 0 && is_of_end_only(wanted) && acts_at_choices_only(plan.drawing_strategy(strategy_));
 }
 
 // True if the run by this plan makes the same choices up to the node. A plan's switches are made wherever they fit:
@@ -45,8 +45,8 @@ bool SnapshotTree::leads_to(const Plan& plan, const Node& node) {
   return std::ranges::equal(plan.deviations.begin(), end, node.deviations.begin(), node.deviations.end());
 }
 
-const Snapshot* SnapshotTree::best_for(const Plan& plan, const Target::Request& request) {
-  if (!can_begin(plan, request)) return nullptr;
+const Snapshot* SnapshotTree::best_for(const Plan& plan, const WantedEvidence& wanted) {
+  if (!can_begin(plan, wanted)) return nullptr;
   Node* best = nullptr;
   ++now_;
   for (Node& node : nodes_) {
@@ -62,8 +62,8 @@ void SnapshotTree::drop(const Snapshot& snapshot) {
 }
 
 // Where there is no room, one of those that do not lead to this run makes room.
-SnapshotsAsked SnapshotTree::to_make(const Plan& plan, const Target::Request& request) const {
-  if (!can_begin(plan, request)) return {};
+SnapshotsAsked SnapshotTree::to_make(const Plan& plan, const WantedEvidence& wanted) const {
+  if (!can_begin(plan, wanted)) return {};
   const bool has_others = std::ranges::any_of(nodes_, [&](const Node& node) { return node.used != now_; });
   const std::size_t room = nodes_.size() < most_ ? most_ - nodes_.size() : has_others ? 1 : 0;
   return {static_cast<std::uint32_t>(room), plan.drawn};

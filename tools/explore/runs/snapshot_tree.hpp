@@ -19,11 +19,11 @@ class SnapshotTree {
   SnapshotTree(std::size_t most, const std::string& strategy);
 
   /// The snapshot in which this run can begin; null if there is none. Valid up to the next call.
-  const Snapshot* best_for(const Plan& plan, const Target::Request& request);
+  const Snapshot* best_for(const Plan& plan, const WantedEvidence& wanted);
   /// Drops that one.
   void drop(const Snapshot& snapshot);
   /// What the run is to make.
-  SnapshotsAsked to_make(const Plan& plan, const Target::Request& request) const;
+  SnapshotsAsked to_make(const Plan& plan, const WantedEvidence& wanted) const;
   /// Takes those that the run of this plan has made.
   void add(std::vector<Snapshot> made, const Plan& plan, const exploration::Schedule& schedule);
 
@@ -36,7 +36,7 @@ class SnapshotTree {
     std::uint64_t used;  // when: the one that was not used for longest is dropped
   };
 
-  bool can_begin(const Plan& plan, const Target::Request& request) const;
+  bool can_begin(const Plan& plan, const WantedEvidence& wanted) const;
   static bool leads_to(const Plan& plan, const Node& node);
 
   std::size_t most_;

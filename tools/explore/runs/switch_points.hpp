@@ -2,8 +2,8 @@
 // Which schedules of a search have accesses to memory as switch points, of a program that is not instrumented.
 #pragma once
 
+#include "fibers/explore/target/plan.hpp"
 #include "tools/explore/runs/explore_options.hpp"
-#include "tools/explore/runs/plan.hpp"
 
 namespace waitpoint::tools {
 

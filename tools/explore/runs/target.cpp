@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/explore/runs/target.hpp"
 
+#include <cstdio>
 #include <utility>
 
+#include "tools/command/interruption.hpp"
 #include "tools/explore/runs/fields.hpp"
 
 namespace waitpoint::tools {
 namespace {
 
 template <class Pass, class P, class R, class S>
-void pass_fields(Pass& pass, P& plan, R& request, S& repeats) {
+void pass_fields(Pass& pass, P& plan, R& wanted, S& repeats) {
   pass(plan.number);
   pass(plan.drawn);
   pass(plan.strategy);
@@ -20,33 +22,49 @@ void pass_fields(Pass& pass, P& plan, R& request, S& repeats) {
   pass(plan.at_random_from);
   pass(plan.attempt);
   pass(plan.until);
-  pass(request);
+  pass(wanted);
   pass(repeats);
 }
 
 }  // namespace
 
-void Target::set_profile(exploration::Profile profile) {
+std::optional<ProcessFinding> ProcessTarget::run_apart(const Plan& plan, const WantedEvidence& wanted) {
+  runs().start(0, to_request(plan, wanted));
+  while (interruption() == 0)
+    if (const auto ended = runs().wait(look_around_ms)) return findings_of(*ended).front();
+  stop_runs();
+  return std::nullopt;
+}
+
+void ProcessTarget::stop_runs() {
+  if (!options().program.empty())
+    if (const auto ended = runs().stop_longest())
+      if (const std::string words = findings_of(*ended).back().words; !words.empty())
+        std::fprintf(stderr, "waitpoint: %s\n", words.c_str());
+  runs().kill_from(0);
+}
+
+void ProcessTarget::set_profile(exploration::Profile profile) {
   runs_.reset();
   profile_ = std::move(profile);
 }
 
-void Target::set_limit(double seconds) {
+void ProcessTarget::set_limit(double seconds) {
   runs_.reset();
   limit_s_ = seconds;
 }
 
-void Target::switch_at(std::optional<SwitchAt> at) {
+void ProcessTarget::switch_at(std::optional<SwitchAt> at) {
   runs_.reset();
   fixed_switch_at_ = at;
 }
 
-void Target::ignore_races() {
+void ProcessTarget::ignore_races() {
   runs_.reset();
   races_fail_ = false;
 }
 
-Children& Target::runs() {
+Children& ProcessTarget::runs() {
   if (!runs_)
     runs_.emplace(
         [this](std::string_view request) { return execute(request); },
@@ -55,30 +73,30 @@ Children& Target::runs() {
   return *runs_;
 }
 
-std::string Target::to_request(const Plan& plan, const Request& request, const Repeats& repeats) {
+std::string ProcessTarget::to_request(const Plan& plan, const WantedEvidence& wanted, const Repeats& repeats) {
   FieldWriter writer;
-  pass_fields(writer, plan, request, repeats);
+  pass_fields(writer, plan, wanted, repeats);
   return std::move(writer.bytes);
 }
 
-std::string Target::execute(std::string_view bytes) {
+std::string ProcessTarget::execute(std::string_view bytes) {
   Plan plan;
-  Request request;
+  WantedEvidence wanted;
   Repeats repeats;
   FieldReader reader(bytes);
-  pass_fields(reader, plan, request, repeats);
+  pass_fields(reader, plan, wanted, repeats);
   FieldWriter results;
   for (std::uint32_t left = repeats.count;; --left, plan.number += repeats.step) {
-    const Finding finding = run(plan, request);
+    const ProcessFinding finding = run(plan, wanted);
     results(to_bytes(finding));
     if (left == 0 || !finding.passed()) return std::move(results.bytes);
   }
 }
 
-std::vector<Finding> Target::findings_of(const Children::Ended& ended) {
-  std::vector<Finding> findings;
+std::vector<ProcessFinding> ProcessTarget::findings_of(const Children::Ended& ended) {
+  std::vector<ProcessFinding> findings;
   if (const std::string death = death_of(ended); !death.empty()) {
-    findings.emplace_back().kind = Finding::Kind::killed;
+    findings.emplace_back().kind = ProcessFinding::Kind::killed;
     findings.back().words = death;
     return findings;
   }

@@ -1,46 +1,24 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The subject of an exploration: a scenario, or an arbitrary program. Each schedule is a run.
+// A target whose runs are in processes of their own: a scenario, or an arbitrary program.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <optional>
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "core/time.hpp"
+#include "fibers/explore/target/target.hpp"
 #include "tools/explore/runs/explore_options.hpp"
 #include "tools/explore/runs/finding.hpp"
-#include "tools/explore/runs/plan.hpp"
 #include "tools/processes/children.hpp"
 
 namespace waitpoint::tools {
 
-class Target {
+class ProcessTarget : public exploration::Target {
  public:
-  /// The data requested of a run besides its outcome.
-  struct Request {
-    bool profile = false;
-    bool learn = false;    ///< for the profile: code that accesses memory shared by tasks
-    bool choices = false;  ///< all choices made
-    bool pairs = false;    ///< what a strategy with feedback learns from
-    bool words = false;    ///< switches in words
-    bool places = false;   ///< source locations of the tasks in reports
-    bool events = false;   ///< the last ones, and with ExploreOptions::trace the trace
-    Time events_from = Time();
-    std::optional<std::size_t> decision = {};  ///< describe the choice made there
-    std::optional<std::size_t> log_from = {};  ///< the events after this decision
-    std::optional<std::uint32_t> trail = {};   ///< of scenarios: a mark after each 2^N events; excludes the above
-    bool page = false;                         ///< with the events also in columns, and of a scenario the floor
-    std::uint32_t marked_count = 0;
-    std::array<exploration::EventOf, 2> marked = {};  ///< in the columns: so many of these
-    /// Ends the run before this event, and describes its task's next operation and call stack.
-    std::optional<exploration::EventOf> stop_before = {};
-
-    std::span<const exploration::EventOf> marks() const { return std::span(marked).first(marked_count); }
-  };
+  /// How often a wait for a run heeds signals and limits.
+  static constexpr int look_around_ms = 100;
 
   /// The same request for further schedules, whose numbers grow by `step`; up to the first that does not pass.
   struct Repeats {
@@ -48,16 +26,19 @@ class Target {
     std::uint32_t count = 0;
   };
 
-  virtual ~Target() = default;
-
-  /// The name in reports.
-  virtual std::string name() const = 0;
   /// Digest of the target's files and options: distinct for distinct targets.
   virtual std::uint64_t fingerprint() const = 0;
-  /// True if runs differ in more than their schedules: then each number has its own noise, and number 0 the target's
-  /// own.
-  virtual bool has_noise() const = 0;
   virtual const ExploreOptions& options() const = 0;
+  exploration::TargetTraits traits() const override {
+    return {.to_minimize = {.runs = 2000, .seconds = 90}, .to_explain = {.runs = 200, .seconds = 60}};
+  }
+  /// A run in a process of its own.
+  std::optional<exploration::Finding> repeat(const Plan& plan, const WantedEvidence& wanted) override {
+    return run_apart(plan, wanted);
+  }
+  std::optional<ProcessFinding> run_apart(const Plan& plan, const WantedEvidence& wanted);
+  /// The search has been interrupted: tells what a program's run that has gone on for long does, and ends all runs.
+  void stop_runs();
 
   /// Advances to the common origin of all runs. BadInput if the target ends before it.
   virtual void prepare() = 0;
@@ -73,17 +54,17 @@ class Target {
   void ignore_races();
 
   /// Executes one run by the plan, in a process that does nothing else.
-  virtual Finding run(const Plan& plan, const Request& request) = 0;
-  Finding run(const Plan& plan) { return run(plan, Request()); }
+  virtual ProcessFinding run(const Plan& plan, const WantedEvidence& wanted) = 0;
+  ProcessFinding run(const Plan& plan) { return run(plan, WantedEvidence()); }
 
   /// The processes that execute runs, by requests.
   Children& runs();
-  static std::string to_request(const Plan& plan, const Request& request) {
-    return to_request(plan, request, Repeats());
+  static std::string to_request(const Plan& plan, const WantedEvidence& wanted) {
+    return to_request(plan, wanted, Repeats());
   }
-  static std::string to_request(const Plan& plan, const Request& request, const Repeats& repeats);
+  static std::string to_request(const Plan& plan, const WantedEvidence& wanted, const Repeats& repeats);
   /// The findings of the plan and its repeats, from the process that has run them; one that it was killed, if it was.
-  static std::vector<Finding> findings_of(const Children::Ended& ended);
+  static std::vector<ProcessFinding> findings_of(const Children::Ended& ended);
   /// The greatest number of schedules that one process can run in turn.
   std::uint32_t batch_max() const { return has_processes() ? 16 : 1; }
 

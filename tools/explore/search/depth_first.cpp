@@ -23,8 +23,8 @@ std::uint32_t next_alternative(const Decision& decision) {
 
 }  // namespace
 
-std::optional<Plan> DepthFirst::next(const Finding& finding) {
-  const std::vector<Decision>& decisions = finding.choices;
+std::optional<Plan> DepthFirst::next(const ProcessFinding& finding) {
+  const std::vector<Decision>& decisions = finding.lesson.choices;
   std::uint32_t preempted = 0;
   std::optional<Deviation> last;
   for (std::uint32_t at = 0; at < decisions.size(); ++at) {

@@ -19,7 +19,7 @@ class DepthFirst final : public Exhaustive {
   Plan first() const override { return {.drawn = false}; }
 
  private:
-  std::optional<Plan> next(const Finding& finding) override;
+  std::optional<Plan> next(const ProcessFinding& finding) override;
 
   std::uint32_t preemptions_;
 };

@@ -10,13 +10,13 @@ namespace waitpoint::tools {
 void Discoveries::take(FailedRun run) {
   const ExploreOptions& options = target_.options();
   std::vector<std::string> lines;
-  if (options.races == Races::report && !run.finding.races.empty())
+  if (options.races == Races::report && !run.finding.evidence.races.empty())
     lines =
-        races_.take(run.finding, name_of(run, options),
+        races_.take(run.finding.evidence.races, name_of(run, options),
                     replay_command(with_switches_at(run.finding.switch_at, options), to_text(token_of(run, options))));
-  const Finding::Kind kind = run.finding.kind;
-  const bool is_first = kind != Finding::Kind::passed && !first_.contains(kind);
-  if (is_first && (kind != Finding::Kind::race || options.races == Races::fail))
+  const ProcessFinding::Kind kind = run.finding.kind;
+  const bool is_first = kind != ProcessFinding::Kind::passed && !first_.contains(kind);
+  if (is_first && (kind != ProcessFinding::Kind::race || options.races == Races::fail))
     lines.push_back(name_of(run, options) + ": " + run.finding.headline());
   if (is_first) first_.emplace(kind, std::move(run));
   if (lines.empty()) return;
@@ -28,7 +28,7 @@ std::string Discoveries::besides(const std::vector<ToldRace>& told) const {
   const ExploreOptions& options = target_.options();
   std::string text;
   for (const auto& [kind, run] : first_)
-    if (&run != gravest() && kind != Finding::Kind::race)
+    if (&run != gravest() && kind != ProcessFinding::Kind::race)
       text.insert(
           0, "also found, by " + name_of(run, options) + ": " + run.finding.headline() + "\nreplay: " +
                  replay_command(with_switches_at(run.finding.switch_at, options), to_text(token_of(run, options))) +

@@ -7,21 +7,21 @@
 #include <string>
 #include <vector>
 
+#include "fibers/explore/search/race_findings.hpp"
 #include "tools/explore/runs/target.hpp"
 #include "tools/explore/search/failed_run.hpp"
-#include "tools/explore/search/race_discoveries.hpp"
 #include "tools/explore/search/search_progress.hpp"
 
 namespace waitpoint::tools {
 
 /// True if the search goes on after such a failure, to one of a graver kind.
-inline bool goes_on_after(Finding::Kind kind, const ExploreOptions& options) {
-  return kind == Finding::Kind::misuse || (kind == Finding::Kind::race && options.races == Races::report);
+inline bool goes_on_after(ProcessFinding::Kind kind, const ExploreOptions& options) {
+  return kind == ProcessFinding::Kind::misuse || (kind == ProcessFinding::Kind::race && options.races == Races::report);
 }
 
 class Discoveries {
  public:
-  Discoveries(Target& target, SearchProgress& progress) : target_(target), progress_(progress) {}
+  Discoveries(ProcessTarget& target, SearchProgress& progress) : target_(target), progress_(progress) {}
 
   /// Takes a failed or racing run; runs come in the order of their numbers, so that the lines do not depend on the
   /// number of jobs.
@@ -33,10 +33,10 @@ class Discoveries {
   std::string besides(const std::vector<ToldRace>& told) const;
 
  private:
-  Target& target_;
+  ProcessTarget& target_;
   SearchProgress& progress_;
-  std::map<Finding::Kind, FailedRun> first_;
-  RaceDiscoveries races_;
+  std::map<ProcessFinding::Kind, FailedRun> first_;
+  exploration::RaceFindings races_;
 };
 
 }  // namespace waitpoint::tools

@@ -9,9 +9,6 @@
 namespace waitpoint::tools {
 namespace {
 
-constexpr const char* by_partial_orders = "dpor";
-constexpr const char* depth_first = "dfs";
-
 // Null if the strategy is not exhaustive.
 std::unique_ptr<Exhaustive> make_exhaustive(const std::string& name) {
   const auto strategy = exploration::make_strategy(name);
@@ -29,28 +26,12 @@ std::optional<Enumeration> Enumeration::of_options(const std::string& strategy) 
   return Enumeration("", std::move(schedules));
 }
 
-Enumeration Enumeration::after_draws(bool has_races) {
-  const std::string name = has_races ? depth_first : by_partial_orders;
-  return {name, make_exhaustive(name)};
-}
+Enumeration Enumeration::after_draws(const std::string& strategy) { return {strategy, make_exhaustive(strategy)}; }
 
-void Enumeration::take(const Finding& finding) {
+bool Enumeration::take(const ProcessFinding& finding) {
   ++number_;
-  // Several processes.
-  const bool is_impossible =
-      name_ == by_partial_orders && finding.kind != Finding::Kind::killed && finding.progress.empty();
-  if (is_impossible)
-    begin_another();
-  else
-    next_ = schedules_->after(finding);
-}
-
-bool Enumeration::begin_another() {
-  if (name_ != by_partial_orders) return false;
-  name_ = depth_first;
-  schedules_ = make_exhaustive(name_);
-  next_ = schedules_->first();
-  number_ = 0;
+  if (name_ == "dpor" && finding.kind != ProcessFinding::Kind::killed && finding.lesson.progress.empty()) return false;
+  next_ = schedules_->after(finding);
   return true;
 }
 

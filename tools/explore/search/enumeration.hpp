@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The schedules of an exhaustive strategy, one after the other: the one that the options name, or those that follow
-// when draws bring nothing new. Then dpor is tried first, and dfs where it is not possible: for programs of several
-// processes, after data races, or if it has missed what was drawn.
+// when draws bring nothing new (exploration::Exhaustion).
 #pragma once
 
 #include <memory>
@@ -16,18 +15,16 @@ class Enumeration {
  public:
   /// Of this strategy, the options'; null if that draws.
   static std::optional<Enumeration> of_options(const std::string& strategy);
-  /// What follows draws, which have met data races or not.
-  static Enumeration after_draws(bool has_races);
+  /// Of this exhaustive strategy, after draws.
+  static Enumeration after_draws(const std::string& strategy);
 
   /// The name of the strategy; empty: that of the options.
   const std::string& name() const { return name_; }
   std::uint64_t number() const { return number_; }
   /// The next schedule, of that number; nothing after the last.
   const std::optional<Plan>& next() const { return next_; }
-  /// Its run has ended: its choices were requested.
-  void take(const Finding& finding);
-  /// After the last: takes up another strategy; false if there is none.
-  bool begin_another();
+  /// Its run has ended: its choices were wanted. False if the strategy is not possible: of several processes.
+  bool take(const ProcessFinding& finding);
   /// After the last: Exhaustive::scope().
   std::optional<std::string> scope() const { return schedules_->scope(); }
 

@@ -5,8 +5,9 @@
 #include <optional>
 #include <string>
 
+#include "fibers/explore/search/omissions.hpp"
+#include "fibers/explore/target/plan.hpp"
 #include "tools/explore/runs/finding.hpp"
-#include "tools/explore/runs/plan.hpp"
 
 namespace waitpoint::tools {
 
@@ -18,8 +19,8 @@ class Exhaustive {
   virtual Plan first() const = 0;
   /// The successor of the schedule of `finding`, whose choices were requested; nothing after the last. BadInput if the
   /// strategy cannot continue for this program.
-  std::optional<Plan> after(const Finding& finding);
-  /// The scope of the search when it is exhausted: " with at most 2 preemptions, except for turns of spinning tasks";
+  std::optional<Plan> after(const ProcessFinding& finding);
+  /// The scope of the search when it is exhausted: " with at most 2 preemptions, except turns of spinning tasks";
   /// nothing if a schedule was lost, with those that follow from it.
   std::optional<std::string> scope() const;
 
@@ -27,12 +28,11 @@ class Exhaustive {
   explicit Exhaustive(std::string scope) : scope_(std::move(scope)) {}
 
  private:
-  virtual std::optional<Plan> next(const Finding& finding) = 0;
+  virtual std::optional<Plan> next(const ProcessFinding& finding) = 0;
 
   std::string scope_;
-  bool is_broken_ = false;
-  bool left_out_turns_ = false, left_out_costs_ = false, left_out_spurious_ = false, left_out_accesses_ = false;
-  bool left_out_values_ = false, is_at_calls_ = false;
+  bool is_broken_ = false, is_at_calls_ = false;
+  exploration::Omissions omissions_;
 };
 
 }  // namespace waitpoint::tools

@@ -46,7 +46,7 @@ std::string explore_words(const ExploreOptions& options, const std::string& repl
   const bool is_program = !options.program.empty() && !options.has_nodes;
   line += is_program ? "--exec" : quoted(options.scenario.string());
   line += " --seed " + std::to_string(options.seed);
-  if (options.until) line += " --until " + to_string(Time() + *options.until);
+  if (options.has_until()) line += " --until " + to_string(options.until);
   if (is_program) line += options.conditions.words();
   if (options.races != Races::report) line += options.races == Races::fail ? " --races fail" : " --races ignore";
   if (is_program && options.switch_at == SwitchAt::accesses) line += " --switch-at accesses";

@@ -7,15 +7,15 @@
 #include <string>
 
 #include "fibers/explore/schedules/token.hpp"
+#include "fibers/explore/target/plan.hpp"
 #include "tools/explore/runs/explore_options.hpp"
 #include "tools/explore/runs/finding.hpp"
-#include "tools/explore/runs/plan.hpp"
 
 namespace waitpoint::tools {
 
 struct FailedRun {
   std::optional<std::uint64_t> number;  ///< of its schedule; none: the default order
-  Finding finding;
+  ProcessFinding finding;
   exploration::Constraints constraints = {};  ///< those of its plan
   std::string enumeration = {};  ///< the exhaustive strategy that has tried it after draws; empty: the options'
 };

@@ -33,9 +33,11 @@ std::optional<Plan> Feedback::plan_of_next() {
   return plan;
 }
 
-void Feedback::take(std::uint64_t number, const Finding& finding) { lessons_[number].pairs = finding.pairs; }
+void Feedback::take(std::uint64_t number, const ProcessFinding& finding) {
+  lessons_[number].pairs = finding.lesson.pairs;
+}
 
-Plan Feedback::plan_of(std::uint64_t number, const std::function<Finding(const Plan& plan)>& run) {
+Plan Feedback::plan_of(std::uint64_t number, const std::function<ProcessFinding(const Plan& plan)>& run) {
   if (!is_learned(number)) return {.number = number};
   for (;;) {
     const Plan plan = *plan_of_next();

@@ -15,8 +15,8 @@
 
 #include "fibers/explore/strategies/reads_from_corpus.hpp"
 #include "fibers/explore/strategies/strategy.hpp"
+#include "fibers/explore/target/plan.hpp"
 #include "tools/explore/runs/finding.hpp"
-#include "tools/explore/runs/plan.hpp"
 
 namespace waitpoint::tools {
 
@@ -30,10 +30,10 @@ class Feedback {
   /// The plan of schedule next(), which becomes the one after; nothing until all of the generations before were told.
   std::optional<Plan> plan_of_next();
   /// Such a schedule has ended; its pairs were requested.
-  void take(std::uint64_t number, const Finding& finding);
+  void take(std::uint64_t number, const ProcessFinding& finding);
 
   /// The plan of a drawn schedule by itself: `run` executes those that it learns from.
-  Plan plan_of(std::uint64_t number, const std::function<Finding(const Plan& plan)>& run);
+  Plan plan_of(std::uint64_t number, const std::function<ProcessFinding(const Plan& plan)>& run);
 
  private:
   static constexpr std::size_t generation = 8;

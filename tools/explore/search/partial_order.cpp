@@ -5,12 +5,12 @@
 
 namespace waitpoint::tools {
 
-std::optional<Plan> PartialOrder::next(const Finding& finding) {
-  if (finding.progress.empty())
+std::optional<Plan> PartialOrder::next(const ProcessFinding& finding) {
+  if (finding.lesson.progress.empty())
     throw BadInput("--strategy",
                    "expected dfs or bounded:K, as the program starts processes or other programs, found 'dpor'");
   exploration::Dpor search;
-  search.resume(finding.progress);
+  search.resume(finding.lesson.progress);
   if (!search.end()) return std::nullopt;
   Plan plan = first();
   plan.progress = search.progress();

@@ -14,7 +14,7 @@ class PartialOrder final : public Exhaustive {
   Plan first() const override { return {.strategy = "dpor"}; }
 
  private:
-  std::optional<Plan> next(const Finding& finding) override;
+  std::optional<Plan> next(const ProcessFinding& finding) override;
 };
 
 }  // namespace waitpoint::tools

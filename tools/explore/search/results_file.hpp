@@ -22,8 +22,8 @@ class ResultsFile {
  public:
   explicit ResultsFile(const std::filesystem::path& path) : file_(path) {}
 
-  void begin(const Target& target);
-  void take(std::uint64_t number, const Finding& finding);
+  void begin(const ProcessTarget& target);
+  void take(std::uint64_t number, const ProcessFinding& finding);
   void commit() { file_.commit(); }
 
  private:

@@ -10,8 +10,6 @@
 namespace waitpoint::tools {
 namespace {
 
-constexpr int look_around_ms = 100;
-
 // What follows from the results of schedules is decided at every so many, from those up to as many before: so it does
 // not depend on how many run at once, and none is waited for unless it takes long.
 constexpr std::uint64_t decision_interval = 64;
@@ -20,26 +18,9 @@ constexpr std::uint64_t decision_interval = 64;
 // number.
 constexpr std::uint64_t of_another_shard = std::uint64_t{1} << 63;
 
-// A program's run that has gone on for long says what its threads do.
-void stop(Target& target) {
-  if (target.options().program.empty()) return;
-  if (const auto ended = target.runs().stop_longest())
-    if (const std::string words = Target::findings_of(*ended).back().words; !words.empty())
-      std::fprintf(stderr, "waitpoint: %s\n", words.c_str());
-}
-
 }  // namespace
 
-std::optional<Finding> run_apart(Target& target, const Plan& plan, const Target::Request& request) {
-  target.runs().start(0, Target::to_request(plan, request));
-  while (interruption() == 0)
-    if (const auto ended = target.runs().wait(look_around_ms)) return Target::findings_of(*ended).front();
-  stop(target);
-  target.runs().kill_from(0);
-  return std::nullopt;
-}
-
-Search::Search(Target& target, SearchProgress& progress, Discoveries& discoveries, ResultsFile* results)
+Search::Search(ProcessTarget& target, SearchProgress& progress, Discoveries& discoveries, ResultsFile* results)
     : target_(target), progress_(progress), discoveries_(discoveries), results_(results), batches_(target.batch_max()) {
   const ExploreOptions& options = target.options();
   enumeration_ = Enumeration::of_options(options.strategy);
@@ -54,7 +35,7 @@ bool Search::may_start() const {
   const ExploreOptions& options = target_.options();
   const std::uint64_t number = options.shard.index - 1 + started_ * options.shard.count;
   // Without noise the default order is a single schedule.
-  const bool is_one = options.strategy == "fifo" && !target_.has_noise();
+  const bool is_one = options.strategy == "fifo" && !target_.traits().has_noise;
   return number < (is_one ? std::min<std::uint64_t>(options.iterations, 1) : options.iterations) && !failure_place_ &&
          !is_exhausted_ && has_time();
 }
@@ -91,8 +72,11 @@ std::optional<Search::Origin> Search::next_origin() {
   }
   if (ended_.size() < started_) return std::nullopt;
   tell_exhaustion(started_);
-  if (!exhaustion_.is_next_enumerated() || is_unproved_) return Origin::drawn;
-  if (!enumeration_) enumeration_ = Enumeration::after_draws(has_races_);
+  if (!exhaustion_.is_next_enumerated()) return Origin::drawn;
+  if (!enumeration_) {
+    if (has_races_) exhaustion_.keep_equivalent();
+    enumeration_ = Enumeration::after_draws(exhaustion_.strategy());
+  }
   return Origin::enumerated;
 }
 
@@ -145,7 +129,7 @@ bool Search::start_learning() {
     if (next->number == number)
       plan = *next;
     else  // of another shard
-      target_.runs().start(of_another_shard | next->number, Target::to_request(*next, {.pairs = true}));
+      target_.runs().start(of_another_shard | next->number, ProcessTarget::to_request(*next, {.pairs = true}));
   }
   ++drawn_;
   running_[started_] = {.number = number, .finding = {}, .constraints = plan.constraints};
@@ -160,30 +144,33 @@ void Search::start_enumerated() {
 }
 
 // `plan` is of the first.
-void Search::start(const Batches::Batch& batch, const Plan& plan, const Target::Request& request) {
+void Search::start(const Batches::Batch& batch, const Plan& plan, const WantedEvidence& wanted) {
   batches_.start(batch, progress_.seconds());
-  const Target::Repeats repeats{.step = target_.options().shard.count, .count = batch.count - 1};
-  target_.runs().start(batch.place, Target::to_request(plan, request, repeats));
+  const ProcessTarget::Repeats repeats{.step = target_.options().shard.count, .count = batch.count - 1};
+  target_.runs().start(batch.place, ProcessTarget::to_request(plan, wanted, repeats));
 }
 
 void Search::take_ended(const Children::Ended& ended) {
-  std::vector<Finding> findings = Target::findings_of(ended);
+  std::vector<ProcessFinding> findings = ProcessTarget::findings_of(ended);
   if ((ended.number & of_another_shard) != 0)
     return feedback_->take(ended.number & ~of_another_shard, findings.front());
   if (!death_of(ended).empty() && batches_.divide(ended.number)) return;
   batches_.end(ended.number, static_cast<std::uint32_t>(findings.size()), progress_.seconds());
   std::uint64_t place = ended.number;
-  for (Finding& finding : findings) take(place++, std::move(finding));
+  for (ProcessFinding& finding : findings) take(place++, std::move(finding));
 }
 
-void Search::take(std::uint64_t place, Finding finding) {
+void Search::take(std::uint64_t place, ProcessFinding finding) {
   const bool goes_on = finding.passed() || goes_on_after(finding.kind, target_.options());
   if (!goes_on && results_ == nullptr && (!failure_place_ || place < *failure_place_)) {
     failure_place_ = place;
     target_.runs().kill_from(place);
   }
   const bool is_enumerated = enumerating_ == place;
-  if (is_enumerated) enumeration_->take(finding);
+  if (is_enumerated && !enumeration_->take(finding)) {
+    exhaustion_.keep_equivalent();
+    enumeration_ = Enumeration::after_draws(exhaustion_.strategy());
+  }
   FailedRun run = std::move(running_.extract(place).mapped());
   if (!is_enumerated && learns(*run.number)) feedback_->take(*run.number, finding);
   run.finding = std::move(finding);
@@ -196,21 +183,20 @@ void Search::take(std::uint64_t place, Finding finding) {
 void Search::end_enumeration() {
   tell_exhaustion(ended_.size());
   const std::optional<std::string> scope = enumeration_->scope();
-  if (is_exhaustive_ || (scope && exhaustion_.is_complete())) {
+  is_exhausted_ = is_exhaustive_ || exhaustion_.end_enumeration(scope.has_value());
+  if (is_exhausted_)
     scope_ = scope;
-    is_exhausted_ = true;
-  } else if (!enumeration_->begin_another()) {
-    is_unproved_ = true;
-  }
+  else
+    enumeration_ = Enumeration::after_draws(exhaustion_.strategy());
 }
 
 // Of schedules up to the failure that ends the search: how many more had been begun depends on the machine.
-void Search::count(const Finding& finding) {
+void Search::count(const ProcessFinding& finding) {
   ++schedules_;
-  if (finding.kind != Finding::Kind::killed && !finding.was_cut) orders_.insert(finding.order);
+  if (finding.kind != ProcessFinding::Kind::killed && !finding.was_cut) orders_.insert(finding.order);
   if (finding.passed()) return;
   ++failures_;
-  if (finding.kind == Finding::Kind::race && goes_on_after(finding.kind, target_.options())) ++raced_;
+  if (finding.kind == ProcessFinding::Kind::race && goes_on_after(finding.kind, target_.options())) ++raced_;
 }
 
 // In the order of their places; after an interruption earlier ones may be missing.
@@ -220,10 +206,10 @@ void Search::report(bool at_end) {
     if (!at_end && place != ended_.size()) return;
     FailedRun run = std::move(waiting_.begin()->second);
     waiting_.erase(waiting_.begin());
-    const Finding& finding = run.finding;
+    const ProcessFinding& finding = run.finding;
     ended_.push_back({.order = finding.order,
                       .is_enumerated = enumerating_ == place,
-                      .is_lost = finding.kind == Finding::Kind::killed,
+                      .is_lost = finding.kind == ProcessFinding::Kind::killed,
                       .was_cut = finding.was_cut,
                       .is_beyond = finding.is_beyond_enumeration});
     if (!failure_place_ || place <= *failure_place_) count(finding);
@@ -242,12 +228,11 @@ void Search::run() {
     while (target_.runs().count() < options.jobs && start_next()) {
     }
     if (target_.runs().count() == 0) break;
-    if (const auto ended = target_.runs().wait(look_around_ms)) take_ended(*ended);
+    if (const auto ended = target_.runs().wait(ProcessTarget::look_around_ms)) take_ended(*ended);
     progress_.update(schedules_, distinct(), failures_);
     interrupted_ = interruption() != 0;
   }
-  if (interrupted_) stop(target_);
-  target_.runs().kill_from(0);
+  interrupted_ ? target_.stop_runs() : target_.runs().kill_from(0);
   report(true);
   progress_.finish();
 }

@@ -26,14 +26,11 @@
 
 namespace waitpoint::tools {
 
-/// One run of the target in a process of its own; nothing if a signal to this process interrupted it.
-std::optional<Finding> run_apart(Target& target, const Plan& plan, const Target::Request& request = {});
-
 class Search {
  public:
   /// Tells `discoveries` of failed and racing runs, and `results`, unless it is null, of all: then failures do not end
   /// the search.
-  Search(Target& target, SearchProgress& progress, Discoveries& discoveries, ResultsFile* results);
+  Search(ProcessTarget& target, SearchProgress& progress, Discoveries& discoveries, ResultsFile* results);
 
   /// Runs the schedules that the options request.
   void run();
@@ -71,14 +68,14 @@ class Search {
   bool start_drawn();
   bool start_learning();
   void start_enumerated();
-  void start(const Batches::Batch& batch, const Plan& plan, const Target::Request& request);
+  void start(const Batches::Batch& batch, const Plan& plan, const WantedEvidence& wanted);
   void take_ended(const Children::Ended& ended);
-  void take(std::uint64_t place, Finding finding);
+  void take(std::uint64_t place, ProcessFinding finding);
   void end_enumeration();
-  void count(const Finding& finding);
+  void count(const ProcessFinding& finding);
   void report(bool at_end);
 
-  Target& target_;
+  ProcessTarget& target_;
   SearchProgress& progress_;
   Discoveries& discoveries_;
   ResultsFile* results_;
@@ -100,7 +97,6 @@ class Search {
   std::optional<Enumeration> enumeration_;
   std::optional<std::uint64_t> enumerating_;  // the place of its present or last schedule
   bool has_races_ = false;
-  bool is_unproved_ = false;  // the enumeration has ended without a proof
   bool is_exhausted_ = false;
   std::optional<std::string> scope_;
 };

@@ -10,6 +10,7 @@
 #include <string>
 #include <utility>
 
+#include "fibers/explore/target/progress_listener.hpp"
 #include "tools/output/progress.hpp"
 
 namespace waitpoint::tools {
@@ -20,15 +21,13 @@ struct SearchNews {
   std::string words = {};  ///< of another activity than searching
 };
 
-class SearchProgress {
+class SearchProgress final : public exploration::ProgressListener {
  public:
   /// Borrows the stream; the caller determines if it is a terminal.
   SearchProgress(std::FILE* stream, bool terminal, Progress::Clock clock = &wall_clock_s);
 
-  /// Counts so far: schedules, distinct ones, failures.
-  void update(std::uint64_t schedules, std::uint64_t distinct, std::uint64_t failures);
-  /// Another activity, in words.
-  void update(const std::string& words);
+  void update(std::uint64_t schedules, std::uint64_t distinct, std::uint64_t failures) override;
+  void update(const std::string& words) override;
   /// Calls `heard` with each news, too, at most five times a second.
   void listen(std::function<void(const SearchNews&)> heard) { heard_ = std::move(heard); }
   /// Erases the line.

@@ -35,11 +35,11 @@ struct Tally {
   std::size_t equal = 0, different = 0, left_out = 0, unfinished = 0;
   std::uint64_t schedules = 0;
 
-  void add(Verdict verdict) {
-    equal += verdict == Verdict::equal;
-    different += verdict == Verdict::different;
-    left_out += verdict == Verdict::left_out;
-    unfinished += verdict == Verdict::unfinished;
+  void add(RunVerdict verdict) {
+    equal += verdict == RunVerdict::equal;
+    different += verdict == RunVerdict::different;
+    left_out += verdict == RunVerdict::left_out;
+    unfinished += verdict == RunVerdict::unfinished;
   }
 };
 
@@ -49,9 +49,9 @@ void compare_one(const Program& program, const Enumerated& all, const Cover& cov
   const Covered covered = coverage(program);
   tally.schedules += covered.schedules;
   std::string difference;
-  const Verdict verdict = compare(all, covered, difference);
+  const RunVerdict verdict = compare(all, covered, difference);
   tally.add(verdict);
-  if (verdict != Verdict::different) return;
+  if (verdict != RunVerdict::different) return;
   const Program least = shrink(program, coverage);
   (void)compare(enumerate(least, states_max), coverage(least), difference);
   std::printf("\n%s differs on %s\n%sagain: ./dev test --completeness%s --program '%s'\n", tally.strategy,

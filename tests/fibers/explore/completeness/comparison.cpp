@@ -16,8 +16,8 @@ std::string beyond(const Outcomes& some, const Outcomes& others, const char* wha
 
 }  // namespace
 
-Verdict compare(const Enumerated& all, const Covered& covered, std::string& difference) {
-  if (!all.is_complete) return Verdict::unfinished;
+RunVerdict compare(const Enumerated& all, const Covered& covered, std::string& difference) {
+  if (!all.is_complete) return RunVerdict::unfinished;
   Outcomes found = covered.outcomes;
   if (found.erase("cycle ?") != 0)
     for (const std::string& outcome : all.outcomes)
@@ -25,14 +25,14 @@ Verdict compare(const Enumerated& all, const Covered& covered, std::string& diff
   difference = beyond(found, all.outcomes, "found, but impossible");
   const bool is_whole = covered.is_finished && !covered.leaves_turns;
   if (is_whole) difference += beyond(all.outcomes, found, "possible, but not found");
-  if (!difference.empty()) return Verdict::different;
-  return is_whole ? Verdict::equal : covered.is_finished ? Verdict::left_out : Verdict::unfinished;
+  if (!difference.empty()) return RunVerdict::different;
+  return is_whole ? RunVerdict::equal : covered.is_finished ? RunVerdict::left_out : RunVerdict::unfinished;
 }
 
 Program shrink(const Program& program, const Coverage& coverage) {
   for (const Program& less : smaller(program)) {
     std::string difference;
-    if (compare(enumerate(less, states_max), coverage(less), difference) == Verdict::different)
+    if (compare(enumerate(less, states_max), coverage(less), difference) == RunVerdict::different)
       return shrink(less, coverage);
   }
   return program;

@@ -17,7 +17,7 @@ inline constexpr std::size_t states_max = 200'000;
 /// Finds the outcomes of a program, as cover() does.
 using Coverage = std::function<Covered(const Program& program)>;
 
-enum class Verdict {
+enum class RunVerdict {
   equal,
   different,   ///< it found an outcome that the program cannot have, or has missed one
   left_out,    ///< the strategy says that it left schedules out, and found no other outcome
@@ -26,7 +26,7 @@ enum class Verdict {
 
 /// The verdict on `covered`, of a program with the outcomes `all`; in `difference`, what differs. The outcome "cycle ?"
 /// stands for all cycles.
-Verdict compare(const Enumerated& all, const Covered& covered, std::string& difference);
+RunVerdict compare(const Enumerated& all, const Covered& covered, std::string& difference);
 
 /// A smallest program, made from `program` by omissions, for which `coverage` still differs.
 Program shrink(const Program& program, const Coverage& coverage);

@@ -31,10 +31,10 @@ TEST_P(Completeness, FindsExactlyTheOutcomesOfRandomPrograms) {
   for (std::uint64_t number = 1; number <= programs; ++number) {
     const Program program = make_program(number);
     std::string difference;
-    const Verdict verdict = compare(enumerate(program, states_max), coverage(program), difference);
-    equal += verdict == Verdict::equal;
-    left_out += verdict == Verdict::left_out;
-    if (verdict == Verdict::different)
+    const RunVerdict verdict = compare(enumerate(program, states_max), coverage(program), difference);
+    equal += verdict == RunVerdict::equal;
+    left_out += verdict == RunVerdict::left_out;
+    if (verdict == RunVerdict::different)
       ADD_FAILURE() << number << ", shrunk: " << to_text(shrink(program, coverage)) << "\n" << difference;
   }
   EXPECT_GE(equal, least_equal);
@@ -53,7 +53,7 @@ TEST_P(Dpor, FindsEveryOutcome) {
   const Program program = read_program(GetParam());
   std::string difference;
   const Covered covered = cover(program, "dpor", 10'000);
-  EXPECT_EQ(compare(enumerate(program, states_max), covered, difference), Verdict::equal) << difference;
+  EXPECT_EQ(compare(enumerate(program, states_max), covered, difference), RunVerdict::equal) << difference;
 }
 
 INSTANTIATE_TEST_SUITE_P(

@@ -42,7 +42,7 @@ class Run {
     require(!held.mutexes[0] && !held.mutexes[1], thread);
   }
 
-  /// The outcome of the run with this result; `failure` as in exploration::Outcome.
+  /// The outcome of the run with this result; `failure` as in exploration::Body.
   std::string outcome_of(const std::string& failure) const {
     if (!ending_.empty()) return outcome(ending_, {ended_by_}, observed_);
     if (failure.empty()) return outcome("ended", {}, observed_);
@@ -190,9 +190,9 @@ Covered cover(const Program& program, const std::string& strategy, std::uint64_t
   while (covered.schedules < schedules_max && !covered.is_finished) {
     run = std::make_unique<Run>(program);
     chosen->begin(covered.schedules, exploration::Draws(1, strategy, covered.schedules), profile);
-    const exploration::Outcome outcome = body.run(*chosen);
+    const exploration::RunVerdict verdict = body.run(*chosen);
     ++covered.schedules;
-    if (!outcome.was_cut) covered.outcomes.insert(run->outcome_of(outcome.failure));
+    if (!verdict.was_cut) covered.outcomes.insert(run->outcome_of(body.failure()));
     covered.is_finished = !chosen->end();
   }
   covered.leaves_turns = body.explorer().left_out().turns;

@@ -26,7 +26,7 @@ TEST(RacesInACampaign, DoNotHideARarerFailureAndAreReportedOnceEach) {
   EXPECT_FALSE(report.passed);
   EXPECT_TRUE(contains(report.text, "failed: a check failed in task main")) << report;
   EXPECT_TRUE(contains(report.text, ": an update is lost\n")) << report;
-  EXPECT_TRUE(contains(report.text, "one switch away from the default order fails")) << report;
+  EXPECT_TRUE(contains(report.text, "1 switch away from the default order fails")) << report;
   EXPECT_TRUE(contains(report.text, "the last choice from which it could still have passed")) << report;
   EXPECT_EQ(report.races.size(), 2U);
   EXPECT_EQ(count(report.text, "also found, by the default schedule: data race at "), 2U) << report;

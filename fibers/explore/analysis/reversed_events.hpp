@@ -6,21 +6,20 @@
 #include <optional>
 #include <string>
 
+#include "fibers/explore/analysis/last_choice.hpp"
 #include "fibers/explore/report/reordered_events.hpp"
-#include "tools/explore/report/last_choice.hpp"
 
-namespace waitpoint::tools {
+namespace waitpoint::exploration {
 
 struct ReversedEvents {
   std::string text;                  ///< lines; empty if the budget is exhausted
   std::optional<Plan> passing = {};  ///< of the passing run; nothing if the budget is exhausted
-  std::optional<exploration::EventPair> pair = {};
+  std::optional<EventPair> pair = {};
   Time from = {};  ///< of the pair, when the earlier one happens
 };
 
 /// The passing run is the one with the fewest differences among the alternatives at that choice, each followed by the
-/// default order; else the run that showed the choice to be the last one, as always of a scenario with nodes.
-ReversedEvents reversed_events(Target& target, SearchProgress& progress, Budget& budget, const LeastFailure& least,
-                               const LastChoice& choice);
+/// default order; else the run that showed the choice to be the last one.
+ReversedEvents reversed_events(Trials& trials, const LeastFailure& least, const LastChoice& choice);
 
-}  // namespace waitpoint::tools
+}  // namespace waitpoint::exploration

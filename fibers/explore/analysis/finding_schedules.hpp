@@ -3,14 +3,13 @@
 // of the pair in each with their call stacks, and of a scenario the floor.
 #pragma once
 
+#include "fibers/explore/analysis/reversed_events.hpp"
 #include "fibers/explore/report/finding_file.hpp"
-#include "tools/explore/report/reversed_events.hpp"
-#include "tools/explore/runs/target.hpp"
 
-namespace waitpoint::tools {
+namespace waitpoint::exploration {
 
 /// Repeats the runs a few times. A schedule whose process was killed has no events.
 void add_schedules(Target& target, const Plan& failing, const Finding& failure, const ReversedEvents& reversed,
-                   exploration::FindingFile& finding);
+                   FindingFile& finding);
 
-}  // namespace waitpoint::tools
+}  // namespace waitpoint::exploration

@@ -1,24 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/explore/report/finding_schedules.hpp"
+#include "fibers/explore/analysis/finding_schedules.hpp"
 
 #include <algorithm>
 #include <utility>
 
 #include "fibers/explore/report/event_columns.hpp"
-#include "tools/explore/search/search.hpp"
 
-namespace waitpoint::tools {
+namespace waitpoint::exploration {
 namespace {
-
-using exploration::EventOf;
-using exploration::FindingEvent;
-using exploration::FindingSchedule;
 
 // What a long run shows before the pair, or, without one, before the failure; what a run shows after it.
 constexpr Duration lead = std::chrono::seconds(1), last_seconds = std::chrono::seconds(2),
                    survival_shown = std::chrono::milliseconds(500);
 
-// The lines of exploration::with_calls() in their parts.
+// The lines of with_calls() in their parts.
 FindingEvent event_told(const std::string& told) {
   constexpr std::string_view call = "      at ";
   FindingEvent event;
@@ -37,50 +32,50 @@ FindingEvent event_told(const std::string& told) {
 class Schedules {
  public:
   Schedules(Target& target, const Finding& failure, const ReversedEvents& reversed)
-      : target_(target), request_{.events = true, .page = true} {
+      : target_(target), events_{.page = true} {
     if (reversed.pair) {
-      request_.marked = {reversed.pair->failing, reversed.pair->passing};
-      request_.marked_count = 2;
+      events_.marked = {reversed.pair->failing, reversed.pair->passing};
+      events_.marked_count = 2;
     }
     const Time from = reversed.pair ? reversed.from - lead : failure.end - last_seconds;
-    if (failure.events > exploration::page_events_max) request_.events_from = std::max(Time(), from);
+    if (failure.events > page_events_max) events_.from = std::max(Time(), from);
   }
 
   /// Of the run by this plan; its floor is `scene`.
   FindingSchedule told(const Plan& plan, std::string& scene) {
     FindingSchedule schedule;
-    if (std::optional<Finding> run = run_apart(target_, plan, request_)) {
-      schedule.events = std::move(run->columns);
-      schedule.frames = std::move(run->frames);
-      scene = std::move(run->scene);
+    if (std::optional<Finding> run = target_.repeat(plan, {.events = events_})) {
+      schedule.events = std::move(run->evidence.columns);
+      schedule.frames = std::move(run->evidence.frames);
+      scene = std::move(run->evidence.scene);
     }
-    if (schedule.events.empty()) schedule.events = exploration::to_columns({}, {});
-    for (std::size_t i = 0; i < request_.marked_count; ++i) schedule.pair[i] = event(plan, request_.marked[i]);
+    if (schedule.events.empty()) schedule.events = to_columns({}, {});
+    for (std::size_t i = 0; i < events_.marked_count; ++i) schedule.pair[i] = event(plan, events_.marked[i]);
     return schedule;
   }
 
  private:
   std::optional<FindingEvent> event(const Plan& plan, const EventOf& which) {
-    const std::optional<Finding> stopped = run_apart(target_, plan, {.stop_before = which});
-    if (!stopped || stopped->told.empty()) return std::nullopt;
-    return event_told(stopped->told);
+    const std::optional<Finding> stopped = target_.repeat(plan, {.stop_before = which});
+    if (!stopped || stopped->evidence.told.empty()) return std::nullopt;
+    return event_told(stopped->evidence.told);
   }
 
   Target& target_;
-  Target::Request request_;
+  WantedEvents events_;
 };
 
 }  // namespace
 
 void add_schedules(Target& target, const Plan& failing, const Finding& failure, const ReversedEvents& reversed,
-                   exploration::FindingFile& finding) {
+                   FindingFile& finding) {
   Schedules schedules(target, failure, reversed);
   finding.fails = schedules.told(failing, finding.scene);
   if (!reversed.passing) return;
   Plan passing = *reversed.passing;
-  passing.until = std::min(passing.until, failure.end + survival_shown);
+  if (!target.traits().is_cheap) passing.until = std::min(passing.until, failure.end + survival_shown);
   std::string same_scene;
   finding.passes = schedules.told(passing, same_scene);
 }
 
-}  // namespace waitpoint::tools
+}  // namespace waitpoint::exploration

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A body as a target: its runs are in this process, and cheap.
+#pragma once
+
+#include <string>
+
+#include "fibers/explore/body.hpp"
+#include "fibers/explore/target/target.hpp"
+
+namespace waitpoint::exploration {
+
+class BodyTarget final : public Target {
+ public:
+  /// `body` must outlive it. The numbers of runs are those of the analysis of a failure.
+  explicit BodyTarget(Body& body, std::string name = "", std::uint64_t runs_to_minimize = 200'000,
+                      std::uint64_t runs_to_explain = 20'000)
+      : body_(body), name_(std::move(name)), runs_to_minimize_(runs_to_minimize), runs_to_explain_(runs_to_explain) {}
+
+  std::string name() const override { return name_; }
+  TargetTraits traits() const override {
+    constexpr std::uint64_t events_max = 30'000'000;  // some seconds
+    return {.to_minimize = {runs_to_minimize_, events_max},
+            .to_explain = {runs_to_explain_, events_max},
+            .is_cheap = true,
+            .default_fails_too =
+                "the default order, which passed at first, now fails: the body leaks state from one "
+                "schedule into the next\n"};
+  }
+  std::optional<Finding> repeat(const Plan& plan, const WantedEvidence& wanted) override {
+    return body_.repeat(plan, wanted);
+  }
+
+ private:
+  Body& body_;
+  std::string name_;
+  std::uint64_t runs_to_minimize_, runs_to_explain_;
+};
+
+}  // namespace waitpoint::exploration
