@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "core/number_text.hpp"
 #include "core/printable_line.hpp"
 #include "modules/playback/playback.hpp"
 #include "modules/run/experiment.hpp"
@@ -31,8 +32,9 @@ int check_log(const CheckOptions& options, const scenario::Scenario& scenario,
   const LogSource source = log_source(scenario);
   const logs::SensorLog log = source.read();
   const playback::Playback playback(log, source.robot, types, {});
-  const std::string text = fmt::format("{}: good: {} modules, {} scans of {}\n", printable_line(scenario.file),
-                                       playback.modules(), log.scans.size(), printable_line(log.file));
+  const std::string text =
+      fmt::format("{}: good: {}, {} of {}\n", printable_line(scenario.file), counted(playback.modules(), "module"),
+                  counted(log.scans.size(), "scan"), printable_line(log.file));
   return tell_good(options.json, text,
                    {{"scenario", scenario.file},
                     {"modules", playback.modules()},
@@ -42,6 +44,14 @@ int check_log(const CheckOptions& options, const scenario::Scenario& scenario,
 }
 
 }  // namespace
+
+void declare(Command& command, CheckOptions& options) {
+  command.description = "Validates a scenario without running it.";
+  command.examples = {"office --set world.step_ms=5"};
+  declare_scenario(command, options);
+  command.section("Results");
+  command.json(options.json);
+}
 
 int check(const CheckOptions& options, std::span<const genom::ModuleType> types) {
   const scenario::Scenario scenario = scenario::read_scenario(options.scenario, options.assignments);
@@ -55,9 +65,9 @@ int check(const CheckOptions& options, std::span<const genom::ModuleType> types)
     for (const scenario::ModuleScenario& module : robot.modules) modules += module.enabled ? 1 : 0;
   }
   const std::size_t obstacles = experiment.world().description().obstacles.size();
-  std::string text =
-      fmt::format("{}: good: {} robots, {} modules, {} goals, {} obstacles\n",
-                  printable_line(options.scenario.string()), scenario.robots.size(), modules, goals, obstacles);
+  std::string text = fmt::format("{}: good: {}, {}, {}, {}\n", printable_line(options.scenario.string()),
+                                 counted(scenario.robots.size(), "robot"), counted(modules, "module"),
+                                 counted(goals, "goal"), counted(obstacles, "obstacle"));
   std::vector<std::string> plans;
   for (const auto& robot : experiment.robots())
     if (const std::string plan = robot->plan_text(); !plan.empty()) plans.push_back(plan);

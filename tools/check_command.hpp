@@ -5,9 +5,16 @@
 #include <span>
 
 #include "modules/genom/module_type.hpp"
-#include "tools/options.hpp"
+#include "tools/command/options/scenario.hpp"
 
 namespace waitpoint::tools {
+
+struct CheckOptions : ScenarioOptions {
+  bool json = false;  ///< the result as JSON to standard output
+};
+
+/// The command with its options.
+void declare(Command& command, CheckOptions& options);
 
 /// Prints what the scenario has; returns the exit status. BadInput for a scenario that cannot be run.
 int check(const CheckOptions& options, std::span<const genom::ModuleType> types);

@@ -51,10 +51,10 @@ int carry_out(int argc, const char* const* argv, std::vector<genom::ModuleType> 
     };
     std::visit(confine, options);
     if (const auto* run = std::get_if<tools::RunOptions>(&options))
-      return run->check ? tools::self_check(*run, types) : tools::run(*run, types);
+      return run->verify ? tools::self_check(*run, types) : tools::run(*run, types);
     if (const auto* checked = std::get_if<tools::CheckOptions>(&options)) return tools::check(*checked, types);
     if (const auto* replay = std::get_if<tools::ReplayOptions>(&options)) {
-      if (replay->check) return tools::self_check(*replay, types);
+      if (replay->verify) return tools::self_check(*replay, types);
       const tools::RunWatchdog watchdog(tools::RunWatchdog::usual_limit_s);
       return tools::replay_log(*replay, types);
     }
@@ -63,6 +63,7 @@ int carry_out(int argc, const char* const* argv, std::vector<genom::ModuleType> 
     if (const auto* plan = std::get_if<tools::PlanOptions>(&options)) return tools::show_plan(*plan);
     if (const auto* schema = std::get_if<tools::SchemaOptions>(&options)) return tools::show_schema(*schema, types);
     if (const auto* viewed = std::get_if<tools::ViewOptions>(&options)) return tools::view_finding(*viewed);
+    if (const auto* listed = std::get_if<tools::ScenariosOptions>(&options)) return tools::list_scenarios(*listed);
     if (const auto* generated = std::get_if<tools::GenomOptions>(&options)) return tools::genom(*generated);
     if (const auto* debug = std::get_if<tools::DebugOptions>(&options)) tools::debug(*debug);
     if (const auto* executed = std::get_if<tools::ExecOptions>(&options)) return tools::exec(*executed);

@@ -12,6 +12,8 @@
 #include "tools/command/interruption.hpp"
 #include "tools/command/manual_page.hpp"
 #include "tools/command/option_values.hpp"
+#include "tools/command/options/schedule.hpp"
+#include "tools/command/options/time_limits.hpp"
 #include "tools/command/version.hpp"
 #include "tools/main.hpp"
 #include "tools/output/output_file.hpp"
@@ -24,8 +26,8 @@ namespace {
 struct Arguments {
   std::string scenario;
   std::vector<std::string> assignments;
-  std::string seed = "1";
-  std::string until;
+  std::uint64_t seed = 1;
+  std::optional<Duration> until;
   std::string world;
 };
 
@@ -64,13 +66,11 @@ void print(const bridge::RunResult& result) {
 }
 
 int run(const Arguments& arguments, std::span<const genom::ModuleType> types) {
-  const std::uint64_t seed = seed_of("--seed", arguments.seed);
-  const std::optional<Duration> until = positive_seconds("--until", arguments.until);
   const scenario::Scenario scenario = scenario::read_scenario(arguments.scenario, arguments.assignments);
   std::atomic<bool> world_ended = false;
-  run::ThreadedExperiment experiment(scenario, types, seed, world_at(arguments.world, scenario, world_ended));
+  run::ThreadedExperiment experiment(scenario, types, arguments.seed, world_at(arguments.world, scenario, world_ended));
   heed_signals();
-  experiment.run_for(until.value_or(scenario.until), [&] { return interruption() != 0 || world_ended; });
+  experiment.run_for(arguments.until.value_or(scenario.until), [&] { return interruption() != 0 || world_ended; });
   const bridge::RunResult result = experiment.result();
   print(result);
   flush_standard_output();
@@ -82,30 +82,30 @@ int run(const Arguments& arguments, std::span<const genom::ModuleType> types) {
 }
 
 int read_and_run(int argc, const char* const* argv, std::span<const genom::ModuleType> types) {
-  CommandLine line("waitpoint-native", "Runs robots' software on system threads, against a simulated world.");
-  line.version(version_text(), "print version, format of digests, compiler, flags and fingerprint of the exact math",
-               version_json);
+  CommandLine line("waitpoint-native", "Runs robots' software on system threads, against a simulated world.",
+                   version_text(), version_json);
+  line.program().own.examples = {"run office.yaml --until 60"};
+  line.program().own.notes =
+      "COMMAND --help tells more. Exit status: 0 as the scenario expects, 1 not so, 2 bad input.";
   Arguments arguments;
-  Command command = line.add_command("run", "Runs a scenario at the wall clock's speed.");
-  command.argument("SCENARIO", arguments.scenario, "the scenario file", Command::Presence::required);
-  command.option("--seed", arguments.seed, "N", "seed of the world's noise, from 0 to 2^64 - 1 (default: 1)");
-  command.option("--until", arguments.until, "S", "end after S seconds (default: the scenario's until_s)");
-  command.repeated("--set", arguments.assignments, "KEY=VALUE", "override a value of the scenario; may be repeated");
-  command.option("--world", arguments.world, "unix:PATH|tcp:PORT",
-                 "drive the robots in the world of another process, which serves it there\n"
-                 "(waitpoint run --speed 1 --serve-world; docs/external.md)");
+  Command& command = line.program().add("run");
+  command.description = "Runs a scenario at the wall clock's speed.";
+  command.examples = {"office.yaml --until 60"};
+  command.add("SCENARIO", text(arguments.scenario, ""), "the scenario file", {.is_required = true});
+  command.add("--set", texts(arguments.assignments, "KEY=VALUE"), "override a value of the scenario; may be repeated");
+  declare_seed(command, arguments.seed, "seed of the world's noise");
+  declare_until(command, arguments.until);
+  command.section("Processes");
+  command.add("--world", text(arguments.world, "unix:PATH|tcp:PORT"),
+              "drive the robots in the world of another process, which serves it there",
+              {.more = "waitpoint run --serve-world (docs/external.md)."});
   std::string page;
-  const Command manual = add_manual(line, page);
-  if (const std::optional<std::string> text = line.parse(argc, argv)) {
-    write_standard_output(*text);
+  add_manual(line.program(), page);
+  line.parse(argc, argv);
+  if (line.text() || line.given() != &command) {
+    write_standard_output(line.text() ? *line.text() : manual_page(line.program(), page));
     return 0;
   }
-  if (manual.parsed()) {
-    write_standard_output(manual_page(line.described(), page));
-    return 0;
-  }
-  if (!command.parsed())
-    throw BadInput("command line", "expected a command: run or manual; see waitpoint-native --help");
   return run(arguments, types);
 }
 

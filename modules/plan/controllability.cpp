@@ -138,7 +138,7 @@ bool Propagation::propagate_back(PointId source) {
   return true;
 }
 
-// For the execution. A negative distance to the begin of the rest of a link is one to its latest end: a wait.
+// For the execution. A negative distance to the beginning of the rest of a link is one to its latest end: a wait.
 void Propagation::note(PointId from, PointId source, Duration most, const std::vector<std::uint32_t>& labels) {
   const auto [real_from, from_after] = real(from);
   const auto [real_to, to_after] = real(source);

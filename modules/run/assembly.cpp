@@ -48,7 +48,7 @@ Assembly::Assembly(const scenario::Scenario& scenario, std::span<const genom::Mo
                    std::uint64_t seed, const Placement& placement, const MakeWorld& make)
     : scenario_(scenario) {
   if (scenario.log)
-    throw scenario.log->written.bad("expected a world: a log is played by 'waitpoint run' and 'waitpoint replay' only");
+    throw scenario.log->written.bad("expected a world: a log is played by 'waitpoint run' and 'waitpoint play' only");
   if (scenario.play) throw scenario.play->written.bad("expected a world: a bag is played by 'waitpoint run' only");
   world::WorldDescription description = scenario.world_without_map();
   std::shared_ptr<const world::WorldFile> file;

@@ -45,7 +45,7 @@ const Keys<logs::GivenLaser>& log_keys() {
       Keys<Laser>("log")
           .add("file", text_form().schema, "CARMEN, GMapping, ROS 1 bag or MCAP, also compressed by gzip",
                Need::required)
-          .add("scan", text_form().schema, "what to take of a log that has several, as of `waitpoint replay`")
+          .add("scan", text_form().schema, "what to take of a log that has several, as of `waitpoint play`")
           .add("odometry", text_form().schema, "the same")
           .add("robot", text_form().schema, "the same")
           .add("field_of_view_deg", &Laser::field_of_view_rad,

@@ -43,6 +43,28 @@ class InATemporaryFolder(unittest.TestCase):
         return done.returncode, done.stdout
 
 
+class Help(unittest.TestCase):
+    WORDS = ("run", "add", "test", "bench", "check", "format", "docs", "package", "ros", "ros2", "hook")
+
+    def help_of(self, *words):
+        done = subprocess.run([ROOT / "dev", *words], capture_output=True, text=True, check=True)
+        self.assertEqual(done.stderr, "")
+        return done.stdout
+
+    def test_prints_the_rows_of_its_word(self):
+        for word in self.WORDS:
+            rows = [line for line in self.help_of(word, "--help").splitlines() if not line.startswith(" ")]
+            self.assertGreater(len(rows), 0, word)
+            self.assertEqual({row.split()[1] for row in rows}, {word})
+
+    def test_runs_no_long_test(self):
+        self.assertEqual(self.help_of("test", "--packages", "--help"), self.help_of("test", "--help"))
+
+    def test_has_all_words(self):
+        words = [line.split()[1] for line in self.help_of("help").splitlines() if line.startswith("./dev")]
+        self.assertEqual(set(words), {*self.WORDS, "help"})
+
+
 class Dependencies(InATemporaryFolder):
     def includes(self, source, *headers):
         self.write(source, LICENCE + "".join(f"#include {header}\n" for header in headers))

@@ -10,7 +10,7 @@ from exec_case import BUILD, ExecCase, WAITPOINT, explore, replay_words
 
 class Accesses(ExecCase):
     def setUp(self):
-        help_text = subprocess.run([WAITPOINT, "explore", "--exec", "--switch-at", "accesses", "--iterations", "1", "--", "true"],
+        help_text = subprocess.run([WAITPOINT, "explore", "--switch-at", "accesses", "--iterations", "1", "--", "true"],
                                    capture_output=True, text=True).stderr
         if "Zydis" in help_text or not (BUILD / "libwaitpoint-exec-races.so").exists():
             self.skipTest("this build has no disassembler")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Schedules of `waitpoint explore --exec` that depend on earlier ones: feedback, and the enumeration that follows draws
+"""Schedules of `waitpoint explore -- PROGRAM` that depend on earlier ones: feedback, and the enumeration that follows draws
 which bring nothing new: campaigns_test.py BUILD."""
 
 import re

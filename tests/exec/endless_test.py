@@ -73,7 +73,7 @@ class Idle(ExecCase):
         self.assertEqual(self.end("poll"), self.end("poll"))
 
     def test_is_a_failure_of_an_explored_schedule(self):
-        words = [WAITPOINT, "explore", "--exec", "--idle-limit", "20", "--iterations", "5", "--", self.compile("idle.c"), "poll"]
+        words = [WAITPOINT, "explore", "--idle-limit", "20", "--iterations", "5", "--", self.compile("idle.c"), "poll"]
         done = subprocess.run([str(word) for word in words], capture_output=True, text=True, timeout=100)
         self.assertEqual(done.returncode, 1, done.stderr)
         self.assertIn("idle: only timers expire, and no thread wakes another", done.stdout)
@@ -155,7 +155,7 @@ class Signals(ExecCase):
 
     def test_end_an_exploration(self):
         program = self.compile("until.c", "-g")
-        words = [str(word) for word in (WAITPOINT, "explore", "--exec", "--", program, "spin", "thread")]
+        words = [str(word) for word in (WAITPOINT, "explore", "--", program, "spin", "thread")]
         for sent in (signal.SIGTERM, signal.SIGINT, signal.SIGHUP):
             with subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, preexec_fn=heed_signals) as running:
                 await_handler(running, sent)
@@ -168,7 +168,7 @@ class Signals(ExecCase):
 
     def test_to_its_group_end_an_exploration_without_a_failure(self):
         program = self.compile("lost_update.c")
-        words = [str(word) for word in (WAITPOINT, "explore", "--exec", "--iterations", "1000000", "--", program, "locked")]
+        words = [str(word) for word in (WAITPOINT, "explore", "--iterations", "1000000", "--", program, "locked")]
         for sent in (signal.SIGTERM, signal.SIGINT, signal.SIGHUP):
             with subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=True,
                                   preexec_fn=heed_signals) as running:
@@ -204,7 +204,7 @@ class Loops(ExecCase):
             self.skipTest("this build has no runtime for -fsanitize=thread")
         program = self.instrumented("until-accesses", "-fsanitize=thread")
         self.assertEnds(program)
-        words = [str(word) for word in (WAITPOINT, "explore", "--exec", "--iterations", "5", "--", program, "spin", "handler")]
+        words = [str(word) for word in (WAITPOINT, "explore", "--iterations", "5", "--", program, "spin", "handler")]
         done = subprocess.run(words, capture_output=True, text=True, timeout=100)
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
 

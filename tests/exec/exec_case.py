@@ -36,13 +36,13 @@ def execute(seed, *command, stdin=None):
 
 
 def explore(*words, stdin=subprocess.DEVNULL):
-    command = [str(word) for word in (WAITPOINT, "explore", "--exec", *words)]
+    command = [str(word) for word in (WAITPOINT, "explore", *words)]
     return subprocess.run(command, stdin=stdin, capture_output=True, text=True, timeout=300)
 
 
 def replay_words(text):
     """The arguments of the last replay line of a report."""
-    return shlex.split(re.findall(r"^replay: \S+ explore --exec (.*)$", text, re.M)[-1])
+    return shlex.split(re.findall(r"^replay: \S+ explore (.*)$", text, re.M)[-1])
 
 
 COUNTER = """

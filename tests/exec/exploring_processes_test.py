@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""`waitpoint explore --exec` of programs of several processes: exploring_processes_test.py BUILD."""
+"""`waitpoint explore -- PROGRAM` of programs of several processes: exploring_processes_test.py BUILD."""
 
 import json
 import unittest

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""`waitpoint explore --exec`: unmodified programs under many schedules: exploring_test.py BUILD."""
+"""`waitpoint explore -- PROGRAM`: unmodified programs under many schedules: exploring_test.py BUILD."""
 
 import json
 import pathlib
@@ -63,7 +63,7 @@ class Exploring(ExecCase):
 
     def test_results_are_written_as_they_come(self):
         results = self.folder / "results"
-        words = [WAITPOINT, "explore", "--exec", "--time-limit", "60", "--results", results, "--", self.compile("lost_update.c"), "locked"]
+        words = [WAITPOINT, "explore", "--time-limit", "60", "--results", results, "--", self.compile("lost_update.c"), "locked"]
         with subprocess.Popen(words, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) as process:
             while not results.exists() or len(results.read_text().splitlines()) < 20:
                 self.assertIsNone(process.poll())
@@ -223,7 +223,7 @@ class CountedTime(ExecCase):
         self.assertLess(self.take_ns(program)[0][1], 1000)
 
     def test_is_refused_where_none_is_counted(self):
-        for words in ("exec",), ("explore", "--exec"):
+        for words in ("exec",), ("explore",):
             done = subprocess.run([str(WAITPOINT), *words, "--clock", "counted", "--", "/bin/true"], capture_output=True, text=True)
             self.assertNotEqual(done.returncode, 0)
             self.assertEqual(done.stderr, "waitpoint: --clock: counted is for programs compiled with "
@@ -323,12 +323,12 @@ class Refusals(ExecCase):
         return done.stderr
 
     def test_say_what_is_wrong(self):
-        self.assertIn("expected a program: waitpoint explore --exec", self.refused())
+        self.assertIn("expected a scenario or a program: waitpoint explore SCENARIO", self.refused())
         self.assertIn("there is no program 'nosuch'", self.refused("--", "nosuch"))
-        self.assertIn("--from: cannot be used together with --exec", self.refused("--from", "1", "--", "true"))
+        self.assertIn("--from: cannot be used together with a program", self.refused("--from", "1", "--", "true"))
         self.assertIn("--set: cannot be used", self.refused("--set", "world.step_ms=5", "--", "true"))
         self.assertIn("--property: cannot be used", self.refused("--property", "collisions=0", "--", "true"))
-        self.assertIn("no --exec with the scenario 'office.yaml'", self.refused("office.yaml", "--", "true"))
+        self.assertIn("SCENARIO: cannot be used together with a program", self.refused("office.yaml", "--", "true"))
         self.assertIn(f"'{self.folder}' is not an executable file", self.refused("--", self.folder))
         early = self.compile("early.c")
         self.assertIn("did not reach main(): terminated by signal 6 (Aborted)", self.refused("--", early))

@@ -184,7 +184,7 @@ class Finding(ExecCase):
         self.assertEqual(served.status, 0)
 
     def test_a_served_search_shows_how_far_it_is_and_then_its_finding(self):
-        with Served("explore", "--exec", "--serve", "--", self.program) as served:
+        with Served("explore", "--serve", "--", self.program) as served:
             served.wait_for("the search is over")
             status, text = served.get()
             finding = data_of(text)
@@ -194,7 +194,7 @@ class Finding(ExecCase):
         self.assertIn(finding["finding"]["report"], served.output)
 
     def test_a_search_without_a_failure_says_so(self):
-        with Served("explore", "--exec", "--iterations", "20", "--serve", "--", self.program, "locked") as served:
+        with Served("explore", "--iterations", "20", "--serve", "--", self.program, "locked") as served:
             served.wait_for("the search is over")
             self.assertEqual(data_of(served.get()[1])["search"]["title"], f"{self.program} locked")
         self.assertEqual(served.status, 0)

@@ -40,17 +40,17 @@ class Misuse(ExecCase):
 
     def test_is_a_failure_of_a_schedule(self):
         for way in ("unlocked by another", "locked when freed"):
-            done = self.run_it(["explore", "--exec"], way)
+            done = self.run_it(["explore"], way)
             self.assertEqual(done.returncode, 1, way)
             self.assertRegex(done.stdout, rf"failed at \S+ s: misuse: {MISUSES[way][0]}\n", way)
 
     def test_is_one_of_what_is_destroyed_while_a_thread_comes_to_it(self):
-        done = self.run_it(["explore", "--exec", "--iterations", "300"], "destroyed meanwhile")
+        done = self.run_it(["explore", "--iterations", "300"], "destroyed meanwhile")
         self.assertRegex(done.stdout, r": 300 schedules, \d+ distinct, \d+ failed")
         self.assertRegex(done.stdout, "misuse: thread 1 locks (read-write lock rwlock|mutex mutex), which was destroyed")
 
     def test_does_not_end_a_search(self):
-        done = self.run_it(["explore", "--exec", "--iterations", "300"], "beside a crash")
+        done = self.run_it(["explore", "--iterations", "300"], "beside a crash")
         self.assertEqual(done.returncode, 1)
         self.assertRegex(done.stdout, r" failed at \S+ s: terminated by signal 4 \(Illegal instruction\)\n")
         self.assertRegex(done.stdout, r"also found, by the default order: misuse: main unlocks mutex mutex, which is not locked\nreplay: ")
@@ -58,7 +58,7 @@ class Misuse(ExecCase):
     def test_is_not_what_reuses_memory(self):
         done = self.run_it(["exec"])
         self.assertEqual((done.returncode, "misuse at" in done.stderr), (0, False), done.stderr)
-        done = self.run_it(["explore", "--exec", "--iterations", "100"])
+        done = self.run_it(["explore", "--iterations", "100"])
         self.assertEqual(done.returncode, 0, done.stdout)
 
     def test_is_not_another_mutex_after_a_signal(self):

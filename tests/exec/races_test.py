@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""`waitpoint explore --exec --races`: data races beside other failures: races_test.py BUILD."""
+"""`waitpoint explore --races`: data races beside other failures: races_test.py BUILD."""
 
 import re
 import shlex
@@ -75,7 +75,7 @@ class RacesBesideFailures(ExecCase):
 
     def test_are_told_before_the_end(self):
         results = self.folder / "endless"
-        command = [str(word) for word in (WAITPOINT, "explore", "--exec", "--iterations", "1000000", "--results", results, "--",
+        command = [str(word) for word in (WAITPOINT, "explore", "--iterations", "1000000", "--results", results, "--",
                                           self.program, "abort")]
         search = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
         lines = [search.stderr.readline() for _ in range(3)]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Schedules of `waitpoint explore --exec` that one process runs one after the other: reruns_test.py BUILD."""
+"""Schedules of `waitpoint explore -- PROGRAM` that one process runs one after the other: reruns_test.py BUILD."""
 
 import ctypes
 import os
@@ -19,7 +19,7 @@ class Reruns(ExecCase):
         """The file of results, of all schedules with their digests and outcomes."""
         results, given = self.folder / "results", self.folder / "given"
         given.write_text("first\nsecond\n")
-        command = [WAITPOINT, "explore", "--exec", "--switch-at", self.switch_at, "--iterations", schedules, "--results", results, *words]
+        command = [WAITPOINT, "explore", "--switch-at", self.switch_at, "--iterations", schedules, "--results", results, *words]
         with given.open() as stdin:
             done = subprocess.run([str(word) for word in command], stdin=stdin, capture_output=True, text=True, timeout=250)
         self.assertIn(f"{schedules} schedules, ", done.stdout, done.stderr)

@@ -152,7 +152,7 @@ class Robot(unittest.TestCase):
         self.assertEqual(run.stdout.count("ended with exit status 0\n"), 3, run.stdout)
 
     def test_a_run_with_them_checks_itself(self):
-        run = office("run", "--until", "1", "--check")
+        run = office("run", "--until", "1", "--verify")
         self.assertEqual(run.returncode, 0, run.stdout + run.stderr)
         self.assertIn("the same run, twice in this process and once in a perturbed one", run.stdout)
 
@@ -200,7 +200,7 @@ class Robot(unittest.TestCase):
                          run.stderr)
 
     def test_each_run_of_a_process_has_fresh_copies(self):
-        run = office("run", "--until", "0.1", "--check", programs=f"[{program('a', 'again.so')}]")
+        run = office("run", "--until", "0.1", "--verify", programs=f"[{program('a', 'again.so')}]")
         self.assertEqual(run.returncode, 0, run.stderr)
         self.assertEqual(run.stdout.count("begun 1 and 1 times\n"), 3, run.stdout)
 
@@ -333,7 +333,7 @@ class Commands(unittest.TestCase):
 
     def test_a_run_with_them_checks_itself_and_is_explored(self):
         programs = f"[{command('clock', 'sh', '-c', self.SCRIPT)}]"
-        run = office("run", "--until", "2", "--check", programs=programs)
+        run = office("run", "--until", "2", "--verify", programs=programs)
         self.assertEqual(run.returncode, 0, run.stdout + run.stderr)
         run = office("explore", "--until", "2", "--iterations", "3", programs=programs)
         self.assertEqual(run.returncode, 0, run.stdout + run.stderr)

@@ -71,7 +71,7 @@ class Chain(unittest.TestCase):
 
     def test_schedules_are_explored(self):
         words = several(["a=" + INSTANCE, 1], ["b=" + INSTANCE, 1, "1"])
-        run = subprocess.run([WAITPOINT, "explore", "--iterations", "3", "--exec", "--", *words], capture_output=True,
+        run = subprocess.run([WAITPOINT, "explore", "--iterations", "3", "--", *words], capture_output=True,
                              text=True, timeout=30)
         self.assertEqual(run.returncode, 1, run.stdout + run.stderr)
         self.assertIn("exit status 1", run.stdout + run.stderr)

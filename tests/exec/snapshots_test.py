@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Schedules of `waitpoint explore --exec --snapshots N`, which begin in the middle of others: snapshots_test.py BUILD
+"""Schedules of `waitpoint explore --snapshots N`, which begin in the middle of others: snapshots_test.py BUILD
 [--long]."""
 
 import ctypes
@@ -26,7 +26,7 @@ class Snapshots(ExecCase):
         """Output, and the file of results, of all schedules with their digests and outcomes."""
         results, given = self.folder / "results", self.folder / "given"
         given.write_text("first\nsecond\n")
-        command = [WAITPOINT, "explore", "--exec", "--results", results, *words]
+        command = [WAITPOINT, "explore", "--results", results, *words]
         with given.open() as stdin:
             done = subprocess.run([str(word) for word in command], stdin=stdin, capture_output=True, text=True, timeout=250)
         self.assertIn(done.returncode, (0, 1), done.stderr)

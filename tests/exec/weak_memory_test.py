@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""`waitpoint explore --exec --memory`: older values of atomic loads: weak_memory_test.py BUILD."""
+"""`waitpoint explore --memory`: older values of atomic loads: weak_memory_test.py BUILD."""
 
 import re
 import shlex

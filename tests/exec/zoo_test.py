@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The planted bugs of tests/exec/zoo under `waitpoint explore --exec`: zoo_test.py BUILD [--long].
+"""The planted bugs of tests/exec/zoo under `waitpoint explore -- PROGRAM`: zoo_test.py BUILD [--long].
 
 The default strategy must find each bug and report no mended twin: in the plain programs, the bugs that show by switches at
 calls; in the programs instrumented at memory accesses, all of them except the rare ones. With --long: for 20 seeds, with more schedules of the
@@ -52,7 +52,7 @@ def run(*words):
 
 def explore(specimen, mended=False, seed=1, schedules=SCHEDULES_MAX, strategy="portfolio"):
     twin = ["mended"] if mended else []
-    return run(WAITPOINT, "explore", "--exec", "--seed", seed, "--strategy", strategy, "--iterations", schedules,
+    return run(WAITPOINT, "explore", "--seed", seed, "--strategy", strategy, "--iterations", schedules,
                "--races", "fail", "--switch-at", specimen.switch_at, "--no-minimize", "--", specimen.program, specimen.name, *twin)
 
 

@@ -214,7 +214,7 @@ class OfOtherCommands(Faults):
 
     def test_in_files_of_exploring_a_program(self):
         self.require_exec()
-        self.walk(Command(WAITPOINT, "explore", "--exec", "--iterations", "2", "--results", "FOLDER/results", "--schedule",
+        self.walk(Command(WAITPOINT, "explore", "--iterations", "2", "--results", "FOLDER/results", "--schedule",
                           "FOLDER/schedule", "--trace", "FOLDER/trace.json", "--", "false"), status=1)
 
     def require_exec(self):
@@ -226,7 +226,7 @@ class OfOtherCommands(Faults):
         self.walk(Command(WAITPOINT, "exec", "--trace", "FOLDER/trace.json", "--", "true"), bad_status=125)
 
     def test_in_standard_output(self):
-        for words in (["check", SCENARIO], ["run", SCENARIO, "--check"], ["--help"], ["--version"],
+        for words in (["check", SCENARIO], ["run", SCENARIO, "--verify"], ["--help"], ["--version"],
                       ["run", SCENARIO, "--summary", "-"]):
             self.walk(Command(WAITPOINT, *words, to_file=True))
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Known bugs of public libraries, found again by `waitpoint explore --exec`:
+"""Known bugs of public libraries, found again by `waitpoint explore -- PROGRAM`:
 found_again.py BUILD [--mended | --table] [--iterations N] [--programs FOLDER] [--sources NAME=FOLDER ...] [NAME ...].
 
 Prints for each program of this folder, or those named, the schedules needed (median of five seeds), what is reported, and how
@@ -69,7 +69,7 @@ class Campaign:
     """One seed's schedules: their number up to the failure, the failure's kind, and whether its replay is the same run."""
 
     def __init__(self, waitpoint, program, iterations, seed):
-        text = execute([waitpoint, "explore", "--exec", "--switch-at", "calls", "--iterations", str(iterations), "--seed", str(seed),
+        text = execute([waitpoint, "explore", "--switch-at", "calls", "--iterations", str(iterations), "--seed", str(seed),
                         "--", program], program.parent)
         failed = re.search(r"^(?:schedule (\d+) of .*|the default order) failed at [0-9.]+ s: "
                            r"(?:terminated by signal \d+ \()?([\w ]+)", text, re.MULTILINE)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The time to the first failure of a program: by `waitpoint explore --exec`, natively in a loop, and under rr's chaos mode.
+"""The time to the first failure of a program: by `waitpoint explore -- PROGRAM`, natively in a loop, and under rr's chaos mode.
 
 A native run fails by a signal, by a status, or by hanging for HANG_S. The status 3 is a program's own for a library call that is
 refused, such as one for a port that is still in use: that run is not counted.
@@ -29,7 +29,7 @@ def explored(waitpoint, program, seeds):
     times = []
     for seed in seeds:
         begun = time.monotonic()
-        command = [waitpoint, "explore", "--exec", "--switch-at", "calls", "--iterations", "1000000", "--seed", str(seed), "--", program]
+        command = [waitpoint, "explore", "--switch-at", "calls", "--iterations", "1000000", "--seed", str(seed), "--", program]
         with subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True) as process:
             for line in process.stdout:
                 if ": schedule " in line or line.startswith(("the default order failed", "waitpoint: the default order")):

@@ -90,7 +90,7 @@ class FreshRoot(unittest.TestCase):
         self.assertEqual(heavy, [])
         self.assertIn(DIGEST.search(run)[1], (TREE / "README.md").read_text())
         self.inside("waitpoint run office-one-processor.yaml --until 20 || test $? = 1; sh /tree/debian/tests/office")
-        self.inside("waitpoint run office.yaml --until 3 --check && waitpoint check office.yaml")
+        self.inside("waitpoint run office.yaml --until 3 --verify && waitpoint check office.yaml")
         self.inside("waitpoint explore office.yaml --until 1 --iterations 2")
         self.inside("waitpoint run office.yaml --until 2 --picture o.svg --record o.mcap --page o.html || test $? = 1; test -s o.html")
         self.assertRegex(self.inside("waitpoint exec -- /bin/sleep 1000"), r"\d")

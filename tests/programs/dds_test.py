@@ -68,7 +68,7 @@ class Transports(unittest.TestCase):
 
     def test_a_map_that_is_published_too_early_is_found_missing(self):
         programs = [*MAP[0], "::", *MAP[1]]
-        found = waitpoint("explore", "--exec", *SLOW, "--no-minimize", "--iterations", 100, "--", *programs)
+        found = waitpoint("explore", *SLOW, "--no-minimize", "--iterations", 100, "--", *programs)
         self.assertEqual(found.returncode, 1, found.stderr)
         self.assertIn("cyclone_map: the robot has no map", found.stdout)
         again = shlex.split(re.search(r"^replay: \S+ (.*)$", found.stdout, re.M)[1])
@@ -76,7 +76,7 @@ class Transports(unittest.TestCase):
 
     def test_a_map_that_is_kept_for_late_subscribers_is_not_missed(self):
         programs = [*MAP[0], "mended", "::", *MAP[1], "mended"]
-        found = waitpoint("explore", "--exec", *SLOW, "--iterations", 10, "--", *programs)
+        found = waitpoint("explore", *SLOW, "--iterations", 10, "--", *programs)
         self.assertEqual(found.returncode, 0, found.stdout)
 
 

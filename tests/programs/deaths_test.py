@@ -196,7 +196,7 @@ class SystemCalls(OfMortalModules):
 
     def test_are_named_with_file_and_line(self):
         for way, (function, effect) in self.EFFECTS.items():
-            for check in [], ["--check"]:
+            for check in [], ["--verify"]:
                 with self.subTest(way=way, check=check):
                     done = self.run_to_its_death(way, *check)
                     self.assertEqual(done.returncode, 0, done.stderr)
@@ -231,7 +231,7 @@ class SystemCalls(OfMortalModules):
     def test_before_the_run_are_named(self):
         os.environ["EARLY_THREAD"] = "1"
         self.addCleanup(os.environ.pop, "EARLY_THREAD")
-        for check in [], ["--check"]:
+        for check in [], ["--verify"]:
             done = self.run_to_its_death("none", *check)
             self.assertEqual(done.returncode, 0)
             self.assertRegex(done.stderr, r"(?m)^waitpoint: warning: a thread of the operating system was started outside of tasks; "

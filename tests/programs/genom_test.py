@@ -65,7 +65,7 @@ class Generated(Installed):
         self.assertRegex(output, r"[45]\.\d+ s request ada lookout Look height=1: ok\n")
         self.assertIn("request bea lookout Look height=5: own report 101\n", output)
         self.assertRegex(output, r"[78]\.\d+ s request bea lookout Look height=0.5: ok\n")
-        checked = run(program, "run", folder / "lookout.yaml", "--check")
+        checked = run(program, "run", folder / "lookout.yaml", "--verify")
         self.assertIn("the same run", checked)
 
     def test_stubs_compile_and_users_files_are_kept(self):

@@ -100,14 +100,14 @@ class Documents(unittest.TestCase):
 
     def test_run_without_a_result(self):
         """Nothing is on standard output, and one line on standard error."""
-        for words in (["run", "no.yaml"], ["check", "no.yaml"], ["explore", "no.yaml"], ["replay", "no.log"]):
+        for words in (["run", "no.yaml"], ["check", "no.yaml"], ["explore", "no.yaml"], ["play", "no.log"]):
             done = self.call(*words, "--json")
             self.assertEqual((done.returncode, done.stdout, done.stderr.count("\n")), (2, "", 1), words)
 
     def test_no_file_goes_to_where_the_document_goes(self):
         plan = ROOT / "scenarios/plans/guide.yaml"
-        for words in (["run", OFFICE, "--summary"], ["run", OFFICE, "--events"], ["plan", plan, "--svg"],
-                      ["explore", OFFICE, "--page"], ["replay", "run.log", "--map"], ["fit", "run.log", "--out"],
+        for words in (["run", OFFICE, "--summary"], ["run", OFFICE, "--events"], ["plan", plan, "--picture"],
+                      ["explore", OFFICE, "--page"], ["play", "run.log", "--map"], ["fit", "run.log", "--out"],
                       ["compare", "run.log", "other.log", "--picture"]):
             for file in ("-", "/dev/stdout", "/proc/self/fd/1"):
                 done = self.call(*words, file, "--json")
@@ -119,13 +119,13 @@ class Documents(unittest.TestCase):
     def test_no_file_replaces_that_of_the_document(self):
         plan, out = ROOT / "scenarios/plans/guide.yaml", self.folder / "out"
         with out.open("w") as file:
-            done = subprocess.run([PROGRAM, "plan", plan, "--json", "--svg", out], stdout=file, stderr=subprocess.PIPE, text=True)
+            done = subprocess.run([PROGRAM, "plan", plan, "--json", "--picture", out], stdout=file, stderr=subprocess.PIPE, text=True)
         self.assertEqual((done.returncode, out.read_text()), (2, ""))
         with open("/dev/null", "w", encoding="utf-8") as file:
-            subprocess.run([PROGRAM, "plan", plan, "--json", "--svg", "/dev/null"], stdout=file, stderr=file, check=True)
+            subprocess.run([PROGRAM, "plan", plan, "--json", "--picture", "/dev/null"], stdout=file, stderr=file, check=True)
 
     def test_self_check(self):
-        self.assertTrue(self.document("run", OFFICE, "--until", "0.5", "--check")["same"])
+        self.assertTrue(self.document("run", OFFICE, "--until", "0.5", "--verify")["same"])
 
     def signalled(self, expected, number, *options):
         """The output and status of a run to which a signal is sent when it has said what is expected."""
@@ -168,9 +168,9 @@ class Documents(unittest.TestCase):
         self.assertEqual([line for line in text if line not in beside], [])
 
     def test_log_commands(self):
-        result = self.document("replay", "run.log")
+        result = self.document("play", "run.log")
         self.assertEqual(result["outcome"], "finished")
-        self.assertTrue(self.document("replay", "run.log", "--until", "1", "--check")["same"])
+        self.assertTrue(self.document("play", "run.log", "--until", "1", "--verify")["same"])
         fitted = self.document("fit", "run.log")
         self.assertEqual(fitted["robot_type"], self.call("fit", "run.log").stdout)
         (self.folder / "same.log").write_bytes((self.folder / "run.log").read_bytes())
@@ -198,13 +198,13 @@ class Documents(unittest.TestCase):
         self.assertEqual(replayed["summary"]["goals_reached"], 0)
 
     def test_explore_a_program(self):
-        result = self.document("explore", "--exec", "--", self.program, status=1)
+        result = self.document("explore", "--", self.program, status=1)
         failure = result["failure"]
         self.assertEqual((failure["kind"], result["search"]["failed"]), ("not as expected", 1))
         token = failure["replay"].split("--replay ")[1].split()[0]
-        replayed = self.document("explore", "--exec", "--replay", token, "--", self.program, status=1)
+        replayed = self.document("explore", "--replay", token, "--", self.program, status=1)
         self.assertEqual(replayed["run"]["digest"], failure["digest"])
-        passed = self.document("explore", "--exec", "--strategy", "dpor", "--", self.program, "one lock")
+        passed = self.document("explore", "--strategy", "dpor", "--", self.program, "one lock")
         self.assertTrue(passed["search"]["exhausted"])
 
     def test_exec(self):

@@ -134,7 +134,7 @@ class Unrepeatable(Installed):
             entries.mkdir()
             for number in range(1000):
                 (entries / f"entry {number}").touch()
-        command = [program, "run", HERE / "unrepeatable/unrepeatable.yaml", "--check", "--set",
+        command = [program, "run", HERE / "unrepeatable/unrepeatable.yaml", "--verify", "--set",
                    f"robots.0.modules.unrepeatable.source={source}", *more]
         done = subprocess.run(command, capture_output=True, text=True, timeout=120, cwd=entries,
                               env={**os.environ, **surroundings})
@@ -151,7 +151,7 @@ class Unrepeatable(Installed):
   differs in        values recorded by the robot since its previous event
   previous event    [0-9.]+ s, robot gambler, task unrepeatable\.main: .*
 (?P<threads>(?:  OS thread         .*
-)*)  replay            \S*unrepeatable run .*unrepeatable.yaml --seed 1 --set 'robots.0.modules.unrepeatable.source=\w+' --check
+)*)  replay            \S*unrepeatable run .*unrepeatable.yaml --seed 1 --set 'robots.0.modules.unrepeatable.source=\w+' --verify
 """, output)
         self.assertIsNotNone(told, output)
         self.assertIn(told["run"], runs)
@@ -230,7 +230,7 @@ class Unrepeatable(Installed):
     def test_perturbed_process_randomises_addresses(self):
         program = self.compile("unrepeatable", *flags(self.prefix, "--cflags", "--libs", "waitpoint-robots"),
                                "-pthread")
-        done = subprocess.run(["setarch", "-R", program, "run", HERE / "unrepeatable/unrepeatable.yaml", "--check"],
+        done = subprocess.run(["setarch", "-R", program, "run", HERE / "unrepeatable/unrepeatable.yaml", "--verify"],
                               capture_output=True, text=True, timeout=120)
         if "setarch" in done.stderr:
             self.skipTest(done.stderr)

@@ -195,7 +195,7 @@ class Nodes(NodesCase):
         self.assertRegex(refused.stderr, r"hall\.yaml:16: expected the kind of 'plan' to be path, cloud or grid, found 'line'\n")
 
     def test_options_that_exclude_nodes(self):
-        for option in ["--serve"], ["--speed", "1"], ["--check"], ["--interactive"]:
+        for option in ["--serve"], ["--speed", "1"], ["--verify"], ["--interactive"]:
             done = self.run_hall(f"    nodes: [{{name: driver, command: [{DRIVER}]}}]\n", *option)
             self.assertEqual(done.returncode, 2)
             self.assertIn(f"{option[0]}: cannot be used for a scenario with nodes", done.stderr)

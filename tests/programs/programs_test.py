@@ -100,7 +100,7 @@ class Scenarios(Installed):
         here = self.prefix / "share/waitpoint/scenarios/office.yaml"
         digest = self.digest("run", here, "--until", "2")
         self.assertEqual(self.digest("run", "office.yaml", "--until", "2"), digest)
-        self.assertEqual(self.digest("run", "office.yaml", "--until", "2", "--check"), digest)
+        self.assertEqual(self.digest("run", "office.yaml", "--until", "2", "--verify"), digest)
         self.assertEqual(self.waitpoint("check", "office.yaml"), self.waitpoint("check", here))
         status, output = self.waitpoint("explore", "office.yaml", "--until", "1", "--iterations", "2")
         self.assertEqual(status, 0, output)

@@ -96,7 +96,7 @@ class EqualRuns(unittest.TestCase):
         self.assert_equal(ROOT / "scenarios/office-10.yaml", (2, 3, 8) if LONG else (3,))
 
     def test_a_part_of_a_run_that_ends_within_a_step_in_another_order(self):
-        self.assert_equal(ROOT / "scenarios/office-10.yaml", (2, 4) if LONG else (2,), "--until", "12.3456", "--order", "seeded", "--seed", "7")
+        self.assert_equal(ROOT / "scenarios/office-10.yaml", (2, 4) if LONG else (2,), "--until", "12.3456", "--strategy", "random", "--seed", "7")
 
     def test_a_crowd_some_of_which_have_no_goals(self):
         self.assert_equal(crowd(60), (2, 4) if LONG else (4,), "--until", "3")
@@ -124,7 +124,7 @@ class EqualRuns(unittest.TestCase):
             self.assert_equal(ROOT / "scenarios/office-10.yaml", (2,), "--until", "0.5", launcher=launcher)
             if LONG:
                 launcher = hosts.launcher(AS_RANKS, 5)
-                self.assert_equal(ROOT / "scenarios/office-10.yaml", (5,), "--until", "5", "--order", "seeded", launcher=launcher)
+                self.assert_equal(ROOT / "scenarios/office-10.yaml", (5,), "--until", "5", "--strategy", "random", launcher=launcher)
                 self.assert_equal(crowd(60), (5,), "--until", "3", launcher=launcher)
 
     def test_a_robot_with_commands(self):

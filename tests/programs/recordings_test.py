@@ -193,7 +193,7 @@ class RosBag(unittest.TestCase):
             with rosbag.Bag(str(recorded("office.bag"))) as read, rosbag.Bag(str(copy), "w", compression=compression) as written:
                 for topic, message, time in read.read_messages():
                     written.write(topic, message, time)
-            replayed = subprocess.run([BUILD / "tools/waitpoint", "replay", copy], capture_output=True, text=True)
+            replayed = subprocess.run([BUILD / "tools/waitpoint", "play", copy], capture_output=True, text=True)
             self.assertEqual(replayed.returncode, 0, replayed.stderr)
             digests.add(re.search(r"wp1:\w+", replayed.stdout)[0])
         self.assertEqual(len(digests), 1)
@@ -235,7 +235,7 @@ class Recording(unittest.TestCase):
             self.assertEqual((done.returncode, done.stderr.count("\n")), (2, 1), done.stderr)
             self.assertIn(words, done.stderr)
             self.assertFalse((folder() / name).exists())
-        for options in (["--seeds", "1..2"], ["--check"]):
+        for options in (["--seeds", "1..2"], ["--verify"]):
             self.assertEqual(run("--record", folder() / "x.mcap", *options).returncode, 2)
 
 

@@ -217,7 +217,7 @@ class View(unittest.TestCase):
     def test_mistakes_in_the_options_are_one_line(self):
         with Viewed(*PART, "--until", "2") as viewed:
             for options in (("--serve", "127.0.0.1:x"), ("--serve", "nowhere:1"), ("--serve", urlsplit(viewed.url).netloc),
-                            ("--serve-control",), ("--serve", "--seeds", "1..2"), ("--serve", "--check")):
+                            ("--serve-control",), ("--serve", "--seeds", "1..2"), ("--serve", "--verify")):
                 done = run(*PART, "--until", "1", *options)
                 self.assertEqual((done.returncode, done.stdout), (2, ""), options)
                 self.assertRegex(done.stderr, r"^[^\n]*--serve[^\n]*\n$")

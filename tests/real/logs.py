@@ -45,7 +45,7 @@ def relations(data):
 
 
 def replay(build, log, *options):
-    run = subprocess.run([build / "tools" / "waitpoint", "replay", log, "--summary", "-", *options], capture_output=True,
+    run = subprocess.run([build / "tools" / "waitpoint", "play", log, "--summary", "-", *options], capture_output=True,
                          text=True)
     return json.loads(run.stdout) if run.returncode == 0 else {"failure": run.stderr.strip().splitlines()[-1]}
 

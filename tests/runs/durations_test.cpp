@@ -65,20 +65,20 @@ TEST_F(DurationsTest, TheShippedScenarioOfMeasuredModulesReplaysFromItsRecord) {
 
 TEST_F(DurationsTest, ChosenDurationsAreRecordedToo) {
   const std::string interval = "{kind: interval, cost_us: [100, 900]}";
-  const Outcome seeded = run({"--order", "seeded", "--record-durations", path("a")}, interval);
-  const Outcome plain = run({"--order", "seeded"}, interval);
+  const Outcome seeded = run({"--strategy", "random", "--record-durations", path("a")}, interval);
+  const Outcome plain = run({"--strategy", "random"}, interval);
   EXPECT_EQ(seeded.digest(), plain.digest());
-  EXPECT_EQ(run({"--order", "seeded", "--replay-durations", path("a")}, interval).digest(), plain.digest());
+  EXPECT_EQ(run({"--strategy", "random", "--replay-durations", path("a")}, interval).digest(), plain.digest());
   EXPECT_NE(run({}, interval).digest(), plain.digest());
 }
 
 TEST_F(DurationsTest, ASelfCheckReplaysWhatTheFirstRunMeasured) {
   if (test::is_emulated()) GTEST_SKIP() << "a self-check starts its program anew";
-  const Outcome own = run({"--check"});
+  const Outcome own = run({"--verify"});
   EXPECT_EQ(own.status, 0) << own.output << own.errors;
   EXPECT_NE(own.output.find(" of the first run replayed in the others\n"), std::string::npos) << own.output;
   const Outcome first = run({"--record-durations", path("a")});
-  const Outcome given = run({"--check", "--replay-durations", path("a")});
+  const Outcome given = run({"--verify", "--replay-durations", path("a")});
   EXPECT_EQ(given.status, 0) << given.output << given.errors;
   EXPECT_EQ(given.digest(), first.digest());
 }
@@ -92,7 +92,7 @@ TEST_F(DurationsTest, ARecordThatDoesNotFitIsOneLineAndStatus2) {
     EXPECT_EQ(std::count(outcome.errors.begin(), outcome.errors.end(), '\n'), 1) << outcome.errors;
   };
   refused(run({"--replay-durations", path("a"), "--seed", "2"}), path("a") + ":2: the record of durations is of run");
-  refused(run({"--replay-durations", path("a"), "--order", "seeded"}), "is of run");
+  refused(run({"--replay-durations", path("a"), "--strategy", "random"}), "is of run");
   refused(run({"--replay-durations", path("a")}, "proportional"), "is of run");
   refused(run({"--replay-durations", path("a")}, "cpu", "4"), "ends early: the run continues after its");
   refused(run({"--replay-durations", path("nothing")}), "cannot be read");
@@ -104,7 +104,7 @@ TEST_F(DurationsTest, ARecordThatDoesNotFitIsOneLineAndStatus2) {
   cut.resize(cut.rfind('\n') + 1);
   std::ofstream(path("cut")) << cut;
   refused(run({"--replay-durations", path("cut")}), "the record of durations ends early");
-  refused(run({"--check", "--replay-durations", path("cut")}), "the record of durations ends early");
+  refused(run({"--verify", "--replay-durations", path("cut")}), "the record of durations ends early");
   EXPECT_EQ(run({"--replay-durations", path("a")}, "cpu", "2").status, run({}, "cpu", "2").status) << "a shorter run";
 }
 

@@ -142,7 +142,7 @@ TEST(Interactive, RefusesAJournalOfAnotherRun) {
   };
   const std::string at = std::string(folder / "journal") + ":";
   EXPECT_NE(complaint({"--seed", "2"}).find(at + "3: the journal of another seed"), std::string::npos);
-  EXPECT_NE(complaint({"--order", "seeded"}).find(at + "4: the journal of another order"), std::string::npos);
+  EXPECT_NE(complaint({"--strategy", "random"}).find(at + "4: the journal of another order"), std::string::npos);
   EXPECT_NE(complaint({"--set", "world.step_ms=5"}).find(at + "2: the journal of another scenario"), std::string::npos);
   const std::string good = folder.read("journal");
   const auto with = [&](const std::string& line) {

@@ -66,7 +66,7 @@ TEST(Process, SelfCheckComparesAllEvents) {
   const std::size_t at = plain.output.find("  events            ");
   ASSERT_NE(at, std::string::npos) << plain.output;
   const std::string events = plain.output.substr(at, plain.output.find('\n', at) - at);
-  const Outcome checked = outcome_of(run_command("office.yaml", "10", {"--check"}));
+  const Outcome checked = outcome_of(run_command("office.yaml", "10", {"--verify"}));
   EXPECT_EQ(checked.status, 0) << checked.errors;
   EXPECT_EQ(checked.output, "office, seed 1: the same run, twice in this process and once in a perturbed one\n" +
                                 events + ", each compared with its robot's digest\n  digest            " +
@@ -75,12 +75,12 @@ TEST(Process, SelfCheckComparesAllEvents) {
 }
 
 TEST(Process, SelfCheckWithoutTemporaryFolderIsBadInput) {
-  Command command = run_command("office.yaml", "2", {"--check"});
+  Command command = run_command("office.yaml", "2", {"--verify"});
   command.environment = {"TMPDIR=/proc/self"};
   const Outcome outcome = outcome_of(command);
   EXPECT_EQ(outcome.status, 2);
   EXPECT_EQ(outcome.output, "");
-  EXPECT_NE(outcome.errors.find("--check: cannot create a temporary file in '/proc/self'"), std::string::npos)
+  EXPECT_NE(outcome.errors.find("--verify: cannot create a temporary file in '/proc/self'"), std::string::npos)
       << outcome.errors;
 }
 
@@ -102,7 +102,7 @@ TEST(Process, AnotherSeedGivesAnotherRun) {
 
 TEST(Process, SeededOrderRepeatsInANewProcess) {
   const bridge::RunResult expected = run(shipped("office.yaml"), first_seconds, 3, kernel::Order::seeded);
-  expect_digest(outcome_of(run_command("office.yaml", "20", {"--seed", "3", "--order", "seeded"})),
+  expect_digest(outcome_of(run_command("office.yaml", "20", {"--seed", "3", "--strategy", "random"})),
                 to_string(expected.digest), "seeded");
 }
 

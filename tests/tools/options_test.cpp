@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <fstream>
 
@@ -22,8 +23,8 @@ class CommandLine : public ::testing::Test {
 };
 
 TEST_F(CommandLine, ScenarioAloneHasDefaults) {
-  const RunOptions options = run({"run", "office.yaml"});
-  EXPECT_EQ(options.scenario, "office.yaml");
+  const RunOptions options = run({"run", "floor.yaml"});
+  EXPECT_EQ(options.scenario, "floor.yaml");
   EXPECT_EQ(options.seed, 1u);
   EXPECT_EQ(options.speed, 0);
   EXPECT_TRUE(options.assignments.empty());
@@ -34,7 +35,7 @@ TEST_F(CommandLine, ScenarioAloneHasDefaults) {
 TEST_F(CommandLine, ReadsEveryOption) {
   const RunOptions options =
       run({"run", "--seed", "18446744073709551615", "--until=1.5", "--speed", "2", "--summary", "s.json", "--picture",
-           "p.svg", "--trajectory", "t.tum", "--digests", "d", "--events", "e", "office.yaml"});
+           "p.svg", "--trajectory", "t.tum", "--digests", "d", "--events", "e", "floor.yaml"});
   EXPECT_EQ(options.seed, 18446744073709551615u);
   EXPECT_EQ(options.until, Duration(std::chrono::milliseconds(1500)));
   EXPECT_EQ(options.speed, 2);
@@ -43,13 +44,13 @@ TEST_F(CommandLine, ReadsEveryOption) {
   EXPECT_EQ(options.trajectory, "t.tum");
   EXPECT_EQ(options.digests, "d");
   EXPECT_EQ(options.events, "e");
-  EXPECT_EQ(options.scenario, "office.yaml");
+  EXPECT_EQ(options.scenario, "floor.yaml");
 }
 
 TEST_F(CommandLine, SettingsKeepTheirOrderAndLeaveTheScenario) {
-  const RunOptions options = run({"run", "--set", "robots.0.goals=[[1,2],[3,4]]", "--set=a.b=[]", "office.yaml"});
+  const RunOptions options = run({"run", "--set", "robots.0.goals=[[1,2],[3,4]]", "--set=a.b=[]", "floor.yaml"});
   EXPECT_EQ(options.assignments, (std::vector<std::string>{"robots.0.goals=[[1,2],[3,4]]", "a.b=[]"}));
-  EXPECT_EQ(options.scenario, "office.yaml");
+  EXPECT_EQ(options.scenario, "floor.yaml");
   EXPECT_EQ(std::get<CheckOptions>(read({"check", "a.yaml", "--set", "x=1"})).assignments.size(), 1u);
 }
 
@@ -83,17 +84,17 @@ TEST_F(CommandLine, SeedOptionOverridesTheEnvironment) {
 }
 
 TEST_F(CommandLine, SelfCheckRefusesFilesAndSeveralRuns) {
-  EXPECT_FALSE(run({"run", "a"}).check);
-  const RunOptions options = run({"run", "a", "--check", "--seed", "3", "--until", "2", "--replay-durations", "d"});
-  EXPECT_TRUE(options.check);
+  EXPECT_FALSE(run({"run", "a"}).verify);
+  const RunOptions options = run({"run", "a", "--verify", "--seed", "3", "--until", "2", "--replay-durations", "d"});
+  EXPECT_TRUE(options.verify);
   EXPECT_EQ(options.seed, 3u);
   EXPECT_EQ(options.replay_durations, "d");
   for (const char* option :
        {"--summary", "--picture", "--trajectory", "--digests", "--events", "--decisions", "--record-durations"})
-    EXPECT_EQ(message({"run", "a", "--check", option, "f"}),
-              std::string("--check: cannot be used together with ") + option);
-  EXPECT_EQ(message({"run", "a", "--check", "--seeds", "1..2"}), "--check: cannot be used together with --seeds");
-  EXPECT_EQ(message({"run", "a", "--check", "--speed", "1"}), "--check: cannot be used together with --speed");
+    EXPECT_EQ(message({"run", "a", "--verify", option, "f"}),
+              std::string("--verify: cannot be used together with ") + option);
+  EXPECT_EQ(message({"run", "a", "--verify", "--seeds", "1..2"}), "--verify: cannot be used together with --seeds");
+  EXPECT_EQ(message({"run", "a", "--verify", "--speed", "1"}), "--verify: cannot be used together with --speed");
 }
 
 TEST_F(CommandLine, GdbPassesItsCommandUnchanged) {
@@ -117,7 +118,7 @@ TEST_F(CommandLine, HelpAndVersionAreTexts) {
   const std::string help = std::get<ShownText>(read({"run", "--help"})).text;
   for (const char* option :
        {"--seed", "--seeds", "--until", "--speed", "--summary", "--picture", "--trajectory", "--digests", "--events",
-        "--check", "--set", "--interactive", "--journal", "--replay-journal"}) {
+        "--verify", "--set", "--interactive", "--journal", "--replay-journal"}) {
     EXPECT_NE(help.find(option), std::string::npos) << option;
   }
   EXPECT_NE(std::get<ShownText>(read({"--help"})).text.find("check"), std::string::npos);
@@ -126,8 +127,8 @@ TEST_F(CommandLine, HelpAndVersionAreTexts) {
 TEST_F(CommandLine, ReportsBadArgumentsInOneLine) {
   EXPECT_EQ(
       message({}),
-      "command line: expected a command: run, check, plan, gdb, explore, exec, genom, replay, fit, compare, view, "
-      "manual or completion; see waitpoint --help");
+      "command line: expected a command: run, check, plan, gdb, explore, exec, genom, play, scenarios, fit, compare, "
+      "view, schema, manual or completion; see waitpoint --help");
   EXPECT_EQ(message({"--json"}), "--json: expected --version, or a command before it: waitpoint COMMAND --json ...");
   EXPECT_EQ(message({"rnu", "a"}), "command line: unknown command 'rnu', did you mean 'run'?");
   EXPECT_EQ(message({"run"}), "command line: SCENARIO is required");
@@ -137,10 +138,69 @@ TEST_F(CommandLine, ReportsBadArgumentsInOneLine) {
   EXPECT_EQ(message({"run", "a", "--until", "0"}), "--until: expected a positive number of seconds, found '0'");
   EXPECT_EQ(message({"run", "a", "--until", "5s"}), "--until: expected a positive number of seconds, found '5s'");
   EXPECT_EQ(message({"run", "a", "--speed", "nan"}),
-            "--speed: expected 0 or a number from 0.000001 to 1000000, found 'nan'");
+            "--speed: expected max or a number from 0.000001 to 1000000, found 'nan'");
   EXPECT_EQ(message({"run", "a", "--seeds", "5..1"}), "--seeds: expected FIRST..LAST, found '5..1'");
   EXPECT_EQ(message({"run", "a", "--seeds", "1..2", "--picture", "p"}),
             "--seeds: cannot be used together with --picture");
+}
+
+TEST_F(CommandLine, NamesTheCommandsOfAnOptionThatIsNotOfThisOne) {
+  EXPECT_EQ(message({"explore", "a", "--external", "ada=tcp:1"}),
+            "--external: is not an option of explore, but of run");
+  EXPECT_EQ(message({"check", "a", "--seed", "1"}), "--seed: is not an option of check, but of run, explore, exec");
+  EXPECT_EQ(message({"exec", "--seed", "1", "ls", "-l"}),
+            "exec: expected '--' before the program: waitpoint exec --seed 1 -- ls -l");
+}
+
+TEST_F(CommandLine, AcceptsFormerSpellings) {
+  EXPECT_EQ(run({"run", "a", "--order", "seeded"}).order, kernel::Order::seeded);
+  EXPECT_EQ(run({"run", "a", "--order=seeded"}).order, kernel::Order::seeded);
+  EXPECT_TRUE(run({"run", "a", "--check"}).verify);
+  EXPECT_EQ(run({"run", "a", "--speed", "0"}).speed, 0);
+  EXPECT_EQ(std::get<PlanOptions>(read({"plan", "p", "--svg", "f"})).picture, "f");
+  EXPECT_TRUE(std::get<ReplayOptions>(read({"replay", "a.log", "--check"})).verify);
+  EXPECT_EQ(std::get<ExploreOptions>(read({"explore", "--exec", "--", "a", "--exec"})).program,
+            (std::vector<std::string>{"a", "--exec"}));
+  // Ranks and programs of explored nodes are started with today's words.
+  EXPECT_EQ(run({"run", "a", "--order", "seeded"}).arguments,
+            (std::vector<std::string>{"run", "a", "--strategy", "random"}));
+}
+
+TEST_F(CommandLine, ReportsAFormerSpellingOnStandardError) {
+  ::testing::internal::CaptureStderr();
+  (void)run({"run", "a", "--order", "fifo", "--set", "name=--check"});
+  EXPECT_EQ(::testing::internal::GetCapturedStderr(),
+            "waitpoint: '--order' is now '--strategy'; the next version knows only that\n");
+  ::testing::internal::CaptureStderr();
+  (void)run({"run", "a", "--strategy", "fifo"});
+  EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
+}
+
+TEST_F(CommandLine, ProcessesOutsideMakeTheRunPaced) {
+  EXPECT_EQ(run({"run", "a", "--external", "ada=tcp:1"}).speed, 1);
+  EXPECT_EQ(run({"run", "a", "--serve-world", "tcp:1", "--speed", "1"}).speed, 1);
+  EXPECT_EQ(message({"run", "a", "--serve-world", "tcp:1", "--speed", "max"}),
+            "--serve-world: expected --speed 1: processes outside live in real time");
+}
+
+TEST_F(CommandLine, HelpIsShortAndHelpAllHasEveryOption) {
+  for (const char* command : {"run", "check", "plan", "gdb", "explore", "exec", "genom", "play", "fit", "compare",
+                              "view", "manual", "completion"}) {
+    const std::string help = std::get<ShownText>(read({command, "--help"})).text;
+    EXPECT_LE(std::ranges::count(help, '\n'), 45) << help;
+    EXPECT_NE(help.find("\nExample:\n  waitpoint " + std::string(command)), std::string::npos) << help;
+    EXPECT_NE(help.find("Usage: waitpoint " + std::string(command)), std::string::npos) << help;
+    const std::string all = std::get<ShownText>(read({command, "--help-all"})).text;
+    EXPECT_GE(all.size(), help.size()) << command;
+    EXPECT_EQ(all.find("rejected"), std::string::npos) << all;
+  }
+  EXPECT_NE(std::get<ShownText>(read({"run", "--help-all"})).text.find("\n  --watchdog S  "), std::string::npos);
+}
+
+TEST_F(CommandLine, HelpHasTheNameOfAProgramWithModulesOfItsOwn) {
+  const char* const words[] = {"./build/mast", "run", "--help"};
+  const std::string help = std::get<ShownText>(read_options(3, words, "waitpoint 1.2.3")).text;
+  EXPECT_NE(help.find("Usage: mast run [OPTIONS] SCENARIO"), std::string::npos) << help;
 }
 
 TEST_F(CommandLine, RefusesAnEmptyWord) {
@@ -217,17 +277,17 @@ TEST_F(CommandLine, RecognisesStandardOutputAsAFile) {
 TEST_F(CommandLine, ReplayLineSurvivesAShell) {
   EXPECT_EQ(replay_line(run({"run", "a.yaml", "--set", "x=1", "--replay-journal", "j"}), 3),
             "waitpoint run a.yaml --seed 3 --replay-journal j --set 'x=1'");
-  EXPECT_EQ(replay_line(run({"run", "a.yaml", "--order", "seeded", "--until", "2.5", "--brief"}), 3),
-            "waitpoint run a.yaml --seed 3 --order seeded --until 2.500000000 --brief");
+  EXPECT_EQ(replay_line(run({"run", "a.yaml", "--strategy", "random", "--until", "2.5", "--brief"}), 3),
+            "waitpoint run a.yaml --seed 3 --strategy random --until 2.500000000 --brief");
   RunOptions options;
   options.program = "./my robots";
-  options.scenario = "an office.yaml";
+  options.scenario = "an floor.yaml";
   options.assignments = {"x=it's"};
   options.confined_to = {"a", "b c"};
   options.journal = "j;1";
   options.replay_durations = "$d";
   EXPECT_EQ(replay_line(options, 3),
-            "'./my robots' run 'an office.yaml' --seed 3 --replay-durations '$d' --replay-journal 'j;1' --confined "
+            "'./my robots' run 'an floor.yaml' --seed 3 --replay-durations '$d' --replay-journal 'j;1' --confined "
             "--allow 'b c' --set 'x=it'\\''s'");
 }
 

@@ -47,11 +47,11 @@ CheckSubject subject_of(const RunOptions& options, const scenario::Scenario& sce
   const std::string replay = replay_line(options, options.seed);
   CheckSubject subject;
   if (scenario.log) {
-    subject = subject_of(log_source(scenario), play_options(options, *scenario.log), replay + " --check", types);
+    subject = subject_of(log_source(scenario), play_options(options, *scenario.log), replay + " --verify", types);
   } else {
     subject.seed = options.seed;
     subject.until = options.limit(scenario.until);
-    subject.command = replay + " --check";
+    subject.command = replay + " --verify";
     subject.replays_durations = options.replay_durations.has_value();
     subject.make = [&options, &scenario, types, replay] {
       return std::make_unique<RunInWorld>(options, scenario, types, replay);

@@ -21,7 +21,7 @@ constexpr std::size_t buffer_size = 1 << 16;
 constexpr char separator = '\n';
 
 [[noreturn]] void refuse(const std::string& what, int error) {
-  throw BadInput("--check", what + ": " + std::strerror(error));
+  throw BadInput("--verify", what + ": " + std::strerror(error));
 }
 
 int temporary_file() {
@@ -106,7 +106,7 @@ void EventLogReader::read(void* data, std::size_t size) {
       buffer_.resize(buffer_size);
       const ssize_t got = pread(file_, buffer_.data(), buffer_.size(), at_);
       if (got < 0) refuse("the temporary file of events cannot be read", errno);
-      if (got == 0) throw BadInput("--check", "the temporary file of events ends early");
+      if (got == 0) throw BadInput("--verify", "the temporary file of events ends early");
       buffer_.resize(static_cast<std::size_t>(got));
       at_ += got;
       used_ = 0;

@@ -31,7 +31,9 @@ namespace {
 constexpr const char* program_file = "/proc/self/exe";
 constexpr const char* files_variable = "WAITPOINT_CHECK_FILES";  // "LOG,DURATIONS"
 
-[[noreturn]] void fail(const char* what) { throw BadInput("--check", std::string(what) + ": " + std::strerror(errno)); }
+[[noreturn]] void fail(const char* what) {
+  throw BadInput("--verify", std::string(what) + ": " + std::strerror(errno));
+}
 
 std::vector<std::string> command_line() {
   std::ifstream file("/proc/self/cmdline", std::ios::binary);

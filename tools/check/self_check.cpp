@@ -71,7 +71,7 @@ int file_of(const std::string& text) {
   if (text.empty()) return -1;
   const int file = memfd_create("waitpoint-durations", MFD_CLOEXEC);
   const bool written = file >= 0 && write(file, text.data(), text.size()) == static_cast<ssize_t>(text.size());
-  if (!written) throw BadInput("--check", "cannot keep the durations of the first run in memory");
+  if (!written) throw BadInput("--verify", "cannot keep the durations of the first run in memory");
   return file;
 }
 
@@ -256,7 +256,7 @@ int checked(const CheckSubject& subject) {
 
 int self_check(const RunOptions& options, std::span<const genom::ModuleType> types) {
   const scenario::Scenario scenario = scenario::read_scenario(options.scenario, options.assignments);
-  if (scenario.has_nodes()) throw BadInput("--check", "cannot be used for a scenario with nodes");
+  if (scenario.has_nodes()) throw BadInput("--verify", "cannot be used for a scenario with nodes");
   begin_with_program_layer(scenario);
   heed_signals();
   CheckSubject subject = subject_of(options, scenario, types);
@@ -267,7 +267,7 @@ int self_check(const RunOptions& options, std::span<const genom::ModuleType> typ
 int self_check(const ReplayOptions& options, std::span<const genom::ModuleType> types) {
   heed_signals();
   CheckSubject subject = subject_of(log_source(options.source), options.play, options.command, types);
-  subject.of = "replay";
+  subject.of = "play";
   subject.json = options.play.json;
   return checked(subject);
 }

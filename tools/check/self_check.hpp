@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `waitpoint run SCENARIO --check`, `waitpoint replay LOG --check`: verifies that the run is repeatable.
+// `waitpoint run SCENARIO --verify`, `waitpoint play LOG --verify`: verifies that the run is repeatable.
 //
 //   first run          its events are logged
 //   second run         in the same process: shows effects of an earlier run, clocks, system random numbers

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "core/error.hpp"
 #include "tools/command/completion.hpp"
+#include "tools/command/help_text.hpp"
 
 namespace waitpoint::tools {
 namespace {
 
 // The function's beginning: $word is to be completed, $command is given, $option is the option that $word belongs to.
-// Bash splits "--order=fifo" at the '='.
+// Bash splits "--strategy=fifo" at the '='.
 constexpr const char* beginning = R"(
   local word=${COMP_WORDS[COMP_CWORD]} option=${COMP_WORDS[COMP_CWORD-1]} command='' dashes=0 i
   if [[ $word == = ]]; then
@@ -74,52 +74,43 @@ const char* kind_of(const OfferedValues& offered) {
   return "words";  // none of them: nothing is offered
 }
 
-std::vector<std::string> names_of(const std::vector<DescribedCommand>& commands) {
+std::string command_names(const DeclaredProgram& program) {
   std::vector<std::string> names;
-  names.reserve(commands.size());
-  for (const DescribedCommand& command : commands) names.push_back(command.name);
-  return names;
+  for (const auto& command : program.commands) names.push_back(command->name);
+  return joined(names);
 }
 
-std::string options_line(const DescribedCommand& command) {
-  std::vector<std::string> names;
-  for (const DescribedOption& option : command.options)
-    names.insert(names.end(), option.names.begin(), option.names.end());
+std::string options_line(const Command& command) {
+  std::vector<std::string> names = {"-h"};
+  for (const auto& options : {help_options(), command.options})
+    for (const Option& option : options) names.push_back(option.name);
   if (command.takes_program) names.emplace_back("--");
   return "    " + (command.name.empty() ? "''" : command.name) + ") options='" + joined(names) + "'";
 }
 
 }  // namespace
 
-std::string bash_completion(const DescribedProgram& program) {
-  const std::string commands = joined(names_of(program.commands));
+std::string bash_completion(const DeclaredProgram& program) {
+  const std::string commands = command_names(program);
   std::string arguments = options_line(program.own) + " argument=words argument_words='" + commands + "' ;;\n", values;
-  for (const DescribedCommand& command : program.commands) {
-    arguments += options_line(command);
-    if (!command.arguments.empty()) {
-      const OfferedValues offered = offered_values(command.arguments.front());
+  for (const auto& command : program.commands) {
+    arguments += options_line(*command);
+    if (!command->arguments.empty()) {
+      const OfferedValues offered = offered_values(command->arguments.front());
       arguments += std::string(" argument=") + kind_of(offered) + " argument_words='" +
                    (offered.commands ? commands : joined(offered.words)) + "'";
     }
     arguments += " ;;\n";
-    for (const DescribedOption& option : command.options) {
-      if (option.type.empty()) continue;
+    for (const Option& option : command->options) {
+      if (option.value.is_flag) continue;
       const OfferedValues offered = offered_values(option);
-      values += "    '" + command.name + " " + option.names.back() + "') kind=" + kind_of(offered) + " words='" +
-                joined(offered.words) + "'" + (option.may_lack_value ? " is_optional=1" : "") + " ;;\n";
+      values += "    '" + command->name + " " + option.name + "') kind=" + kind_of(offered) + " words='" +
+                joined(offered.words) + "'" + (option.value.omitted.empty() ? "" : " is_optional=1") + " ;;\n";
     }
   }
-  return "# Completion of " + program.name + " for bash; written by `" + program.name + " completion bash`.\n_" +
-         program.name + "() {" + beginning + "  case $command in\n" + arguments +
-         "  esac\n  case \"$command $option\" in\n" + values + "  esac" + ending + "}\ncomplete -F _" + program.name +
-         " " + program.name + "\n";
-}
-
-std::string completion(const DescribedProgram& program, const std::string& shell) {
-  if (shell == "bash") return bash_completion(program);
-  if (shell == "zsh") return zsh_completion(program);
-  if (shell == "fish") return fish_completion(program);
-  throw BadInput("completion", "expected bash, zsh or fish, found '" + shell + "'");
+  return "# Completion of waitpoint for bash; written by `waitpoint completion bash`.\n_waitpoint() {" +
+         (beginning + ("  case $command in\n" + arguments)) + "  esac\n  case \"$command $option\" in\n" + values +
+         "  esac" + ending + "}\ncomplete -F _waitpoint waitpoint\n";
 }
 
 }  // namespace waitpoint::tools

@@ -7,177 +7,178 @@
 
 #include "core/error.hpp"
 #include "core/nearest_name.hpp"
+#include "tools/command/former_spellings.hpp"
+#include "tools/command/help_text.hpp"
+#include "tools/command/option_values.hpp"
 #include "tools/command/shell_words.hpp"
 
 namespace waitpoint::tools {
 namespace {
 
-std::vector<std::string> commands_of(const CLI::App& app) {
-  std::vector<std::string> names;
-  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
-    names.push_back(command->get_name());
-  return names;
-}
+using Words = std::vector<std::string>;
 
 constexpr const char* where = "command line";
 
+std::string name_of(const std::string& word) { return word.substr(0, word.find('=')); }
+
 /// One line for a word that is not known, with the nearest known name.
-BadInput unknown_word(const CLI::App& app, const std::vector<std::string>& extra) {
-  const CLI::App* command = app.get_subcommands().empty() ? &app : app.get_subcommands().front();
-  std::vector<std::string> names;
-  for (const CLI::Option* option : command->get_options()) names.push_back(option->get_name());
-  if (command == &app) {
-    for (const std::string& name : commands_of(app)) names.push_back(name);
-  }
+BadInput unknown_word(const std::string& kind, const std::string& word, const Words& names, const std::string& hint) {
   const std::vector<std::string_view> known(names.begin(), names.end());
-  const std::string word = extra.front().substr(0, extra.front().find('='));
-  const std::string hint = did_you_mean(word, known);
-  const std::string kind = word.starts_with('-') ? "option" : command == &app ? "command" : "argument";
-  return BadInput(where, "unknown " + kind + " '" + word + "'" + (hint.empty() ? "; --help lists them all" : hint));
+  const std::string near = did_you_mean(word, known);
+  return BadInput(where, "unknown " + kind + " '" + word + "'" + (near.empty() ? "; " + hint : near));
 }
 
-/// One line for the words of a program without "--" before them, with the command line that has it.
-BadInput missing_dashes(const CLI::App& command, int argc, const char* const* argv) {
-  const std::vector<std::string> program = command.remaining();
-  const std::vector<std::string> options(argv + 1, argv + argc - program.size());
-  return BadInput(command.get_name(),
-                  "expected '--' before the program: waitpoint" + quoted(options) + " --" + quoted(program));
+Words names_of(const Command& command) {
+  Words names = {"--help", "--help-all"};
+  for (const Option& option : command.options) names.push_back(option.name);
+  return names;
 }
 
-// Usually an unset variable of a script, where the default is not intended.
-void refuse_empty_words(const CLI::App& command) {
-  for (const CLI::Option* option : command.get_options())
-    for (const std::string& word : option->results())
-      if (word.empty()) throw BadInput(option->get_name(), "expected a value, found ''");
+/// An option of another command is not spelt wrongly.
+BadInput unknown_option(const DeclaredProgram& program, const Command& command, const std::string& word) {
+  const std::string name = name_of(word);
+  Words others;
+  for (const auto& other : program.commands)
+    if (std::ranges::find(other->options, name, &Option::name) != other->options.end()) others.push_back(other->name);
+  if (others.empty())
+    return unknown_word("option", name, names_of(command), "--help-all lists those of " + command.name);
+  std::string all;
+  for (const std::string& other : others) all += (all.empty() ? " " : ", ") + other;
+  return BadInput(name, "is not an option of " + command.name + ", but of" + all);
+}
+
+/// What remains is too much: words of a program without "--" before them, an unknown option or another argument.
+BadInput unexpected(const DeclaredProgram& program, const Command& command, const Words& words,
+                    const Words& remaining) {
+  if (remaining.front().starts_with('-')) return unknown_option(program, command, remaining.front());
+  if (!command.takes_program)
+    return BadInput(where, "unknown argument '" + remaining.front() + "'; --help lists them all");
+  const Words before(words.begin(), words.end() - static_cast<std::ptrdiff_t>(remaining.size()));
+  return BadInput(command.name, "expected '--' before the program: " + program.name + " " + command.name +
+                                    quoted(before) + " --" + quoted(remaining));
 }
 
 /// A flag followed by "=" and a value, which CLI11 takes for true, or for none of its words.
-void refuse_values_of_flags(const CLI::App& program, int argc, const char* const* argv) {
-  const CLI::App* of = &program;
-  for (int i = 1; i < argc; ++i) {
-    const std::string_view word = argv[i];
-    const std::size_t equals = word.find('=');
-    for (const CLI::App* command : program.get_subcommands([](const CLI::App*) { return true; }))
-      if (of == &program && command->get_name() == word) of = command;
-    if (!word.starts_with("--") || equals == word.npos) continue;
-    const std::string name(word.substr(0, equals));
-    const CLI::Option* const option = of->get_option_no_throw(name);
-    if (option != nullptr && option->get_items_expected_max() == 0)
-      throw BadInput(name, "expected no value, found '" + std::string(word.substr(equals + 1)) + "'");
+void refuse_values_of_flags(const Command& command, const Words& words) {
+  for (const std::string& word : words) {
+    const std::string name = name_of(word);
+    if (!word.starts_with("--") || name == word) continue;
+    const auto found = std::ranges::find(command.options, name, &Option::name);
+    const bool is_help = name == "--help" || name == "--help-all";
+    if (is_help || (found != command.options.end() && found->value.is_flag))
+      throw BadInput(name, "expected no value, found '" + word.substr(name.size() + 1) + "'");
   }
 }
 
-DescribedOption described_option(const CLI::Option& option) {
-  DescribedOption described;
-  if (option.get_positional()) described.names.push_back(option.get_name(true));
-  for (const std::string& name : option.get_snames()) described.names.push_back("-" + name);
-  for (const std::string& name : option.get_lnames()) described.names.push_back("--" + name);
-  const bool has_value = option.get_items_expected_max() > 0;
-  if (has_value && !option.get_positional()) described.type = option.get_type_name();
-  described.description = option.get_description();
-  described.required = option.get_required();
-  described.repeated = option.get_expected_max() > 1;
-  described.may_lack_value = has_value && option.get_items_expected_min() == 0;
-  return described;
+/// The texts of the options and arguments among the words.
+Command::Given given_among(const DeclaredProgram& program, const Command& command, const Words& words) {
+  CLI::App app;
+  app.set_help_flag();
+  app.allow_extras();
+  if (command.takes_program && command.arguments.empty()) app.prefix_command();
+  Command::Given texts;
+  std::vector<std::pair<const Option*, CLI::Option*>> all;
+  for (const Option& option : command.options) {
+    if (option.value.is_flag) {
+      all.emplace_back(&option, app.add_flag(option.name));
+      continue;
+    }
+    CLI::Option* const added = app.add_option(option.name, texts[option.name]);
+    added->expected(option.value.omitted.empty() ? 1 : 0, 1)->take_all()->allow_extra_args(false);
+    all.emplace_back(&option, added);
+  }
+  std::map<std::string, std::string> words_of_arguments;
+  for (const Option& argument : command.arguments) {
+    CLI::Option* const added = app.add_option(argument.name, words_of_arguments[argument.name]);
+    all.emplace_back(&argument, added->expected(1)->required(argument.details.is_required));
+  }
+  try {
+    app.parse(Words(words.rbegin(), words.rend()));
+  } catch (const CLI::ParseError& error) {
+    if (Words remaining = app.remaining(); !remaining.empty()) throw unexpected(program, command, words, remaining);
+    const std::string message = error.what();
+    if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr)
+      throw BadInput(message.substr(0, message.find(':')), "expected a value");
+    throw BadInput(where, message);
+  }
+  if (const Words remaining = app.remaining(); !remaining.empty()) throw unexpected(program, command, words, remaining);
+  Command::Given given;
+  for (const auto& [option, parsed] : all) {
+    if (parsed->count() == 0) continue;
+    Words& found = given[option->name] = option->value.is_flag ? Words{""} : parsed->results();
+    const bool lacks_value =
+        !option->value.omitted.empty() && (found.empty() || found.back().empty() || found.back() == "{}");
+    if (lacks_value) found = {option->value.omitted};
+  }
+  return given;
 }
 
-DescribedCommand described_command(const CLI::App& app) {
-  DescribedCommand described;
-  described.name = app.get_parent() == nullptr ? "" : app.get_name();
-  described.description = app.get_description();
-  described.footer = app.get_footer();
-  described.takes_program = app.get_prefix_command();
-  for (const CLI::Option* option : app.get_options())
-    (option->get_positional() ? described.arguments : described.options).push_back(described_option(*option));
-  return described;
+/// "run, check or manual"
+std::string all_commands(const DeclaredProgram& program) {
+  std::string names;
+  for (const auto& command : program.commands)
+    names += (command == program.commands.front()  ? ""
+              : command == program.commands.back() ? " or "
+                                                   : ", ") +
+             command->name;
+  return names;
 }
-
-constexpr const char* json_flag = "--json";
 
 }  // namespace
 
-void Command::argument(const char* name, std::string& value, const char* description, Presence presence) {
-  app_->add_option(name, value, description)->required(presence == Presence::required)->type_name(" ");
+CommandLine::CommandLine(std::string program, const std::string& description, std::string version,
+                         std::string (*version_json)())
+    : program_{.name = std::move(program), .version = std::move(version), .commands = {}}, version_json_(version_json) {
+  static bool ignored = false;
+  Command& own = program_.own;
+  own.description = description;
+  own.add("--version", flag(ignored), "print version, format of digests, compiler, flags and fingerprint of the math");
+  own.add("--json", flag(ignored), "with --version: as JSON");
 }
 
-void Command::option(const char* name, std::string& value, const char* type, const std::string& description) {
-  app_->add_option(name, value, description)->type_name(type);
-}
-
-void Command::option_or_flag(const char* name, std::string& value, const char* type, const std::string& usual,
-                             const std::string& description) {
-  app_->add_option(name, value, description)->type_name(type)->expected(0, 1)->default_str(usual);
-}
-
-void Command::repeated(const char* name, std::vector<std::string>& values, const char* type,
-                       const std::string& description) {
-  app_->add_option(name, values, description)->type_name(type)->allow_extra_args(false);
-}
-
-void Command::flag(const char* name, bool& value, const std::string& description) {
-  app_->add_flag(name, value, description)->disable_flag_override();
-}
-
-void Command::json(bool& value) {
-  flag(json_flag, value, "print the result as JSON to standard output, and the text to standard error (docs/json.md)");
-}
-
-void Command::takes_program() { app_->prefix_command(); }
-
-void Command::footer(const std::string& text) { app_->footer(text); }
-
-bool Command::parsed() const { return app_->parsed(); }
-
-CommandLine::CommandLine(const std::string& program, const std::string& description)
-    : app_(std::make_unique<CLI::App>(description, program)) {
-  app_->set_help_flag("-h,--help", "print this text");
-  app_->require_subcommand(0, 1);
-}
-
-CommandLine::~CommandLine() = default;
-
-Command CommandLine::add_command(const char* name, const char* description) {
-  return Command(*app_->add_subcommand(name, description));
-}
-
-std::vector<std::string> CommandLine::commands() const { return commands_of(*app_); }
-
-DescribedProgram CommandLine::described() const {
-  DescribedProgram program{app_->get_name(), app_->version(), described_command(*app_), {}};
-  program.version.resize(std::min(program.version.size(), program.version.find('\n')));
-  for (const CLI::App* command : app_->get_subcommands([](const CLI::App*) { return true; }))
-    program.commands.push_back(described_command(*command));
-  return program;
-}
-
-void CommandLine::version(const std::string& text, const char* description, std::string (*json)()) {
-  app_->set_version_flag("--version", text, description);
-  app_->add_flag(json_flag)->description("with --version: as JSON");
-  version_as_json_ = json;
-}
-
-void CommandLine::footer(const std::string& text) { app_->footer(text); }
-
-std::optional<std::string> CommandLine::parse(int argc, const char* const* argv) {
-  refuse_values_of_flags(*app_, argc, argv);
-  try {
-    app_->parse(argc, argv);
-  } catch (const CLI::CallForHelp&) {
-    return app_->help();
-  } catch (const CLI::CallForVersion&) {
-    return (app_->count(json_flag) > 0 ? version_as_json_() : app_->version()) + "\n";
-  } catch (const CLI::ParseError& error) {
-    const std::vector<std::string> extra = app_->remaining(true);
-    throw extra.empty() ? BadInput(where, error.what()) : unknown_word(*app_, extra);
-  }
-  if (version_as_json_ != nullptr && app_->count(json_flag) > 0)
-    throw BadInput(json_flag, "expected --version, or a command before it: waitpoint COMMAND --json ...");
-  for (const CLI::App* command : app_->get_subcommands()) {
-    refuse_empty_words(*command);
-    const std::vector<std::string> extra = command->remaining();
-    if (!extra.empty()) throw extra[0][0] == '-' ? unknown_word(*app_, extra) : missing_dashes(*command, argc, argv);
-  }
+std::optional<std::string> CommandLine::own_text(const Words& words) const {
+  refuse_values_of_flags(program_.own, words);
+  const auto has = [&](const char* word) { return std::ranges::find(words, word) != words.end(); };
+  Words names = names_of(program_.own);
+  for (const auto& command : program_.commands) names.push_back(command->name);
+  for (const std::string& word : words)
+    if (word != "-h" && std::ranges::find(names, word) == names.end())
+      throw unknown_word(word.starts_with('-') ? "option" : "command", name_of(word), names, "--help lists them all");
+  if (has("-h") || has("--help") || has("--help-all")) return program_help(program_);
+  if (has("--version")) return (has("--json") ? version_json_() : program_.version) + "\n";
+  if (has("--json"))
+    throw BadInput("--json", "expected --version, or a command before it: " + program_.name + " COMMAND --json ...");
   return std::nullopt;
+}
+
+void CommandLine::parse(int argc, const char* const* argv) {
+  Words words(argv + std::min(argc, 1), argv + argc);
+  replace_former_command(words, former_);
+  const auto name = std::ranges::find_if(words, [](const std::string& word) { return !word.starts_with('-'); });
+  given_ = name == words.end() ? nullptr : program_.find(*name);
+  const Words own_words(words.begin(), name == words.end() || given_ != nullptr ? name : name + 1);
+  text_ = own_text(own_words);
+  if (text_) return;
+  if (given_ == nullptr)
+    throw BadInput(where, "expected a command: " + all_commands(program_) + "; see " + program_.name + " --help");
+  words.erase(words.begin(), name + 1);
+  const bool begins_with_help = !words.empty() && (words[0] == "-h" || words[0].starts_with("--help"));
+  if (given_->takes_all_words && !begins_with_help)
+    return given_->take({}, std::move(words), {argc > 0 ? argv[0] : program_.name, {}});
+  replace_former_spellings(words, *given_);
+  const Invocation invocation{argc > 0 ? argv[0] : program_.name, words};
+  Words program;
+  if (const auto dashes = std::ranges::find(words, "--"); given_->takes_program && dashes != words.end()) {
+    program.assign(dashes + 1, words.end());
+    words.erase(dashes, words.end());
+  }
+  refuse_values_of_flags(*given_, words);
+  const auto has = [&](const char* word) { return std::ranges::find(words, word) != words.end(); };
+  if (has("-h") || has("--help") || has("--help-all")) {
+    text_ = command_help(program_, *given_, has("--help-all") ? Extent::all : Extent::common);
+    return;
+  }
+  given_->take(given_among(program_, *given_, words), std::move(program), invocation);
 }
 
 }  // namespace waitpoint::tools

@@ -5,16 +5,16 @@
 
 #include <string>
 
-#include "tools/command/described_command.hpp"
+#include "tools/command/program.hpp"
 
 namespace waitpoint::tools {
 
-/// The script for `shell`: bash, zsh or fish. Throws BadInput, one line, for another.
-std::string completion(const DescribedProgram& program, const std::string& shell);
+/// The script for `shell`: bash or zsh, else fish.
+std::string completion(const DeclaredProgram& program, const std::string& shell);
 
 /// One for each shell; completion() chooses.
-std::string bash_completion(const DescribedProgram& program);
-std::string zsh_completion(const DescribedProgram& program);
-std::string fish_completion(const DescribedProgram& program);
+std::string bash_completion(const DeclaredProgram& program);
+std::string zsh_completion(const DeclaredProgram& program);
+std::string fish_completion(const DeclaredProgram& program);
 
 }  // namespace waitpoint::tools

@@ -37,7 +37,7 @@ bool leads_to_standard_output(const std::string& name) {
 void check_distinct(const std::vector<NamedFile>& files) {
   std::map<std::filesystem::path, const NamedFile*> known;
   for (const NamedFile& file : files) {
-    const std::filesystem::path path = file.name.empty() ? std::filesystem::path() : meant_by(file.name);
+    const std::filesystem::path path = meant_by(file.name);
     if (path.empty()) continue;
     const auto [other, is_new] = known.emplace(path, &file);
     if (is_new) continue;
@@ -49,8 +49,8 @@ void check_distinct(const std::vector<NamedFile>& files) {
 
 void check_beside_json(const std::vector<NamedFile>& files) {
   for (const NamedFile& file : files)
-    if (file.use == NamedFile::Use::written && !file.name.empty() && leads_to_standard_output(file.name))
-      refuse("--json", "no other file on standard output", std::string(file.option) + " " + file.name);
+    if (file.use == NamedFile::Use::written && leads_to_standard_output(file.name))
+      refuse("--json", "no other file on standard output", file.option + " " + file.name);
 }
 
 }  // namespace waitpoint::tools

@@ -8,8 +8,8 @@
 namespace waitpoint::tools {
 
 struct NamedFile {
-  const char* option;
-  std::string name;  ///< empty if the option was not given
+  std::string option;
+  std::string name;
   enum class Use { written, read } use = Use::written;
 };
 

@@ -2,6 +2,7 @@
 #include <string_view>
 
 #include "tools/command/completion.hpp"
+#include "tools/command/help_text.hpp"
 
 namespace waitpoint::tools {
 namespace {
@@ -16,7 +17,7 @@ std::string fish_quoted(std::string_view text) {
 }
 
 /// The arguments of `complete` for values.
-std::string fish_values(const DescribedOption& option) {
+std::string fish_values(const Option& option) {
   const OfferedValues offered = offered_values(option);
   std::string words;
   for (const std::string& word : offered.words) words += (words.empty() ? "" : " ") + word;
@@ -31,30 +32,23 @@ std::string fish_values(const DescribedOption& option) {
   return text;
 }
 
-std::string fish_lines(const std::string& beginning, const DescribedCommand& command) {
+std::string fish_lines(const std::string& beginning, const Command& command) {
   std::string text;
-  for (const DescribedOption& option : command.options) {
-    text += beginning;
-    for (const std::string& name : option.names)
-      text += name.starts_with("--") ? " -l " + name.substr(2) : " -s " + name.substr(1);
-    if (!option.type.empty()) {
-      const bool is_file = offered_values(option).files == OfferedValues::Files::all;
-      text += (option.may_lack_value ? "" : is_file ? " -r" : " -x") + fish_values(option);
+  for (const auto& options : {help_options(), command.options})
+    for (const Option& option : options) {
+      text += beginning + (option.name == "--help" ? " -s h" : "") + " -l " + option.name.substr(2);
+      if (!option.value.is_flag) {
+        const bool is_file = offered_values(option).files == OfferedValues::Files::all;
+        text += (option.value.omitted.empty() ? is_file ? " -r" : " -x" : "") + fish_values(option);
+      }
+      text += " -d " + fish_quoted(option.summary()) + "\n";
     }
-    text += " -d " + fish_quoted(summary_of(option.description)) + "\n";
-  }
-  for (const DescribedOption& argument : command.arguments)
+  for (const Option& argument : command.arguments)
     if (const std::string values = fish_values(argument); !values.empty()) text += beginning + values + "\n";
   return text;
 }
 
-}  // namespace
-
-std::string fish_completion(const DescribedProgram& program) {
-  std::string text = "# Completion of " + program.name + " for fish; written by `" + program.name +
-                     " completion fish`.\nfunction __waitpoint_commands\n  printf '%s\\n'";
-  for (const DescribedCommand& command : program.commands) text += " " + command.name;
-  text += R"(
+constexpr const char* functions = R"(
 end
 
 function __waitpoint_scenarios
@@ -88,11 +82,19 @@ end
 complete -c waitpoint -f
 complete -c waitpoint -n __waitpoint_has_program -a '(__waitpoint_program)'
 )";
-  text += fish_lines("complete -c waitpoint -n __fish_use_subcommand", program.own);
-  for (const DescribedCommand& command : program.commands) {
-    text += "complete -c waitpoint -n __fish_use_subcommand -a " + command.name + " -d " +
-            fish_quoted(summary_of(command.description)) + "\n";
-    text += fish_lines("complete -c waitpoint -n '__waitpoint_has " + command.name + "'", command);
+
+}  // namespace
+
+std::string fish_completion(const DeclaredProgram& program) {
+  std::string text =
+      "# Completion of waitpoint for fish; written by `waitpoint completion fish`.\n"
+      "function __waitpoint_commands\n  printf '%s\\n'";
+  for (const auto& command : program.commands) text += " " + command->name;
+  text += functions + fish_lines("complete -c waitpoint -n __fish_use_subcommand", program.own);
+  for (const auto& command : program.commands) {
+    text += "complete -c waitpoint -n __fish_use_subcommand -a " + command->name + " -d " +
+            fish_quoted(command->description) + "\n";
+    text += fish_lines("complete -c waitpoint -n '__waitpoint_has " + command->name + "'", *command);
   }
   return text;
 }

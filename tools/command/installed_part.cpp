@@ -33,15 +33,26 @@ std::filesystem::path find_part(const std::string& name) {
   throw BadInput("programs", name + ", which they need, is not installed: " + missing_part::programs);
 }
 
-std::filesystem::path find_scenario(const std::string& name) {
-  std::filesystem::path here = name;
+std::filesystem::path scenarios_folder() {
   std::error_code error;
-  if (here.empty() || here.has_parent_path() || std::filesystem::exists(here, error)) return here;
   const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error).parent_path();
   for (const std::filesystem::path& data :
        {program.parent_path() / "share/waitpoint", std::filesystem::path(data_folder)})
-    if (std::filesystem::path file = data / "scenarios" / here; std::filesystem::exists(file, error)) return file;
-  return here;
+    if (std::filesystem::exists(data / "scenarios", error)) return data / "scenarios";
+  throw BadInput("scenarios", "there are none beside this program, nor in " + std::string(data_folder));
+}
+
+std::filesystem::path find_scenario(const std::string& name) {
+  std::filesystem::path local = name;
+  std::error_code error;
+  if (local.empty() || local.has_parent_path() || std::filesystem::exists(local, error)) return local;
+  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error).parent_path();
+  for (const std::filesystem::path& data :
+       {program.parent_path() / "share/waitpoint", std::filesystem::path(data_folder)})
+    for (const std::string& file : {name, name + ".yaml"})
+      if (std::filesystem::path shipped = data / "scenarios" / file; std::filesystem::is_regular_file(shipped, error))
+        return shipped;
+  return local;
 }
 
 }  // namespace waitpoint::tools

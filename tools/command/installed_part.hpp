@@ -10,7 +10,12 @@ namespace waitpoint::tools {
 /// The part of this name from beside this library, the build folder, or the installation. BadInput if it is missing.
 std::filesystem::path find_part(const std::string& name);
 
-/// The scenario's file: a name without a folder that is not here is that of an installed scenario, if there is one.
+/// The folder of the shipped scenarios: beside this program's (the build tree has a link there), or installed. BadInput
+/// if there is none.
+std::filesystem::path scenarios_folder();
+
+/// The scenario's file: a name without a folder that is not here is that of a shipped scenario, with or without
+/// ".yaml", if there is one.
 std::filesystem::path find_scenario(const std::string& name);
 
 }  // namespace waitpoint::tools

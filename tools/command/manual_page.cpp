@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/command/manual_page.hpp"
 
-#include <algorithm>
 #include <sstream>
 #include <string_view>
 
 #include "core/error.hpp"
+#include "tools/command/help_text.hpp"
+#include "tools/command/option_values.hpp"
 
 namespace waitpoint::tools {
 namespace {
@@ -43,66 +44,82 @@ std::string paragraphs(const std::string& text) {
   return is_kept ? result + ".fi\n" : result;
 }
 
-std::string option_text(const DescribedOption& option) {
-  std::string text = ".TP\n";
-  for (const std::string& name : option.names) text += (&name == &option.names.front() ? "" : ", ") + bold(name);
-  if (!option.type.empty())
-    text += option.may_lack_value ? " [" + italic(option.type) + "]" : " " + italic(option.type);
-  if (option.repeated) text += " ...";
-  return text + "\n" + paragraphs(option.description);
+std::string option_text(const Option& option) {
+  std::string text = ".TP\n" + std::string(option.name == "--help" ? bold("-h") + ", " : "") + bold(option.name);
+  const std::string& placeholder = option.value.placeholder;
+  if (!option.is_argument() && !option.value.is_flag)
+    text += option.value.omitted.empty() ? " " + italic(placeholder) : " [" + italic(placeholder) + "]";
+  if (option.value.is_repeated) text += " ...";
+  const std::string& more = option.details.more;
+  return text + "\n" + paragraphs(option.summary() + (more.empty() ? "" : "\n" + more));
 }
 
-std::string synopsis(const DescribedProgram& program, const DescribedCommand& command) {
-  const bool is_own = command.name.empty();
-  std::string text = bold(is_own ? program.name : program.name + " " + command.name) + " [" + italic("OPTIONS") + "]";
-  if (is_own) text += " [" + italic("COMMAND") + " ...]";
-  for (const DescribedOption& argument : command.arguments) {
-    const std::string name = italic(argument.names.front());
-    text += argument.required ? " " + name : " [" + name + "]";
+std::string options_text(const Command& command) {
+  std::string text = ".SH OPTIONS\n";
+  for (const std::vector<const Option*>& section : sections_of(command)) {
+    if (!section.front()->section.empty()) text += ".SS " + escaped(section.front()->section) + "\n";
+    for (const Option* option : section) text += option_text(*option);
   }
-  if (command.takes_program) text += " " + bold("--") + " " + italic("PROGRAM") + " [" + italic("ARGUMENTS") + " ...]";
-  return text + "\n";
-}
-
-const DescribedCommand& described(const DescribedProgram& program, const std::string& name) {
-  if (name.empty()) return program.own;
-  const auto found = std::ranges::find(program.commands, name, &DescribedCommand::name);
-  if (found == program.commands.end())
-    throw BadInput("manual", "expected a command of " + program.name + ", found '" + name + "'; --help lists them");
-  return *found;
-}
-
-std::string commands_text(const DescribedProgram& program) {
-  std::string text = ".SH COMMANDS\n";
-  for (const DescribedCommand& command : program.commands)
-    text +=
-        ".TP\n" + bold(program.name + "-" + command.name) + "(1)\n" + escaped(summary_of(command.description)) + "\n";
+  text += ".SS Help\n";
+  for (const Option& option : help_options()) text += option_text(option);
   return text;
+}
+
+std::string synopsis(const DeclaredProgram& program, const Command& command) {
+  if (command.name.empty())
+    return bold(program.name) + " [" + italic("OPTIONS") + "] [" + italic("COMMAND") + " ...]\n";
+  std::string text;
+  for (const std::string& usage : usages_of(command))
+    text += (text.empty() ? "" : ".br\n") + bold(program.name + " " + command.name) + " " + escaped(usage) + "\n";
+  return text;
+}
+
+const Command& named(const DeclaredProgram& program, const std::string& name) {
+  if (name.empty()) return program.own;
+  if (const Command* const command = program.find(name)) return *command;
+  throw BadInput("manual", "expected a command of " + program.name + ", found '" + name + "'; --help lists them");
+}
+
+std::string commands_text(const DeclaredProgram& program) {
+  std::string text = ".SH COMMANDS\n";
+  for (const auto& command : program.commands)
+    text += ".TP\n" + bold(program.name + "-" + command->name) + "(1)\n" + escaped(command->description) + "\n";
+  return text;
+}
+
+std::string examples_text(const DeclaredProgram& program, const Command& command) {
+  if (command.examples.empty()) return "";
+  const std::string own = program.name + " " + command.name + (command.name.empty() ? "" : " ");
+  std::string text = ".SH EXAMPLES\n.nf\n";
+  for (const std::string& example : command.examples) text += escaped(own + example) + "\n";
+  return text + ".fi\n";
 }
 
 }  // namespace
 
-Command add_manual(CommandLine& line, std::string& page) {
-  Command manual = line.add_command("manual", "Prints the man page of a command, or of the program, in roff.");
-  manual.argument("COMMAND", page, "the command (default: the program)", Command::Presence::optional);
-  return manual;
+void add_manual(DeclaredProgram& program, std::string& page) {
+  Command& manual = program.add("manual");
+  manual.description = "Prints the man page of a command, or of the program, in roff.";
+  manual.examples = {"run | man -l -"};
+  manual.add("COMMAND", text(page, ""), "the command", {.usual = "the program"});
 }
 
-std::string manual_page(const DescribedProgram& program, const std::string& command) {
-  const DescribedCommand& page = described(program, command);
+std::string manual_page(const DeclaredProgram& program, const std::string& command) {
+  const Command& page = named(program, command);
   const std::string name = command.empty() ? program.name : program.name + "-" + command;
   std::string title = name;
   for (char& c : title) c = c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+  std::string summary = page.description.substr(0, page.description.find('\n'));
+  if (summary.ends_with('.')) summary.pop_back();
   // Without a date: the same program gives the same page.
-  std::string text = ".TH " + escaped(title) + " 1 \"\" \"" + escaped(program.version) + "\" \"\"\n.SH NAME\n" +
-                     escaped(name) + " \\- " + escaped(summary_of(page.description)) + "\n.SH SYNOPSIS\n" +
-                     synopsis(program, page) + ".SH DESCRIPTION\n" + paragraphs(page.description);
+  std::string text = ".TH " + escaped(title) + " 1 \"\" \"" + escaped(program.version_line()) + "\" \"\"\n.SH NAME\n" +
+                     escaped(name) + " \\- " + escaped(summary) + "\n.SH SYNOPSIS\n" + synopsis(program, page) +
+                     ".SH DESCRIPTION\n" + paragraphs(page.description) + examples_text(program, page);
   if (command.empty()) text += commands_text(program);
   if (!page.arguments.empty()) text += ".SH ARGUMENTS\n";
-  for (const DescribedOption& argument : page.arguments) text += option_text(argument);
-  text += ".SH OPTIONS\n";
-  for (const DescribedOption& option : page.options) text += option_text(option);
-  if (!page.footer.empty()) text += ".SH NOTES\n" + paragraphs(page.footer);
+  for (const Option& argument : page.arguments) text += option_text(argument);
+  text += options_text(page);
+  if (!page.notes.empty()) text += ".SH NOTES\n" + paragraphs(page.notes);
   if (!command.empty()) text += ".SH SEE ALSO\n" + bold(program.name) + "(1)\n";
   return text;
 }

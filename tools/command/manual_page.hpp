@@ -4,15 +4,15 @@
 
 #include <string>
 
-#include "tools/command/command_line.hpp"
+#include "tools/command/program.hpp"
 
 namespace waitpoint::tools {
 
 /// Adds the command that prints pages; its argument, the command of the page, goes to `page`.
-Command add_manual(CommandLine& line, std::string& page);
+void add_manual(DeclaredProgram& program, std::string& page);
 
-/// The page PROGRAM(1), or PROGRAM-COMMAND(1), in roff with the macros of man(7). Throws BadInput, one line, for an
+/// The page PROGRAM(1), or PROGRAM-COMMAND(1), in roff with the macros of man(7). Throws BadInput, one program, for an
 /// unknown command. `command` is empty for the program's own page.
-std::string manual_page(const DescribedProgram& program, const std::string& command);
+std::string manual_page(const DeclaredProgram& program, const std::string& command);
 
 }  // namespace waitpoint::tools

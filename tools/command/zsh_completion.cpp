@@ -2,6 +2,7 @@
 #include <string_view>
 
 #include "tools/command/completion.hpp"
+#include "tools/command/help_text.hpp"
 #include "tools/command/shell_words.hpp"
 
 namespace waitpoint::tools {
@@ -17,7 +18,7 @@ std::string zsh_text(std::string_view text) {
   return result;
 }
 
-std::string zsh_action(const DescribedOption& option) {
+std::string zsh_action(const Option& option) {
   const OfferedValues offered = offered_values(option);
   if (offered.commands) return "_waitpoint_commands";
   switch (offered.files) {
@@ -32,30 +33,35 @@ std::string zsh_action(const DescribedOption& option) {
 }
 
 /// The arguments of _arguments for one command, each on a line of its own.
-std::string specifications(const DescribedCommand& command) {
+std::string specifications(const Command& command) {
   std::string text;
-  for (const DescribedOption& option : command.options)
-    for (const std::string& name : option.names) {
-      std::string word = (option.repeated ? "*" : "") + name;
-      if (!option.type.empty()) word += "=";
-      word += "[" + zsh_text(summary_of(option.description)) + "]";
-      if (!option.type.empty())
-        word += (option.may_lack_value ? "::" : ":") + zsh_text(option.type) + ":" + zsh_action(option);
-      text += " \\\n        " + in_quotation_marks(word);
+  const auto add = [&](const Option& option, const std::string& name) {
+    const OptionValue& value = option.value;
+    std::string word = (value.is_repeated ? "*" : "") + name + (value.is_flag ? "" : "=");
+    word += "[" + zsh_text(option.summary()) + "]";
+    if (!value.is_flag)
+      word += (value.omitted.empty() ? ":" : "::") + zsh_text(value.placeholder) + ":" + zsh_action(option);
+    text += " \\\n        " + in_quotation_marks(word);
+  };
+  for (const auto& options : {help_options(), command.options})
+    for (const Option& option : options) {
+      if (option.name == "--help") add(option, "-h");
+      add(option, option.name);
     }
-  for (const DescribedOption& argument : command.arguments)
-    text += " \\\n        " + in_quotation_marks(std::string(argument.required ? ":" : "::") +
-                                                 zsh_text(argument.names.front()) + ":" + zsh_action(argument));
+  for (const Option& argument : command.arguments)
+    text += " \\\n        " + in_quotation_marks(std::string(argument.details.is_required ? ":" : "::") +
+                                                 zsh_text(argument.name) + ":" + zsh_action(argument));
   return text + "\n";
 }
 
 }  // namespace
 
-std::string zsh_completion(const DescribedProgram& program) {
-  std::string text = "#compdef " + program.name + "\n# Written by `" + program.name +
-                     " completion zsh`.\n\n_waitpoint_commands() {\n  local -a commands=(\n";
-  for (const DescribedCommand& command : program.commands)
-    text += "    " + in_quotation_marks(command.name + ":" + zsh_text(summary_of(command.description))) + "\n";
+std::string zsh_completion(const DeclaredProgram& program) {
+  std::string text =
+      "#compdef waitpoint\n# Written by `waitpoint completion zsh`.\n\n_waitpoint_commands() {\n"
+      "  local -a commands=(\n";
+  for (const auto& command : program.commands)
+    text += "    " + in_quotation_marks(command->name + ":" + zsh_text(command->description)) + "\n";
   text += R"(  )
   _describe command commands
 }
@@ -83,8 +89,8 @@ _waitpoint() {
     fi
     case $words[1] in
 )";
-  for (const DescribedCommand& command : program.commands)
-    text += "    " + command.name + ")\n      _arguments" + specifications(command) + "      ;;\n";
+  for (const auto& command : program.commands)
+    text += "    " + command->name + ")\n      _arguments" + specifications(*command) + "      ;;\n";
   return text + "    esac\n    ;;\n  esac\n}\n\n_waitpoint \"$@\"\n";
 }
 

@@ -23,6 +23,7 @@
 #include "tools/exec/race_report.hpp"
 #include "tools/output/json_document.hpp"
 #include "tools/output/output_file.hpp"
+#include "tools/output/progress.hpp"
 
 namespace waitpoint::tools {
 namespace {
@@ -71,10 +72,11 @@ class Output {
 int run_seeds(const ExecOptions& options, const ProgramFiles& files) {
   const Output output;
   const bool terminal = isatty(STDERR_FILENO) == 1;
+  const double shown_from_s = wall_clock_s() + progress_after_s;
   std::set<std::uint64_t> digests;
   std::uint64_t runs = 0;
   for (std::uint64_t seed = options.seeds->first;; ++seed) {
-    if (terminal)
+    if (terminal && wall_clock_s() >= shown_from_s)
       std::fprintf(stderr, "\rseed %llu, %zu schedules ", static_cast<unsigned long long>(seed), digests.size());
     output.forget();
     const RunMemory memory(settings_of(options, seed));

@@ -9,6 +9,7 @@
 #include "core/error.hpp"
 #include "core/number_text.hpp"
 #include "tools/command/option_values.hpp"
+#include "tools/command/options/time_limits.hpp"
 #include "tools/exec/own_machine_rights.hpp"
 #include "tools/exec/program_file.hpp"
 
@@ -18,7 +19,7 @@ namespace {
 using kernel::ClockKind;
 using kernel::ClockOptions;
 
-constexpr double idle_limit_s_max = 1e9, speed_max = 1e6, delay_us_max = 1e9;
+constexpr double idle_limit_s_max = 1e9, delay_us_max = 1e9;
 
 bool parse_cost(std::string_view text, Duration& cost) {
   double us = 0;
@@ -60,6 +61,48 @@ bool parse_delay(std::string_view text, posix::Medium& medium) {
   const std::string_view greatest = dots == std::string_view::npos ? text : text.substr(dots + 2);
   return parse(text.substr(0, dots), medium.delay_least) && parse(greatest, medium.delay_greatest) &&
          medium.delay_least <= medium.delay_greatest;
+}
+
+OptionValue clock_value(ProgramConditions& conditions) {
+  OptionValue value{.placeholder = "CLOCK"};
+  value.words = {"fixed:US", "interval:US", "counted", "cpu", "proportional"};
+  value.take = [&conditions](const std::string& source, const std::string& text) {
+    conditions.clock = parse_clock(text);
+    if (!conditions.clock)
+      refuse(source, "fixed:US, interval:US..US, counted[:NS], cpu[:xFACTOR] or proportional[:xFACTOR]", text);
+    conditions.clock_text = text;
+  };
+  return value;
+}
+
+OptionValue call_cost_value(std::optional<Duration>& into) {
+  OptionValue value{.placeholder = "NS"};
+  value.take = [&into](const std::string& source, const std::string& text) {
+    Duration cost;
+    if (!parse_block_cost(text, cost)) refuse(source, "nanoseconds from 1 to 1000000000", text);
+    into = cost;
+  };
+  return value;
+}
+
+OptionValue idle_limit_value(std::optional<Duration>& into) {
+  OptionValue value{.placeholder = "S"};
+  value.take = [&into](const std::string& source, const std::string& text) {
+    double seconds = 0;
+    number(seconds, 0, idle_limit_s_max, "S", "seconds of virtual time from 0 to 1e9").take(source, text);
+    into = Duration::from_seconds(seconds);
+  };
+  return value;
+}
+
+OptionValue delay_value(ProgramConditions& conditions) {
+  OptionValue value{.placeholder = "US"};
+  value.take = [&conditions](const std::string& source, const std::string& text) {
+    if (!parse_delay(text, conditions.medium))
+      refuse(source, "microseconds from 0 to 1e9, or an interval US..US", text);
+    conditions.delay_text = text;
+  };
+  return value;
 }
 
 }  // namespace
@@ -123,7 +166,7 @@ std::string ProgramConditions::words() const {
   if (trap_library) all += " --trap-libc";
   if (strict) all += " --strict";
   if (!children) all += " --children native";
-  if (speed) all += fmt::format(" --speed {}", *speed);
+  if (speed) all += *speed > 0 ? fmt::format(" --speed {}", *speed) : " --speed max";
   if (idle_limit) all += " --idle-limit " + to_string(Time() + *idle_limit);
   if (own_machine) all += " --own-machine";
   if (medium.loss > 0) all += fmt::format(" --loss {}", medium.loss);
@@ -131,99 +174,53 @@ std::string ProgramConditions::words() const {
   return all;
 }
 
-void ConditionArguments::add_to(Command& command) {
-  command.option("--clock", clock_, "CLOCK",
-                 "cost of a thread's code between two calls: fixed:US, interval:US..US (drawn by the\n"
-                 "seed), counted[:NS] (NS nanoseconds, 1 by default, for each basic block of a program\n"
-                 "compiled with -fsanitize-coverage=trace-pc), or measured, hence not repeatable: cpu[:xFACTOR],\n"
-                 "proportional[:xFACTOR] (default: no cost)");
-  command.option("--call-cost", call_cost_, "NS",
-                 "virtual time of a use of a primitive and of reading a clock, in nanoseconds (default: 50); more\n"
-                 "lets loops that poll end after fewer rounds");
-  command.option("--children", children_, "simulated|native",
-                 "mode of programs that it starts (exec, posix_spawn, system, popen): simulated, in one\n"
-                 "schedule with it as its forked children are, or native (default: simulated)");
-  command.option("--speed", speed_, "X",
-                 "with partners outside of the simulation, at sockets: virtual time is no faster than X\n"
-                 "times real time; 0: it does not wait (default: 1)");
-  command.option("--idle-limit", idle_limit_, "S",
-                 "end the run after S seconds of virtual time in which only timers expire and no thread\n"
-                 "wakes another; 0: never (default: 3600)");
-  command.flag("--own-machine", own_machine_,
-               "run the processes as on a machine of their own: its network is a loopback with multicast,\n"
-               "its /dev/shm is empty; no other process hears them");
-  command.option("--loss", loss_, "P", "lose each UDP datagram with this probability, drawn by the seed (default: 0)");
-  command.option("--delay", delay_, "US",
-                 "let each UDP datagram arrive after so many microseconds, or US..US, drawn by the seed\n"
-                 "(default: 0)");
-  command.flag("--isolate", isolate_, "make calls fail that would leave this machine (EACCES)");
-  command.flag("--trap-rdtsc", trap_rdtsc_,
-               "show virtual time in the time-stamp counter, one nanosecond per tick, by trapping the\n"
-               "instructions that read it (some microseconds each)");
-  command.flag("--strict", strict_,
-               "end the run, with the name and the place, when the program uses what does not repeat;\n"
-               "includes --trap-rdtsc");
-  command.flag("--trap-libc", trap_library_,
-               "simulate the C library's internal waits (its own locks, a FILE* on a pipe), too, by\n"
-               "trapping its system calls (some microseconds each)");
-}
-
-ProgramConditions ConditionArguments::conditions(bool is_repeated) const {
-  ProgramConditions conditions;
-  if (!clock_.empty()) {
-    conditions.clock = parse_clock(clock_);
-    if (!conditions.clock)
-      refuse("--clock", "fixed:US, interval:US..US, counted[:NS], cpu[:xFACTOR] or proportional[:xFACTOR]", clock_);
-  }
-  conditions.clock_text = clock_;
-  if (!call_cost_.empty()) {
-    Duration cost;
-    if (!parse_block_cost(call_cost_, cost)) refuse("--call-cost", "nanoseconds from 1 to 1000000000", call_cost_);
-    conditions.call_cost = cost;
-  }
-  conditions.isolate = isolate_;
-  conditions.trap_rdtsc = trap_rdtsc_;
-  conditions.trap_library = trap_library_;
-  conditions.strict = strict_;
-  conditions.children = children_ == "simulated";
-  if (!conditions.children && children_ != "native") refuse("--children", "native or simulated", children_);
-  if (!speed_.empty()) {
-    double speed = 0;
-    if (!parse_number(speed_, speed) || !(speed >= 0 && speed <= speed_max))
-      refuse("--speed", "a number from 0 to 1e6", speed_);
-    conditions.speed = speed;
-  }
-  if (!idle_limit_.empty()) {
-    double seconds = 0;
-    if (!parse_number(idle_limit_, seconds) || !(seconds >= 0 && seconds <= idle_limit_s_max))
-      refuse("--idle-limit", "seconds of virtual time from 0 to 1e9", idle_limit_);
-    conditions.idle_limit = Duration::from_seconds(seconds);
-  }
-  conditions.own_machine = own_machine_;
-  if (!loss_.empty() &&
-      (!parse_number(loss_, conditions.medium.loss) || !(conditions.medium.loss >= 0 && conditions.medium.loss <= 1)))
-    refuse("--loss", "a probability from 0 to 1", loss_);
-  if (!delay_.empty() && !parse_delay(delay_, conditions.medium))
-    refuse("--delay", "microseconds from 0 to 1e9, or an interval US..US", delay_);
-  conditions.delay_text = delay_;
-  const bool is_measured = conditions.clock && !repeats(*conditions.clock);
-  if (strict_ && !conditions.children) throw BadInput("--strict", "cannot be used together with --children native");
-  if (is_measured && (is_repeated || strict_))
-    refuse("--clock", "fixed:US, interval:US..US or counted[:NS], as measured clocks are not repeatable", clock_);
-  return conditions;
-}
-
-std::string ConditionArguments::first_given() const {
-  return !clock_.empty()            ? "--clock"
-         : !speed_.empty()          ? "--speed"
-         : !idle_limit_.empty()     ? "--idle-limit"
-         : isolate_                 ? "--isolate"
-         : own_machine_             ? "--own-machine"
-         : !loss_.empty()           ? "--loss"
-         : !delay_.empty()          ? "--delay"
-         : trap_rdtsc_              ? "--trap-rdtsc"
-         : children_ != "simulated" ? "--children"
-                                    : "";
+void declare_conditions(Command& command, ProgramConditions& conditions, Repetition repetition) {
+  command.section("Time of a program");
+  command.add("--clock", clock_value(conditions), "cost of a thread's code between two calls",
+              {.usual = "none",
+               .more = "fixed:US, interval:US..US (drawn by the seed), counted[:NS] (NS nanoseconds, 1 by default, for "
+                       "each basic block of a program compiled with -fsanitize-coverage=trace-pc), or measured, hence "
+                       "not repeatable: cpu[:xFACTOR], proportional[:xFACTOR].",
+               .is_rare = repetition == Repetition::needed});
+  command.add("--call-cost", call_cost_value(conditions.call_cost),
+              "virtual time of a use of a primitive and of reading a clock, in nanoseconds",
+              {.usual = "50", .more = "More lets loops that poll end after fewer rounds.", .is_rare = true});
+  declare_speed(command, conditions.speed, repetition == Repetition::needed);
+  command.section("Time of a program");
+  command.add("--idle-limit", idle_limit_value(conditions.idle_limit),
+              "end after S seconds of virtual time in which only timers expire",
+              {.usual = "3600", .more = "And no thread wakes another. 0: never.", .is_rare = true});
+  command.add("--trap-rdtsc", flag(conditions.trap_rdtsc), "show virtual time in the time-stamp counter",
+              {.more = "One nanosecond per tick, by trapping the instructions that read it (some microseconds each).",
+               .is_rare = true});
+  command.section("Surroundings of a program");
+  command.add("--children", word<bool>(conditions.children, {{"simulated", true}, {"native", false}}),
+              "programs that it starts (exec, posix_spawn, system, popen)",
+              {.usual = "simulated",
+               .more = "simulated: in one schedule with it, as its forked children are.",
+               .is_rare = true});
+  command.add("--own-machine", flag(conditions.own_machine), "run as on a machine of its own",
+              {.more = "Its network is a loopback with multicast, its /dev/shm is empty; no other process hears it.",
+               .is_rare = true});
+  command.add("--loss", number(conditions.medium.loss, 0, 1, "P", "a probability from 0 to 1"),
+              "lose each UDP datagram with this probability, drawn by the seed", {.usual = "0", .is_rare = true});
+  command.add("--delay", delay_value(conditions), "let each UDP datagram arrive US or US..US microseconds later",
+              {.usual = "0", .more = "An interval is drawn from by the seed.", .is_rare = true});
+  command.add("--isolate", flag(conditions.isolate), "make calls fail that would leave this machine (EACCES)",
+              {.is_rare = true});
+  command.add("--strict", flag(conditions.strict), "end the run when the program uses what does not repeat",
+              {.more = "With its name and place; includes --trap-rdtsc.", .is_rare = true});
+  command.add("--trap-libc", flag(conditions.trap_library), "simulate the C library's internal waits, too",
+              {.more = "Its own locks, a FILE* on a pipe: by trapping its system calls (some microseconds each).",
+               .is_rare = true});
+  command.finally([&conditions, repetition] {
+    if (conditions.strict && !conditions.children)
+      throw BadInput("--strict", "cannot be used together with --children native");
+    const bool is_measured = conditions.clock && !repeats(*conditions.clock);
+    if (is_measured && (repetition == Repetition::needed || conditions.strict))
+      refuse("--clock", "fixed:US, interval:US..US or counted[:NS], as measured clocks are not repeatable",
+             conditions.clock_text);
+  });
 }
 
 }  // namespace waitpoint::tools

@@ -8,7 +8,7 @@
 
 #include "fibers/clocks/clock_options.hpp"
 #include "fibers/posix/program/record.hpp"
-#include "tools/command/command_line.hpp"
+#include "tools/command/command.hpp"
 
 namespace waitpoint::tools {
 
@@ -39,21 +39,9 @@ struct ProgramConditions {
   std::string words() const;
 };
 
-/// The options as text.
-class ConditionArguments {
- public:
-  void add_to(Command& command);
-  /// BadInput for invalid values. `is_repeated`: clocks that are not repeatable are invalid, too.
-  ProgramConditions conditions(bool is_repeated) const;
-  /// The first of these options that was given; empty if none was.
-  std::string first_given() const;
+enum class Repetition { needed, not_needed };
 
- private:
-  std::string clock_, call_cost_, idle_limit_, speed_;
-  std::string children_ = "simulated";
-  std::string loss_, delay_;
-  bool own_machine_ = false;
-  bool isolate_ = false, trap_rdtsc_ = false, trap_library_ = false, strict_ = false;
-};
+/// Their options. With `needed`, clocks that are not repeatable are BadInput.
+void declare_conditions(Command& command, ProgramConditions& conditions, Repetition repetition);
 
 }  // namespace waitpoint::tools

@@ -72,7 +72,7 @@ void SearchViewers::end(const std::string& words) {
 }
 
 int show_search(const ExploreOptions& options, const std::function<int(view::Channel& viewers)>& search) {
-  const ServeAddress at = serve_address(*options.serve);
+  const ServeAddress& at = *options.serve;
   auto [here, there] = view::Channel::make();
   std::fflush(nullptr);
   const pid_t process = fork();

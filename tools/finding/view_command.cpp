@@ -3,31 +3,26 @@
 
 #include <cstdio>
 
-#include "tools/command/distinct_files.hpp"
 #include "tools/command/interruption.hpp"
+#include "tools/command/options/viewing.hpp"
 #include "tools/finding/finding_page.hpp"
 #include "tools/finding/page_server.hpp"
 #include "tools/output/output_file.hpp"
 
 namespace waitpoint::tools {
 
-ViewArguments::ViewArguments(CommandLine& line)
-    : command_(line.add_command(
-          "view", "Shows a finding of explore in a browser: the failing schedule beside a passing one.")) {
-  command_.argument("FINDING", file_,
-                    "file that `waitpoint explore --finding` has written, or a test with WAITPOINT_FINDING",
-                    Command::Presence::required);
-  command_.option("--page", page_, "FILE.html", "write a page that opens offline, and end");
-  command_.option_or_flag("--serve", serve_, "ADDRESS:PORT", "127.0.0.1:0",
-                          "serve at this address, until Ctrl-C (default: at a free port of the loopback)");
-}
-
-ViewOptions ViewArguments::options() const {
-  check_distinct({{"FINDING", file_, NamedFile::Use::read}, {"--page", page_}});
-  ViewOptions options{file_, {}, {}};
-  if (!page_.empty()) options.page = page_;
-  if (page_.empty() || !serve_.empty()) options.serve = serve_address(serve_);
-  return options;
+void declare(Command& command, ViewOptions& options) {
+  command.description = "Shows a finding of explore in a browser: the failing schedule beside a passing one.";
+  command.examples = {"finding.json --page finding.html"};
+  OptionValue file{.file = OptionValue::File::read};
+  file.take = [&options](const std::string&, const std::string& text) { options.file = text; };
+  command.add("FINDING", std::move(file),
+              "what waitpoint explore --finding, or a test with WAITPOINT_FINDING, has written", {.is_required = true});
+  declare_page(command, options.page, "write a page that opens offline, and end");
+  declare_serve(command, options.serve, "serve at this address, until Ctrl-C");
+  command.finally([&options] {
+    if (!options.page && !options.serve) options.serve = ServeAddress();
+  });
 }
 
 int view_finding(const ViewOptions& options) {

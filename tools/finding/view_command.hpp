@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "tools/command/command_line.hpp"
+#include "tools/command/command.hpp"
 #include "tools/command/serve_address.hpp"
 
 namespace waitpoint::tools {
@@ -17,20 +17,8 @@ struct ViewOptions {
   std::optional<ServeAddress> serve;          ///< nothing: the page is only written
 };
 
-/// The arguments as text, and their definition.
-class ViewArguments {
- public:
-  /// Adds the command.
-  explicit ViewArguments(CommandLine& line);
-
-  /// True if the command line has this command.
-  bool parsed() const { return command_.parsed(); }
-  ViewOptions options() const;
-
- private:
-  Command command_;
-  std::string file_, page_, serve_;
-};
+/// The command with its options.
+void declare(Command& command, ViewOptions& options);
 
 /// Writes the page, or serves it until Ctrl-C; returns the exit status. BadInput for a file that is no finding.
 int view_finding(const ViewOptions& options);

@@ -5,9 +5,8 @@
 
 #include <algorithm>
 
-#include "tools/command/distinct_files.hpp"
 #include "tools/command/interruption.hpp"
-#include "tools/command/option_values.hpp"
+#include "tools/command/options/results.hpp"
 #include "tools/fit/comparison.hpp"
 #include "tools/fit/comparison_picture.hpp"
 #include "tools/fit/log_scan.hpp"
@@ -29,33 +28,18 @@ std::string thinned_text(const logs::SensorLog& log) {
 
 }  // namespace
 
-CompareArguments::CompareArguments(CommandLine& line)
-    : command_(line.add_command(
-          "compare", "Compares two logs, such as of a real robot and of a simulated one (docs/fidelity.md).")) {
-  source_.add(command_);
-  command_.argument("OTHER", other_, "the other log, replayed to the same modules", Command::Presence::required);
-  command_.option("--other-scan", other_scan_, "NAME", "as --scan, for the other log");
-  command_.option("--other-odometry", other_odometry_, "TOPIC", "as --odometry, for the other log");
-  command_.option("--other-robot", other_robot_, "NAME", "as --robot, for the other log");
-  command_.option("--picture", picture_, "FILE.svg", "draw the distribution functions of both");
-  command_.option("--summary", summary_, "FILE.json", "write the comparison as JSON");
-  command_.json(json_);
-}
-
-CompareOptions CompareArguments::options() const {
-  CompareOptions options{source_.options(), source_.options(), {}, {}, json_};
-  options.second.log = other_;
-  options.second.choice = {other_scan_, other_odometry_, other_robot_};
-  if (!picture_.empty()) options.picture = picture_;
-  if (!summary_.empty()) options.summary = summary_;
-  const std::vector<NamedFile> files = {{"--picture", picture_},
-                                        {"--summary", summary_},
-                                        {"--scenario", source_.scenario(), NamedFile::Use::read},
-                                        {"LOG", source_.log(), NamedFile::Use::read},
-                                        {"OTHER", other_, NamedFile::Use::read}};
-  check_distinct(files);
-  if (json_) check_beside_json(files);
-  return options;
+void declare(Command& command, CompareOptions& options) {
+  command.description = "Compares two logs, such as of a real robot and of a simulated one (docs/fidelity.md).";
+  command.examples = {"real.log simulated.bag --picture both.svg"};
+  declare_log(command, options.first);
+  declare_other_log(command, options.second);
+  declare_summary(command, options.summary, options.json);
+  declare_picture(command, options.picture, "draw the distribution functions of both");
+  command.finally([&options] {
+    options.second.scenario = options.first.scenario;
+    options.second.modules = options.first.modules;
+    options.second.assignments = options.first.assignments;
+  });
 }
 
 int compare(const CompareOptions& options, std::span<const genom::ModuleType> types) {

@@ -9,8 +9,7 @@
 #include <string>
 
 #include "modules/genom/module_type.hpp"
-#include "tools/command/command_line.hpp"
-#include "tools/replay/log_options.hpp"
+#include "tools/command/options/log_source.hpp"
 
 namespace waitpoint::tools {
 
@@ -20,19 +19,8 @@ struct CompareOptions {
   bool json = false;  ///< the comparison as JSON to standard output
 };
 
-class CompareArguments {
- public:
-  explicit CompareArguments(CommandLine& line);
-  bool parsed() const { return command_.parsed(); }
-  /// Throws BadInput for invalid values.
-  CompareOptions options() const;
-
- private:
-  Command command_;
-  LogArguments source_;
-  std::string other_, other_scan_, other_odometry_, other_robot_, picture_, summary_;
-  bool json_ = false;
-};
+/// The command with its options.
+void declare(Command& command, CompareOptions& options);
 
 /// Prints the table, and writes the files; returns the exit status. BadInput as of a replay.
 int compare(const CompareOptions& options, std::span<const genom::ModuleType> types);

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "tools/command/distinct_files.hpp"
 #include "tools/command/interruption.hpp"
 #include "tools/command/option_values.hpp"
 #include "tools/fit/fit_json.hpp"
@@ -71,37 +70,31 @@ void check_plausible(const OdometryFit& of, const std::string& log) {
   throw BadInput(log,
                  fmt::format("expected odometry that is right within a factor of {:g} and {:g} rad/m, found a travel "
                              "scale of {:.4g}, a turn scale of {:.4g} and a drift of {:.4g} rad/m: was the "
-                             "localisation lost? (replay --picture)",
+                             "localisation lost? (waitpoint play --picture)",
                              scale_most, drift_most_rad_per_m, of.travel_scale, of.turn_scale, of.drift_rad_per_m));
+}
+
+OptionValue type_name(std::string& into) {
+  OptionValue value{.placeholder = "NAME"};
+  value.take = [&into](const std::string& source, const std::string& text) {
+    if (text.find_first_not_of(letters) != text.npos) refuse(source, "letters, digits, '_' and '-'", text);
+    if (text == "include" || text.front() == '-')
+      refuse(source, "a name that begins with no '-', and is not the key 'include' of robot_types", text);
+    into = text;
+  };
+  return value;
 }
 
 }  // namespace
 
-FitArguments::FitArguments(CommandLine& line)
-    : command_(line.add_command(
-          "fit", "Prints a robot type with the errors of a log's odometry and laser (docs/replay.md).")) {
-  source_.add(command_);
-  command_.option("--name", name_, "NAME", "of the robot type (default: fitted)");
-  command_.option("--out", out_, "FILE.yaml", "write it to this file (default: to standard output)");
-  command_.json(json_);
-}
-
-FitOptions FitArguments::options() const {
-  FitOptions options;
-  options.source = source_.options();
-  if (!name_.empty()) options.name = name_;
-  if (options.name.find_first_not_of(letters) != options.name.npos)
-    refuse("--name", "letters, digits, '_' and '-'", options.name);
-  if (options.name == "include" || options.name.front() == '-')
-    refuse("--name", "a name that begins with no '-', and is not the key 'include' of robot_types", options.name);
-  if (!out_.empty()) options.out = out_;
-  options.json = json_;
-  const std::vector<NamedFile> files = {{"--out", out_},
-                                        {"--scenario", source_.scenario(), NamedFile::Use::read},
-                                        {"LOG", source_.log(), NamedFile::Use::read}};
-  check_distinct(files);
-  if (json_) check_beside_json(files);
-  return options;
+void declare(Command& command, FitOptions& options) {
+  command.description = "Prints a robot type with the errors of a log's odometry and laser (docs/replay.md).";
+  command.examples = {"intel.log --name intel --out intel.yaml"};
+  declare_log(command, options.source);
+  command.section("Results");
+  command.add("--name", type_name(options.name), "of the robot type", {.usual = options.name});
+  command.add("--out", written_file(options.out, "FILE.yaml"), "write it to this file", {.usual = "standard output"});
+  command.json(options.json);
 }
 
 int fit(const FitOptions& options, std::span<const genom::ModuleType> types) {

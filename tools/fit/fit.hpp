@@ -7,8 +7,7 @@
 #include <string>
 
 #include "modules/genom/module_type.hpp"
-#include "tools/command/command_line.hpp"
-#include "tools/replay/log_options.hpp"
+#include "tools/command/options/log_source.hpp"
 
 namespace waitpoint::tools {
 
@@ -19,19 +18,8 @@ struct FitOptions {
   bool json = false;                         ///< what was fitted as JSON to standard output
 };
 
-class FitArguments {
- public:
-  explicit FitArguments(CommandLine& line);
-  bool parsed() const { return command_.parsed(); }
-  /// Throws BadInput for invalid values.
-  FitOptions options() const;
-
- private:
-  Command command_;
-  LogArguments source_;
-  std::string name_, out_;
-  bool json_ = false;
-};
+/// The command with its options.
+void declare(Command& command, FitOptions& options);
 
 /// Replays the log, fits the errors of its odometry to the corrected trajectory and those of its laser to its scans,
 /// and writes the robot type. Returns the exit status. BadInput as of a replay, and for logs that are too short.

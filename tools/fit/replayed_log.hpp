@@ -9,7 +9,7 @@
 #include "modules/genom/module_type.hpp"
 #include "modules/logs/playing_order.hpp"
 #include "modules/logs/sensor_log.hpp"
-#include "tools/replay/log_options.hpp"
+#include "tools/command/options/log_source.hpp"
 
 namespace waitpoint::tools {
 

@@ -3,6 +3,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
@@ -58,6 +59,23 @@ std::filesystem::path commands() {
 }
 
 }  // namespace
+
+void declare(Command& command, DebugOptions& options) {
+  command.description = "Starts gdb with commands for simulated threads (docs/gdb.md).";
+  command.examples = {"-- run office --until 60", "-- ./program"};
+  command.usages = {"[OPTIONS OF GDB] -- run SCENARIO ...", "[OPTIONS OF GDB] -- PROGRAM ..."};
+  command.takes_program = true;
+  command.takes_all_words = true;
+  command.finally([&command, &options] {
+    const std::vector<std::string>& words = command.program();
+    const auto dashes = std::ranges::find(words, "--");
+    if (dashes == words.end() || dashes + 1 == words.end())
+      throw BadInput("gdb",
+                     "expected a command to run: waitpoint gdb -- run SCENARIO ..., or waitpoint gdb -- PROGRAM ...");
+    options.gdb_options.assign(words.begin(), dashes);
+    options.words.assign(dashes + 1, words.end());
+  });
+}
 
 void debug(const DebugOptions& options) {
   if (!options.own && find_program(options.words.front()).empty())

@@ -18,6 +18,9 @@ struct DebugOptions {
   std::optional<ExecOptions> program;  ///< of the command `waitpoint exec`
 };
 
+/// The command: what precedes "--" is for gdb.
+void declare(Command& command, DebugOptions& options);
+
 /// Replaces this process by gdb. BadInput if gdb, the program or the commands are missing; the commands are looked up
 /// beside this program, in its installation's share/waitpoint/gdb, and in the library's.
 [[noreturn]] void debug(const DebugOptions& options);

@@ -9,6 +9,7 @@
 
 #include "core/error.hpp"
 #include "modules/description/parser.hpp"
+#include "tools/command/option_values.hpp"
 #include "tools/genom/c_text.hpp"
 #include "tools/genom/generators.hpp"
 #include "tools/output/json_document.hpp"
@@ -71,6 +72,19 @@ int tell(const GenomOptions& options, const std::string& text, const Json& json)
 }
 
 }  // namespace
+
+void declare(Command& command, GenomOptions& options) {
+  command.description = "Generates a module from its description in GenoM's language (docs/laas-gen.md).";
+  command.examples = {"mast.gen --out mast"};
+  command.add("FILE", text(options.file, ""), "the description: NAME.gen", {.is_required = true});
+  command.add("--out", text(options.out, "FOLDER"), "folder of the generated files", {.usual = "that of FILE"});
+  command.add("--include", texts(options.folders, "FOLDER"),
+              "where included files are searched, beside FILE's folder; may be repeated");
+  command.add("--check", flag(options.check_only), "validate the description, and write nothing");
+  command.add("--documentation", flag(options.documentation_only),
+              "write its page of requests and posters to standard output");
+  command.json(options.json);
+}
 
 int genom(const GenomOptions& options) {
   const Description module = description::read_description(options.file, options.folders);

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "tools/command/command.hpp"
+
 namespace waitpoint::tools {
 
 struct GenomOptions {
@@ -15,6 +17,9 @@ struct GenomOptions {
   bool check_only = false;
   bool json = false;  ///< what was written as JSON to standard output
 };
+
+/// The command with its options.
+void declare(Command& command, GenomOptions& options);
 
 /// Writes the files: server/ anew, and of codels/, MODULE.yaml, Makefile those that do not exist. BadInput for a wrong
 /// description, before anything is written.

@@ -10,7 +10,6 @@ namespace waitpoint::tools {
 namespace {
 
 constexpr double redraw_s = 0.1;
-constexpr Duration line_period = std::chrono::minutes(1);
 constexpr int bar_width = 32;
 
 void put(std::FILE* stream, const std::string& text) {
@@ -34,17 +33,10 @@ Progress::Progress(std::FILE* stream, bool terminal, Duration until, Clock clock
       until_(until),
       clock_(clock),
       start_s_(clock()),
-      next_draw_s_(start_s_),
-      next_line_(Time() + line_period) {}
+      next_draw_s_(start_s_ + progress_after_s) {}
 
 void Progress::update(Time now, std::size_t goals_reached, std::size_t goals) {
-  if (!terminal_) {
-    if (now < next_line_) return;
-    put(stream_,
-        fmt::format("{:6.0f} s of {:.0f} s{}\n", now.seconds(), until_.seconds(), goals_text(goals_reached, goals)));
-    while (next_line_ <= now) next_line_ += line_period;
-    return;
-  }
+  if (!terminal_) return;
   const double wall_s = clock_();
   if (wall_s < next_draw_s_) return;
   next_draw_s_ = wall_s + redraw_s;
@@ -65,7 +57,7 @@ void Progress::draw_bar(Time now, std::size_t goals_reached, std::size_t goals, 
 void Progress::log(Time now, std::string_view robot, std::string_view message) {
   finish();
   put(stream_, fmt::format("{:10.3f} s  {}: {}\n", now.seconds(), robot, message));
-  next_draw_s_ = 0;
+  next_draw_s_ = start_s_ + progress_after_s;
 }
 
 void Progress::finish() {

@@ -1,17 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Progress of a run: on a terminal a bar in simulated time, redrawn in place; elsewhere a line for every simulated
-// minute, identical in every run. Log messages of the run are printed through it, so that they do not tear the bar.
+// Progress of a run: on a terminal, after two seconds, a bar in simulated time, redrawn in place; elsewhere none. Log
+// messages of the run are printed through it, so that they do not tear the bar.
 //
 // Reads the wall clock, only for display.
 #pragma once
 
-#include <cstdint>
 #include <cstdio>
 #include <string_view>
 
 #include "core/time.hpp"
 
 namespace waitpoint::tools {
+
+/// What takes less shows no progress.
+inline constexpr double progress_after_s = 2;
 
 /// Seconds of a steady clock with an arbitrary origin.
 double wall_clock_s();
@@ -38,7 +40,6 @@ class Progress {
   Duration until_;
   Clock clock_;
   double start_s_, next_draw_s_;
-  Time next_line_;
   bool bar_shown_ = false;
 };
 

@@ -59,6 +59,17 @@ std::string plan_json(const plan::Plan& plan, const std::string& verdict) {
 
 }  // namespace
 
+void declare(Command& command, PlanOptions& options) {
+  command.description = "Prints the windows of a temporal plan's actions, if it is consistent (docs/laas-plans.md).";
+  command.examples = {"scenarios/plans/guide.yaml --picture guide.svg"};
+  OptionValue file{.file = OptionValue::File::read};
+  file.take = [&options](const std::string&, const std::string& text) { options.file = text; };
+  command.add("PLAN", std::move(file), "YAML file", {.is_required = true});
+  command.section("Results");
+  declare_picture(command, options.picture, "write a picture of the plan", "--svg");
+  command.json(options.json);
+}
+
 std::string plan_picture(const plan::Plan& plan) {
   constexpr double left = 190, width = 620, row_height = 24, top = 30;
   const std::vector<Row> all = rows(plan);
@@ -99,8 +110,8 @@ int show_plan(const PlanOptions& options) {
   for (const Row& row : rows(plan))
     text += fmt::format("  {:<40} {:>22} {:>22}\n", row.action->name + (row.action->contingent ? " (contingent)" : ""),
                         window(row.earliest_start, row.latest_start), window(row.earliest_end, row.latest_end));
-  if (!options.picture.empty()) {
-    OutputFile picture(options.picture);
+  if (options.picture) {
+    OutputFile picture(*options.picture);
     picture.write(plan_picture(plan));
     picture.commit();
   }

@@ -6,14 +6,18 @@
 #include <string>
 
 #include "modules/plan/plan.hpp"
+#include "tools/command/options/results.hpp"
 
 namespace waitpoint::tools {
 
 struct PlanOptions {
   std::filesystem::path file;
-  std::filesystem::path picture;  ///< empty: none
-  bool json = false;              ///< the result as JSON to standard output
+  OptionalFile picture;
+  bool json = false;  ///< the result as JSON to standard output
 };
+
+/// The command with its options.
+void declare(Command& command, PlanOptions& options);
 
 /// Prints the verdict and the windows of the actions of the first branches; returns the exit status. Throws BadInput
 /// for a plan that is not consistent.

@@ -9,7 +9,7 @@
 #include "modules/logs/given_laser.hpp"
 #include "modules/logs/sensor_log.hpp"
 #include "modules/scenario/scenario.hpp"
-#include "tools/replay/log_options.hpp"
+#include "tools/command/options/log_source.hpp"
 
 namespace waitpoint::tools {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `waitpoint replay LOG`: a robot's modules on a recorded log in the place of a world.
+// `waitpoint play LOG`: a robot's modules on a recorded log in the place of a world.
 #pragma once
 
 #include <span>

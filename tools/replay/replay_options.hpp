@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The options of `waitpoint replay LOG ...` as values. Opens and runs nothing.
+// The options of `waitpoint play LOG ...` as values. Opens and runs nothing.
 #pragma once
 
 #include <cstdint>
@@ -12,8 +12,8 @@
 #include "fibers/kernel/chooser.hpp"
 #include "fibers/sync/simulation.hpp"
 #include "modules/playback/playback.hpp"
-#include "tools/command/command_line.hpp"
-#include "tools/replay/log_options.hpp"
+#include "tools/command/options/log_source.hpp"
+#include "tools/command/options/results.hpp"
 
 namespace waitpoint::tools {
 
@@ -23,7 +23,7 @@ struct PlayOptions {
   kernel::Order order = kernel::Order::fifo;
   std::optional<Duration> until;             ///< none: as of the log's source
   bool json = false;                         ///< the result as JSON to standard output
-  const char* command = "replay";            ///< of waitpoint, for it
+  const char* command = "play";              ///< of waitpoint, for it
   std::optional<playback::PoseSource> pose;  ///< of the trajectory; none: the first that there is
   std::optional<std::filesystem::path> trajectory, relations, summary, picture, map, digests, events;
 
@@ -33,23 +33,11 @@ struct PlayOptions {
 struct ReplayOptions {
   LogOptions source;
   PlayOptions play;
-  bool check = false;   ///< self-check: compare runs instead of reporting a result
+  bool verify = false;  ///< compare runs instead of reporting a result
   std::string command;  ///< as given, for a shell
 };
 
-class ReplayArguments {
- public:
-  explicit ReplayArguments(CommandLine& line);
-  bool parsed() const { return command_.parsed(); }
-  /// Throws BadInput for invalid values.
-  ReplayOptions options() const;
-
- private:
-  Command command_;
-  LogArguments source_;
-  std::string until_, pose_;
-  std::string trajectory_, relations_, summary_, picture_, map_, digests_, events_;
-  bool check_ = false, json_ = false;
-};
+/// The command with its options.
+void declare(Command& command, ReplayOptions& options);
 
 }  // namespace waitpoint::tools

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `waitpoint run` of a scenario with a log in place of a world: as `waitpoint replay LOG --scenario SCENARIO`.
+// `waitpoint run` of a scenario with a log in place of a world: as `waitpoint play LOG --scenario SCENARIO`.
 #pragma once
 
 #include <span>

@@ -189,34 +189,18 @@ scenario::Scenario scenario_of(const RunOptions& options) {
 
 // A run with nodes is several processes in one virtual time, which begin together.
 void check_for_nodes(const RunOptions& options) {
-  const std::pair<const char*, bool> others[] = {{"--speed", options.speed != 0},
-                                                 {"--serve", options.serve.has_value()},
-                                                 {"--interactive", options.interactive},
-                                                 {"--tcl", options.tcl},
-                                                 {"--check", options.check},
-                                                 {"--record-durations", options.record_durations.has_value()},
-                                                 {"--replay-durations", options.replay_durations.has_value()},
-                                                 {options.partners.name(), options.partners.any()}};
-  for (const auto& [option, is_given] : others)
-    if (is_given) throw BadInput(option, "cannot be used for a scenario with nodes");
+  constexpr const char* others[] = {
+      "--speed",    "--serve",      "--interactive", "--tcl", "--verify", "--record-durations", "--replay-durations",
+      "--external", "--serve-world"};
+  check_none_given(options, others, "cannot be used for a scenario with nodes");
 }
 
 // Without a world there is nothing to write but what nodes do.
 void check_for_bag(const RunOptions& options) {
-  const std::pair<const char*, bool> of_worlds[] = {{"--json", options.json},
-                                                    {"--order", options.order != RunOptions().order},
-                                                    {"--journal", options.journal.has_value()},
-                                                    {"--replay-journal", options.replay_journal.has_value()},
-                                                    {"--summary", options.summary.has_value()},
-                                                    {"--picture", options.picture.has_value()},
-                                                    {"--page", options.page.has_value()},
-                                                    {"--trajectory", options.trajectory.has_value()},
-                                                    {"--record", options.record.has_value()},
-                                                    {"--digests", options.digests.has_value()},
-                                                    {"--events", options.events.has_value()},
-                                                    {"--decisions", options.decisions.has_value()}};
-  for (const auto& [option, is_given] : of_worlds)
-    if (is_given) throw BadInput(option, "cannot be used where a bag is played in the place of a world");
+  constexpr const char* of_worlds[] = {"--json",    "--strategy", "--journal", "--replay-journal",
+                                       "--summary", "--picture",  "--page",    "--trajectory",
+                                       "--record",  "--digests",  "--events",  "--decisions"};
+  check_none_given(options, of_worlds, "cannot be used where a bag is played in the place of a world");
 }
 
 int run_bag(const RunOptions& options, const scenario::Scenario& scenario) {

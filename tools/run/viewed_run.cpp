@@ -21,9 +21,8 @@ view::ViewerOptions viewer_options(const RunOptions& options, const scenario::Sc
   viewer.until = options.limit(scenario.until);
   viewer.is_controlled = options.serve_control;
   viewer.replay_command = replay_line(options, options.seed);
-  const ServeAddress at = serve_address(*options.serve);
-  viewer.address = at.address;
-  viewer.port = at.port;
+  viewer.address = options.serve->address;
+  viewer.port = options.serve->port;
   return viewer;
 }
 

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/schema/schema_command.hpp"
 
+#include <utility>
+#include <vector>
+
 #include "modules/plan/plan_keys.hpp"
 #include "modules/scenario/scenario_keys.hpp"
+#include "tools/command/option_values.hpp"
 #include "tools/output/output_file.hpp"
 #include "tools/schema/module_schemas.hpp"
 
@@ -24,6 +28,15 @@ constexpr Document documents[] = {
 };
 
 }  // namespace
+
+void declare(Command& command, SchemaOptions& options) {
+  command.description = "Prints the JSON Schema (2020-12) of a kind of file, for editors and validators.";
+  command.examples = {"scenario > scenario.json"};
+  std::vector<std::pair<std::string, std::string>> kinds;
+  for (const std::string_view kind : schema_kinds) kinds.emplace_back(kind, kind);
+  command.add("KIND", word(options.kind, std::move(kinds)), "scenario, robot (a file of robot types), plan or floor",
+              {.usual = options.kind});
+}
 
 std::string schema_text(std::string_view kind, std::span<const genom::ModuleType> types) {
   const Document* document = documents;

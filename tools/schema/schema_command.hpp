@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "modules/genom/module_type.hpp"
+#include "tools/command/command.hpp"
 
 namespace waitpoint::tools {
 
@@ -15,8 +16,11 @@ namespace waitpoint::tools {
 inline constexpr std::string_view schema_kinds[] = {"scenario", "robot", "plan", "floor"};
 
 struct SchemaOptions {
-  std::string kind;
+  std::string kind = "scenario";
 };
+
+/// The command with its options.
+void declare(Command& command, SchemaOptions& options);
 
 /// The schema as text; modules have the parameters of these types.
 std::string schema_text(std::string_view kind, std::span<const genom::ModuleType> types);

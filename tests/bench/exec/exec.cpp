@@ -36,7 +36,7 @@ class Bench {
     calls_ = (folder / "exec-calls").string();
     exec_ = (folder / "../../tools/waitpoint").lexically_normal().string() +
             " exec --quiet --strategy fifo --idle-limit 0 -- ";
-    explore_ = (folder / "../../tools/waitpoint").lexically_normal().string() + " explore --exec --strategy random";
+    explore_ = (folder / "../../tools/waitpoint").lexically_normal().string() + " explore --strategy random";
   }
 
   void run() {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A module that writes a value to a poster every 100 ms, from a source that modules must not use: all sources of
-// nondeterminism that a self-check (`run SCENARIO --check`) must find. The setting `source` selects one. Others do not
+// nondeterminism that a self-check (`run SCENARIO --verify`) must find. The setting `source` selects one. Others do not
 // end in another environment.
 #include <dirent.h>
 #include <pthread.h>

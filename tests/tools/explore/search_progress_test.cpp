@@ -30,18 +30,13 @@ std::string a_minute(bool terminal) {
   return output;
 }
 
-TEST(SearchProgress, PrintsOccasionalLinesWithoutATerminal) {
-  const std::string output = a_minute(false);
-  EXPECT_GE(std::count(output.begin(), output.end(), '\n'), 5);
-  EXPECT_LE(std::count(output.begin(), output.end(), '\n'), 6);
-  EXPECT_NE(output.find(" schedules, 10.0 a second, "), std::string::npos) << output;
-  EXPECT_EQ(output.find('\r'), std::string::npos);
-}
+TEST(SearchProgress, PrintsNothingWithoutATerminal) { EXPECT_EQ(a_minute(false), ""); }
 
 TEST(SearchProgress, ClearsItsLineOnATerminal) {
   const std::string output = a_minute(true);
   EXPECT_EQ(output.find('\n'), std::string::npos);
   EXPECT_GE(std::count(output.begin(), output.end(), '\r'), 100);
+  EXPECT_NE(output.find(" schedules, 10.0 a second, "), std::string::npos) << output;
   EXPECT_TRUE(output.ends_with("\r\x1b[K"));
 }
 

@@ -94,7 +94,7 @@ TEST(Fidelity, ASimulatedRobotDrivesALogsMotionInItsMapAndIsComparedWithIt) {
   ASSERT_EQ(runs::outcome_of(runs::run_command("office.yaml", "90", {"--record", log})).status, 1);  // goals left
   const auto made = waitpoint({"fit", "real.log", "--name", "real", "--out", "real.yaml"});
   ASSERT_EQ(made.status, 0) << made.errors;
-  const auto mapped = waitpoint({"replay", "real.log", "--trajectory", "real.tum", "--map", "real-map.yaml"});
+  const auto mapped = waitpoint({"play", "real.log", "--trajectory", "real.tum", "--map", "real-map.yaml"});
   ASSERT_EQ(mapped.status, 0) << mapped.errors;
   std::filesystem::copy(test::project_root() / "scenarios" / "fidelity.yaml", folder / "fidelity.yaml");
   const auto run = waitpoint({"run", "fidelity.yaml", "--record", "simulated.log", "--summary", "run.json"});

@@ -31,19 +31,31 @@ std::string output_of(Shown&& shown) {
 
 Time at(Duration d) { return Time() + d; }
 
-TEST(Progress, PrintsALineEachSimulatedMinuteWithoutATerminal) {
+TEST(Progress, PrintsNothingWithoutATerminal) {
+  fake_now_s = 0;
   const std::string output = output_of([](std::FILE* stream) {
-    Progress progress(stream, false, 10min);
-    for (int second = 0; second <= 150; ++second) progress.update(at(second * Duration(1s)), 1, 3);
+    Progress progress(stream, false, 10min, &fake_clock);
+    for (; fake_now_s < 150; ++fake_now_s) progress.update(at(10s), 1, 3);
     progress.finish();
   });
-  EXPECT_EQ(output, "    60 s of 600 s  1 of 3 goals\n   120 s of 600 s  1 of 3 goals\n");
+  EXPECT_EQ(output, "");
+}
+
+TEST(Progress, PrintsNothingInTheFirstTwoSeconds) {
+  fake_now_s = 100;
+  const std::string output = output_of([](std::FILE* stream) {
+    Progress progress(stream, true, 100s, &fake_clock);
+    for (; fake_now_s < 102; fake_now_s += 0.125) progress.update(at(10s), 0, 0);
+    progress.finish();
+  });
+  EXPECT_EQ(output, "");
 }
 
 TEST(Progress, RedrawsItsBarAtMostTenTimesASecond) {
   fake_now_s = 100;
   const std::string output = output_of([](std::FILE* stream) {
     Progress progress(stream, true, 100s, &fake_clock);
+    fake_now_s += progress_after_s;
     for (int i = 0; i < 1000; ++i) {
       fake_now_s += 0.001;
       progress.update(at(i * Duration(50ms)), 0, 0);
@@ -71,6 +83,7 @@ TEST(Progress, MessageClearsTheBarAndHasTheVirtualTime) {
   fake_now_s = 0;
   const std::string output = output_of([](std::FILE* stream) {
     Progress progress(stream, true, 100s, &fake_clock);
+    fake_now_s = progress_after_s;
     progress.update(at(10s), 0, 0);
     progress.log(at(10500ms), "rackham", "goal 1 reached");
   });

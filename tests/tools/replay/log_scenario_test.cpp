@@ -48,11 +48,11 @@ TEST_F(LogScenario, ARunIsTheReplayOfTheLogWithTheScenariosParameters) {
   const json run = summary({"run", "s.yaml"});
   EXPECT_EQ(run["scans"], run["scans_of_log"]);
   EXPECT_EQ(run["pose"], "segloc");
-  EXPECT_EQ(run, summary({"replay", "run.log", "--scenario", "s.yaml"}));
+  EXPECT_EQ(run, summary({"play", "run.log", "--scenario", "s.yaml"}));
   EXPECT_NE(run["digest"],
             summary({"run", "s.yaml", "--set", "robots.r.modules.segloc.points.key_travel_m=0.2"})["digest"]);
   write("run.log");
-  EXPECT_EQ(summary({"run", "s.yaml"})["digest"], summary({"replay", "run.log", "--scenario", "s.yaml"})["digest"]);
+  EXPECT_EQ(summary({"run", "s.yaml"})["digest"], summary({"play", "run.log", "--scenario", "s.yaml"})["digest"]);
 }
 
 TEST_F(LogScenario, TheScenarioSaysWhichModulesRun) {
@@ -68,7 +68,7 @@ TEST_F(LogScenario, KeysOfTheScenarioOverrideTheLog) {
     write("{file: run.log, " + given + "}");
     const json run = summary({"run", "s.yaml"});
     EXPECT_NE(run["digest"], as_logged["digest"]) << given;
-    EXPECT_EQ(run, summary({"replay", "run.log", "--scenario", "s.yaml"})) << given;
+    EXPECT_EQ(run, summary({"play", "run.log", "--scenario", "s.yaml"})) << given;
   }
 }
 
@@ -86,23 +86,23 @@ TEST_F(LogScenario, ARunWritesWhatAReplayWrites) {
     }
     return texts;
   };
-  EXPECT_EQ(written({"run", "s.yaml"}), written({"replay", "run.log", "--scenario", "s.yaml"}));
+  EXPECT_EQ(written({"run", "s.yaml"}), written({"play", "run.log", "--scenario", "s.yaml"}));
 }
 
 TEST_F(LogScenario, ACheckComparesReplaysEventByEvent) {
   if (test::is_emulated()) GTEST_SKIP() << "a self-check starts its program anew";
   write("run.log");
-  const runs::Outcome run = waitpoint({"run", "s.yaml", "--check"}),
-                      replay = waitpoint({"replay", "run.log", "--check"});
+  const runs::Outcome run = waitpoint({"run", "s.yaml", "--verify"}),
+                      replay = waitpoint({"play", "run.log", "--verify"});
   EXPECT_EQ(run.status, 0) << run.errors;
   EXPECT_EQ(replay.status, 0) << replay.errors;
   EXPECT_NE(run.output.find("s, seed 1: the same run, twice in this process and once in a perturbed one"),
             std::string::npos)
       << run.output;
   EXPECT_NE(replay.output.find("run.log, seed 1: the same run"), std::string::npos) << replay.output;
-  EXPECT_NE(replay.output.find(summary({"replay", "run.log"})["digest"].get<std::string>()), std::string::npos);
-  EXPECT_EQ(waitpoint({"replay", "run.log", "--check", "--map", "m.yaml"}).errors,
-            "waitpoint: --check: cannot be used together with --map\n");
+  EXPECT_NE(replay.output.find(summary({"play", "run.log"})["digest"].get<std::string>()), std::string::npos);
+  EXPECT_EQ(waitpoint({"play", "run.log", "--verify", "--map", "m.yaml"}).errors,
+            "waitpoint: --verify: cannot be used together with --map\n");
 }
 
 TEST_F(LogScenario, ALimitOfTheScenarioHolds) {
@@ -110,7 +110,7 @@ TEST_F(LogScenario, ALimitOfTheScenarioHolds) {
   const json run = summary({"run", "s.yaml"});
   EXPECT_EQ(run["outcome"], "time limit");
   EXPECT_EQ(run["simulated_s"], 4);
-  EXPECT_EQ(run, summary({"replay", "run.log", "--scenario", "s.yaml"}));
+  EXPECT_EQ(run, summary({"play", "run.log", "--scenario", "s.yaml"}));
   EXPECT_EQ(summary({"run", "s.yaml", "--until", "2"})["simulated_s"], 2);
 }
 
@@ -132,13 +132,13 @@ TEST_F(LogScenario, RefusesOptionsThatNeedAWorld) {
   EXPECT_EQ(refused({"--events", "run.log"}),
             "waitpoint: the scenario's log: 'run.log' is the file that --events writes\n");
   EXPECT_EQ(waitpoint({"explore", "s.yaml"}).errors,
-            "waitpoint: s.yaml:2: expected a world: a log is played by 'waitpoint run' and 'waitpoint replay' only\n");
+            "waitpoint: s.yaml:2: expected a world: a log is played by 'waitpoint run' and 'waitpoint play' only\n");
   write("{file: run.log, scan: RLASSER}");
   EXPECT_EQ(refused({}),
             "waitpoint: s.yaml:2: scan: expected a type of CARMEN's records with scans, found 'RLASSER', did "
             "you mean 'RLASER'?\n");
   EXPECT_EQ(
-      waitpoint({"replay", "run.log", "--scenario", "s.yaml", "--scan", "LASSER"}).errors,
+      waitpoint({"play", "run.log", "--scenario", "s.yaml", "--scan", "LASSER"}).errors,
       "waitpoint: --scan: expected a type of CARMEN's records with scans, found 'LASSER', did you mean 'LASER'?\n");
   write("");
   EXPECT_EQ(refused({}), "waitpoint: s.yaml:2: expected the name of a log, found nothing\n");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `waitpoint replay` as a user calls it: on a recording of a simulated run, whose truth is known, and on real logs.
+// `waitpoint play` as a user calls it: on a recording of a simulated run, whose truth is known, and on real logs.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,7 +18,7 @@ namespace waitpoint::tools {
 namespace {
 
 runs::Outcome replay(std::vector<std::string> words) {
-  words.insert(words.begin(), {runs::program().string(), "replay"});
+  words.insert(words.begin(), {runs::program().string(), "play"});
   return runs::outcome_of({.words = words});
 }
 
@@ -200,7 +200,7 @@ TEST(Replay, ReportsErrorsInOneLine) {
             "waitpoint: --modules: expected each name once, found 'rflex,sick,rflex'\n");
   EXPECT_EQ(error({log, "--modules", "rflex"}),
             "waitpoint: --modules: expected a module that reads 'sick.reading', which the log feeds\n");
-  EXPECT_EQ(message({"replay", "a.log", "--pose", "gps"}), "--pose: expected segloc, pom or odometry, found 'gps'");
+  EXPECT_EQ(message({"play", "a.log", "--pose", "gps"}), "--pose: expected segloc, pom or odometry, found 'gps'");
 }
 
 TEST(Replay, EveryScanOfARealLogIsLocalised) {

@@ -42,9 +42,9 @@ namespace {
 
 /// Without the program's name.
 std::string explore_words(const ExploreOptions& options, const std::string& replayed) {
-  std::string line = "explore ";
+  std::string line = "explore";
   const bool is_program = !options.program.empty() && !options.has_nodes;
-  line += is_program ? "--exec" : quoted(options.scenario.string());
+  if (!is_program) line += " " + quoted(options.scenario.string());
   line += " --seed " + std::to_string(options.seed);
   if (options.has_until()) line += " --until " + to_string(options.until);
   if (is_program) line += options.conditions.words();

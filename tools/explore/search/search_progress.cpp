@@ -7,28 +7,23 @@ namespace waitpoint::tools {
 namespace {
 
 constexpr double redraw_s = 0.2;
-constexpr double line_s = 10;
 
 }  // namespace
 
 SearchProgress::SearchProgress(std::FILE* stream, bool terminal, Progress::Clock clock)
-    : stream_(stream),
-      terminal_(terminal),
-      clock_(clock),
-      start_s_(clock()),
-      next_s_(start_s_ + (terminal ? 0 : line_s)) {}
+    : stream_(stream), terminal_(terminal), clock_(clock), start_s_(clock()), next_s_(start_s_ + progress_after_s) {}
 
 bool SearchProgress::due() {
   const double now_s = clock_();
-  if (now_s < next_s_) return false;
-  next_s_ = now_s + (terminal_ ? redraw_s : line_s);
+  if (!terminal_ || now_s < next_s_) return false;
+  next_s_ = now_s + redraw_s;
   return true;
 }
 
 void SearchProgress::show(const std::string& words) {
-  fmt::print(stream_, "{}{}{}", terminal_ ? "\r\x1b[K" : "", words, terminal_ ? "" : "\n");
+  fmt::print(stream_, "\r\x1b[K{}", words);
   std::fflush(stream_);
-  shown_ = terminal_;
+  shown_ = true;
 }
 
 void SearchProgress::tell() {

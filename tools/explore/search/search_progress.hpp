@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Progress of a search: on a terminal a line redrawn in place; elsewhere a line at intervals.
+// Progress of a search: on a terminal, after two seconds, a line redrawn in place; elsewhere none.
 //
 // Reads the wall clock for display and limits; runs never do.
 #pragma once
@@ -17,7 +17,7 @@ namespace waitpoint::tools {
 
 struct SearchNews {
   std::uint64_t schedules = 0, distinct = 0, failures = 0;
-  double seconds = 0;      ///< since the begin
+  double seconds = 0;      ///< since the beginning
   std::string words = {};  ///< of another activity than searching
 };
 

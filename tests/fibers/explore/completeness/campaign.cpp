@@ -5,7 +5,7 @@
 //   completeness --program TEXT        this one
 //   ... --schedules MOST               of each program by each strategy (default: some thousand)
 //   ... --strategy NAME                dfs, bounded:1000 or dpor alone (default: all three)
-//   ... --exec                         on POSIX threads, under waitpoint explore --exec, instead of in this process;
+//   ... --exec                         on POSIX threads, under waitpoint explore, instead of in this process;
 //   all
 //                                      three only for small programs
 //

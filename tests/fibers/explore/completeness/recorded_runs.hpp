@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Programs on POSIX threads, by program.c under `waitpoint explore --exec`.
+// Programs on POSIX threads, by program.c under `waitpoint explore -- PROGRAM`.
 #pragma once
 
 #include <cstdint>

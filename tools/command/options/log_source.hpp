@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The options of commands that replay a log: which log, what to take from it, and which modules with which parameters.
+// A log of a real robot's sensors: which one, what to take from it, and which modules with which parameters get it.
 #pragma once
 
 #include <filesystem>
@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "modules/logs/sensor_log.hpp"
-#include "tools/command/command_line.hpp"
+#include "tools/command/command.hpp"
 
 namespace waitpoint::tools {
 
@@ -20,19 +20,9 @@ struct LogOptions {
   std::vector<std::string> assignments;           ///< of --set, in their order: "segloc.points.key_travel_m=0.2"
 };
 
-class LogArguments {
- public:
-  /// Adds the options, which are stored here.
-  void add(Command& command);
-  /// Throws BadInput for invalid values.
-  LogOptions options() const;
-  const std::string& log() const { return log_; }
-  /// Empty without one.
-  const std::string& scenario() const { return scenario_; }
-
- private:
-  std::string log_, scan_, odometry_, robot_, scenario_, modules_;
-  std::vector<std::string> assignments_;
-};
+/// The argument LOG, and the options.
+void declare_log(Command& command, LogOptions& options);
+/// The argument OTHER, with options for what to take from it: a second log.
+void declare_other_log(Command& command, LogOptions& options);
 
 }  // namespace waitpoint::tools
