@@ -120,13 +120,13 @@ const KeyTable& action_keys() {
           .add("uses", uses_schema, "amounts of resources")
           .add("after", names_schema, "actions that end before it starts")
           .require(at_most_one({"request", "tcl", "rendezvous"}))
-          .require({{"dependentRequired", {{"input", {"request"}}}}})
+          .require({{"if", needed({"input"})}, {"then", needed({"request"})}})
           .require({{"if",
                      {{"anyOf",
                        {needed({"rendezvous"}),
                         {{"properties", {{"kind", {{"const", "contingent"}}}}}, {"required", {"kind"}}}}}}},
                     {"then",
-                     {{"required", {"duration_s"}},
+                     {{"allOf", {needed({"duration_s"})}},
                       {"properties", {{"kind", {{"enum", {"contingent", nullptr}}}}}},
                       {"anyOf", {needed({"request"}), needed({"tcl"}), needed({"rendezvous"})}}}}});
   return keys;

@@ -39,6 +39,14 @@ Json needs_kind(std::initializer_list<const char*> keys, std::initializer_list<c
           {"then", {{"properties", {{"kind", {{"enum", words}}}}}, {"required", {"kind"}}}}};
 }
 
+Json wheels_need_sides() {
+  const Json of_wheels = {{"anyOf",
+                           {needed({"wheel_diameter_ratio"}), needed({"wheel_base_ratio"}),
+                            needed({"wheel_noise_m_per_sqrt_m"}), needed({"wheel_ticks_per_m"})}}};
+  return {{"if", {{"required", {"odometry"}}, {"properties", {{"odometry", of_wheels}}}}},
+          {"then", {{"properties", {{"kind", {{"enum", {"differential", "skid_steer"}}}}}}, {"required", {"kind"}}}}};
+}
+
 void check_keys_of_kind(const YamlMap& map, Kind kind) {
   only_for(map, kind == Kind::skid_steer, "skid_steer", {"effective_axle_ratio"});
   only_for(map, kind == Kind::ackermann, "ackermann", {"wheelbase_m", "steering_max_deg", "steering_rate_deg_s"});
@@ -56,6 +64,7 @@ const Keys<world::BaseDescription>& base_keys() {
           .add_fields()
           .add("odometry", &world::BaseDescription::odometry, object_form<world::OdometryErrors>("the odometry"),
                "errors of the odometry")
+          .require(wheels_need_sides())
           .require(needs_kind({"effective_axle_ratio"}, {"skid_steer"}))
           .require(needs_kind({"wheelbase_m", "steering_max_deg", "steering_rate_deg_s"}, {"ackermann"}))
           .require(needs_kind({"climb_max_m_s", "climb_acceleration_m_s2"}, {"aerial"}));

@@ -31,7 +31,8 @@ Json KeyTable::whole_schema(SchemaDefinitions& definitions) const {
   }
   Json schema = {{"type", "object"}, {"properties", std::move(properties)}, {"additionalProperties", false}};
   if (!needed.empty()) schema["required"] = std::move(needed);
-  if (!also_.empty() && !definitions.is_partial()) schema["allOf"] = also_;
+  if (definitions.is_partial()) return schema;
+  for (const SchemaMaker& also : also_) schema["allOf"].push_back(also(definitions));
   return schema;
 }
 

@@ -66,7 +66,10 @@ class KeyTable {
     return std::move(*this);
   }
   /// What beside the keys themselves has to hold, as keywords of a schema; not in a part.
-  void require_also(Json keywords) { also_.push_back(std::move(keywords)); }
+  void require_also(SchemaMaker keywords) { also_.push_back(std::move(keywords)); }
+  void require_also(Json keywords) {
+    also_.push_back([keywords](SchemaDefinitions&) { return keywords; });
+  }
 
   /// A reference to the schema of the map.
   Json schema(SchemaDefinitions& definitions) const;
@@ -77,7 +80,7 @@ class KeyTable {
   std::string name_;
   std::vector<Row> rows_;
   std::vector<std::string_view> names_;
-  std::vector<Json> also_;
+  std::vector<SchemaMaker> also_;
 };
 
 /// Of a map with these keys, of a list of such maps, and of one that may be a text alone: that of its first key.

@@ -4,14 +4,21 @@
 namespace waitpoint::scenario {
 namespace {
 
-constexpr std::string_view masters[] = {"inside", "outside"}, kinds[] = {"path", "cloud", "grid"};
+constexpr std::string_view masters[] = {"inside", "outside"};
+
+Json matching(const char* pattern) { return {{"type", {"string", "boolean"}}, {"pattern", pattern}}; }
 
 /// Names in front of others, which may be empty.
-Json prefix_schema(SchemaDefinitions&) { return {{"type", {"string", "number", "boolean"}}}; }
+Json prefix_schema(SchemaDefinitions&) { return any_of({{{"const", ""}}, ros_name_schema()}); }
+Json base_name_schema(SchemaDefinitions&) { return matching("^[A-Za-z][A-Za-z0-9_]*$"); }
+Json namespace_schema(SchemaDefinitions&) { return ros_name_schema(); }
+Json name_map_schema(SchemaDefinitions&) { return map_schema(or_null(ros_name_schema())); }
 Json text_map_schema(SchemaDefinitions&) { return map_schema(or_null(text_schema())); }
 Json any_map_schema(SchemaDefinitions&) { return {{"type", "object"}}; }
 
 }  // namespace
+
+Json ros_name_schema() { return matching("^(/|(/|~/?)?[A-Za-z][A-Za-z0-9_]*(/[A-Za-z0-9_]+)*)$"); }
 
 const Keys<RosScenario>& ros_keys() {
   static const Keys<RosScenario> keys =
@@ -32,9 +39,9 @@ const KeyTable& robot_ros_keys() {
           .add(
               "map_to_odom", [](SchemaDefinitions&) { return word_schema(map_to_odom_words); },
               "`truth`: the true transform from `map` to `odom` is published; `nodes`: a node estimates it")
-          .add("publish", text_map_schema, "posters and the topics as which they are published")
+          .add("publish", name_map_schema, "posters and the topics as which they are published")
           .add(
-              "show", [](SchemaDefinitions&) { return map_schema(or_null(word_schema(kinds))); },
+              "show", [](SchemaDefinitions&) { return map_schema(or_null(word_schema(shown_kinds))); },
               "topics that pictures and recordings have, as `path`, `cloud` or `grid`");
   return keys;
 }
@@ -42,14 +49,14 @@ const KeyTable& robot_ros_keys() {
 const KeyTable& node_keys() {
   static const KeyTable keys =
       KeyTable("node")
-          .add("name", text_form().schema, "of letters, digits and `_`", Need::required)
+          .add("name", base_name_schema, "of letters, digits and `_`", Need::required)
           .add("command", texts(1), "a program and its arguments")
           .add("package", text_form().schema, "with `type`: an executable of a package")
           .add("type", text_form().schema, "the executable")
           .add("arguments", texts(), "further arguments")
-          .add("namespace", text_form().schema, "within the robot's, unless it begins with `/`")
+          .add("namespace", namespace_schema, "within the robot's, unless it begins with `/`")
           .add("params", any_map_schema, "its private parameters")
-          .add("remap", text_map_schema, "names of its code, and those used instead")
+          .add("remap", name_map_schema, "names of its code, and those used instead")
           .add("environment", text_map_schema, "variables")
           .add("after", texts(),
                "what its start waits for: `NODE`, `NODE.started`, `topic:NAME`, `service:NAME`, `tcp:PORT`, a path "

@@ -7,7 +7,8 @@
 
 namespace waitpoint::scenario {
 
-inline constexpr std::string_view map_to_odom_words[] = {"truth", "nodes"}, output_words[] = {"log", "screen"};
+inline constexpr std::string_view map_to_odom_words[] = {"truth", "nodes"}, output_words[] = {"log", "screen"},
+                                  shown_kinds[] = {"path", "cloud", "grid"};
 
 /// The scenario's `ros`.
 const Keys<RosScenario>& ros_keys();
@@ -17,6 +18,8 @@ const KeyTable& node_keys();
 /// A launch file with values of its arguments.
 const KeyTable& launch_keys();
 
+/// A name in the graph of ROS.
+Json ros_name_schema();
 Json launch_schema(SchemaDefinitions& definitions);
 Json nodes_schema(SchemaDefinitions& definitions);
 

@@ -3,6 +3,7 @@
 
 #include "core/confinement.hpp"
 #include "modules/ros1/graph_name.hpp"
+#include "modules/scenario/nodes_keys.hpp"
 
 namespace waitpoint::scenario {
 namespace {
@@ -36,7 +37,7 @@ void read_topics_of(const YamlNode& node, PlayScenario& play) {
   play.topics_written = node.written;
 }
 
-Json topics_schema(SchemaDefinitions&) { return list_schema(text_schema(), 1); }
+Json topics_schema(SchemaDefinitions&) { return list_schema(ros_name_schema(), 1); }
 
 }  // namespace
 

@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "modules/ros1/graph_name.hpp"
+#include "modules/scenario/nodes_keys.hpp"
 #include "modules/scenario/yaml_reader.hpp"
 
 namespace waitpoint::scenario {
@@ -46,16 +47,15 @@ std::vector<ShownTopic> shown_topics(const NodesScenario& nodes) {
   std::vector<ShownTopic> table;
   const YamlNode* const show = table_of(nodes, "show", "topics and their kinds");
   if (show == nullptr) return table;
-  constexpr std::string_view kinds[] = {"path", "cloud", "grid"};
   for (const YamlEntry& entry : show->entries) {
     if (entry.value.is_null()) continue;
     check_topic(entry.key, "a topic in show", entry.written);
     const std::string kind = read_text(entry.value, "the kind of '" + entry.key + "'");
-    const auto* const found = std::find(std::begin(kinds), std::end(kinds), kind);
-    if (found == std::end(kinds))
+    const auto* const found = std::find(std::begin(shown_kinds), std::end(shown_kinds), kind);
+    if (found == std::end(shown_kinds))
       throw entry.value.written.bad("expected the kind of '" + entry.key + "' to be path, cloud or grid, found '" +
                                     kind + "'");
-    table.push_back({entry.key, static_cast<ShownTopic::Kind>(found - std::begin(kinds))});
+    table.push_back({entry.key, static_cast<ShownTopic::Kind>(found - std::begin(shown_kinds))});
   }
   return table;
 }

@@ -33,8 +33,13 @@ Json names_schema(SchemaDefinitions& definitions) {
   return schema;
 }
 
+/// Of a value that replaces another one as a whole.
+SchemaMaker whole(SchemaMaker make) {
+  return [make](SchemaDefinitions& definitions) { return definitions.whole(make); };
+}
+
 Json goals_schema(SchemaDefinitions& definitions) {
-  return list_schema(any_of({numbers_schema(ranges::coordinate, 2, 2), goal_keys().schema(definitions)}));
+  return list_schema(any_of({numbers_schema(ranges::coordinate, 2, 2), definitions.whole(map_of(goal_keys()))}));
 }
 
 Json urdf_schema(SchemaDefinitions&) {
@@ -55,7 +60,7 @@ KeyTable software(std::string name) {
   return KeyTable(std::move(name))
       .add("modules", list_of_outer("module"),
            "a list, in starting order: `name`, `type`, `enabled`, and the module's own parameters")
-      .add("bridge", list_of(bridge_row_keys()), "the table of posters and values of devices")
+      .add("bridge", whole(list_of(bridge_row_keys())), "the table of posters and values of devices")
       .add("executive", outer("executive"), "parameters of the executive")
       .add("processors", names_schema,
            "names of processors that tasks of the modules can share; without it, each task has one of its own")
@@ -91,7 +96,7 @@ const KeyTable& logged_robot_keys() {
                                    .add("name", name_schema, "its name", Need::required)
                                    .add("type", text_form().schema, "one of `robot_types`")
                                    .add("modules", list_of_outer("module"), "as of a robot")
-                                   .add("bridge", list_of(bridge_row_keys()), "as of a robot")
+                                   .add("bridge", whole(list_of(bridge_row_keys())), "as of a robot")
                                    .add("processors", names_schema, "as of a robot");
   return keys;
 }
@@ -152,7 +157,7 @@ const KeyTable& robot_keys() {
       KeyTable("robot")
           .add("name", name_schema, "of letters, digits, `_` and `-`", Need::required)
           .add("type", text_form().schema, "one of `robot_types`, whose keys the robot's own override")
-          .add("start", pose_form().schema, "`[x, y, heading_deg]`", Need::required)
+          .add("start", whole(pose_form().schema), "`[x, y, heading_deg]`", Need::required)
           .add("goals", goals_schema, "a list of `[x, y]` or `{x_m, y_m, name}`")
           .add("start_height_m", number_form(ranges::height).schema, "of an aerial robot above the floor")
           .add("plan", text_form().schema, "in place of goals: the file of a temporal plan")
@@ -163,24 +168,26 @@ const KeyTable& robot_keys() {
                     {"then",
                      {{"required", {"base"}},
                       {"properties",
-                       {{"base", {{"required", {"kind"}}, {"properties", {{"kind", {{"const", "aerial"}}}}}}}}}}}})
+                       {{"base",
+                         {{"type", "object"},
+                          {"required", {"kind"}},
+                          {"properties", {{"kind", {{"const", "aerial"}}}}}}}}}}}})
           .require({{"if", {{"anyOf", {needed({"plan"}), needed({"trajectory"})}}}}, {"then", no_goals()}})
           .require({{"not", needed({"plan", "trajectory"})}});
   return keys;
 }
 
-Json robots_schema(SchemaDefinitions& definitions) {
-  const Json whole = robot_keys().schema(definitions);
+Json robot_schema(SchemaDefinitions& definitions) {
+  const Json alone = robot_keys().schema(definitions);
   // What a robot of a type must have is a name and a start: the rest may be the type's.
-  Json of_type = definitions.part([](SchemaDefinitions& partial) { return robot_keys().schema(partial); });
-  of_type = {{"allOf", {of_type, needed({"name", "start"})}}};
-  const Json robot = {{"if", needed({"type"})}, {"then", of_type}, {"else", whole}};
-  const Json of_log = logged_robot_keys().schema(definitions);
-  return list_schema(any_of({robot, of_log}), 1);
+  const Json of_type = {{"allOf", {definitions.part(map_of(robot_keys())), needed({"name", "start"})}}};
+  return {{"if", needed({"type"})}, {"then", of_type}, {"else", alone}};
 }
 
+Json robot_of_log_schema(SchemaDefinitions& definitions) { return logged_robot_keys().schema(definitions); }
+
 Json robots_from_map_schema(SchemaDefinitions& definitions) {
-  Json row = definitions.part([](SchemaDefinitions& partial) { return robot_of_map_keys().schema(partial); });
+  Json row = definitions.part(map_of(robot_of_map_keys()));
   return any_of({text_schema(), list_schema(std::move(row), 1)});
 }
 

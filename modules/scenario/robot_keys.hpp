@@ -21,7 +21,9 @@ const KeyTable& goal_keys();
 const KeyTable& bridge_row_keys();
 const KeyTable& program_keys();
 
-Json robots_schema(SchemaDefinitions& definitions);
+/// Of an element of `robots`; beside a log of one whose modules it drives.
+Json robot_schema(SchemaDefinitions& definitions);
+Json robot_of_log_schema(SchemaDefinitions& definitions);
 Json robots_from_map_schema(SchemaDefinitions& definitions);
 Json control_schema(SchemaDefinitions& definitions);
 

@@ -76,13 +76,33 @@ KeyTable headed_as_included(std::string name) {
 }
 
 /// Beside a log there is one robot, without a body, and no world.
-Json beside_log(const KeyTable& keys) {
+Json keys_beside_log(const KeyTable& keys) {
   Json properties = Json::object();
-  for (const std::string_view key : keys.names()) properties[std::string(key)] = false;
+  for (const std::string_view key : keys.names()) properties[std::string(key)] = {{"type", "null"}};
   for (const char* good : {"format", "name", "description", "until_s", "log", "robot_types", "robots"})
     properties.erase(good);
-  for (auto& [key, schema] : properties.items()) schema = {{"type", "null"}};
   return {{"if", needed({"log"})}, {"then", {{"properties", properties}, {"required", {"robots"}}}}};
+}
+
+/// A log's robot has no body.
+Json robots_schema(SchemaDefinitions& definitions) {
+  return list_schema(any_of({robot_schema(definitions), robot_of_log_schema(definitions)}), 1);
+}
+
+/// The two kinds of robots told apart, for those who see the whole scenario.
+Json bodies_of_robots(SchemaDefinitions& definitions) {
+  const auto robots = [](Json robot) { return Json{{"properties", {{"robots", {{"items", std::move(robot)}}}}}}; };
+  return {{"if", needed({"log"})},
+          {"then", robots(robot_of_log_schema(definitions))},
+          {"else", robots(robot_schema(definitions))}};
+}
+
+/// Types have a shape, but where a map may give it or an included type.
+Json shapes_of_types() {
+  const Json shape = {{"anyOf", {needed({"shape"}), needed({"urdf"})}}};
+  const Json types = {{"if", needed({"include"})},
+                      {"else", {{"properties", {{"include", Json::object()}}}, {"additionalProperties", shape}}}};
+  return {{"if", {{"not", needed({"robots_from_map"})}}}, {"then", {{"properties", {{"robot_types", types}}}}}};
 }
 
 }  // namespace
@@ -144,7 +164,9 @@ const KeyTable& scenario_keys() {
                          .add("play", map_of(play_keys().table()), "a bag of ROS in the place of a world, for nodes")
                          .add("launch", launch_schema, "beside `play`: a launch file of ROS")
                          .add("nodes", nodes_schema, "beside `play`: nodes of ROS");
-    table.require_also(beside_log(table));
+    table.require_also(keys_beside_log(table));
+    table.require_also(bodies_of_robots);
+    table.require_also(shapes_of_types());
     table.require_also({{"if", {{"not", {{"anyOf", {needed({"robots_from_map"}), needed({"play"})}}}}}},
                         {"then", needed({"robots"})}});
     return table;

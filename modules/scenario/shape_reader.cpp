@@ -95,7 +95,7 @@ const KeyTable& obstacle_keys() {
               {{"oneOf", {needed({"corners_m"}), needed({"centre_m", "size_m"}), needed({"centre_m", "radius_m"})}}})
           .require({{"if", needed({"corners_m"})},
                     {"then", {{"not", {{"anyOf", {about_centre, needed({"heading_deg"})}}}}}}})
-          .require({{"dependentRequired", {{"friction", {"mass_kg"}}}}});
+          .require({{"if", needed({"friction"})}, {"then", needed({"mass_kg"})}});
   return keys;
 }
 

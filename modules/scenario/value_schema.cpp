@@ -2,6 +2,7 @@
 #include "modules/scenario/value_schema.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace waitpoint::scenario {
 
@@ -16,12 +17,14 @@ Json SchemaDefinitions::reference(const std::string& name, const std::function<J
   return {{"$ref", "#/$defs/" + key}};
 }
 
-Json SchemaDefinitions::part(const std::function<Json(SchemaDefinitions&)>& make) {
-  if (is_partial_) return make(*this);
-  SchemaDefinitions definitions(true);
-  definitions.made_.swap(made_);
-  Json schema = make(definitions);
-  made_.swap(definitions.made_);
+Json SchemaDefinitions::part(const std::function<Json(SchemaDefinitions&)>& make) { return made_by(true, make); }
+
+Json SchemaDefinitions::whole(const std::function<Json(SchemaDefinitions&)>& make) { return made_by(false, make); }
+
+Json SchemaDefinitions::made_by(bool is_partial, const std::function<Json(SchemaDefinitions&)>& make) {
+  const bool before = std::exchange(is_partial_, is_partial);
+  Json schema = make(*this);
+  is_partial_ = before;
   return schema;
 }
 
@@ -73,9 +76,12 @@ Json any_of(std::initializer_list<Json> schemas) {
 }
 
 Json needed(std::initializer_list<const char*> keys) {
-  Json list = Json::array();
-  for (const char* key : keys) list.push_back(key);
-  return {{"required", list}};
+  Json list = Json::array(), values = Json::object();
+  for (const char* key : keys) {
+    list.push_back(key);
+    values[key] = {{"not", {{"type", "null"}}}};
+  }
+  return {{"required", list}, {"properties", values}};
 }
 
 Json or_null(Json schema) {

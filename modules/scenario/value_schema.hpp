@@ -28,11 +28,14 @@ class SchemaDefinitions {
   bool is_partial() const { return is_partial_; }
   /// A reference to the definition `name`, which `make` makes at first use.
   Json reference(const std::string& name, const std::function<Json()>& make);
-  /// The schema of a part, with its definitions beside these.
+  /// The schema of a part, or of a whole within a part: what replaces a value as a whole.
   Json part(const std::function<Json(SchemaDefinitions&)>& make);
+  Json whole(const std::function<Json(SchemaDefinitions&)>& make);
   const std::map<std::string, Json>& made() const { return made_; }
 
  private:
+  Json made_by(bool is_partial, const std::function<Json(SchemaDefinitions&)>& make);
+
   bool is_partial_;
   std::map<std::string, Json> made_;
 };
@@ -50,7 +53,7 @@ Json numbers_schema(const NumberRange& range, std::size_t size_min, std::size_t 
 /// A map of any keys, whose values are each of this kind.
 Json map_schema(Json value);
 Json any_of(std::initializer_list<Json> schemas);
-/// The keys are there.
+/// The keys are there, with values.
 Json needed(std::initializer_list<const char*> keys);
 /// The same or null: a key without a value is the same as no key.
 Json or_null(Json schema);
