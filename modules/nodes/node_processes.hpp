@@ -2,13 +2,13 @@
 // The processes of a launch's nodes: each is started in its order, when its conditions hold, and watched until its end.
 #pragma once
 
-#include <sys/types.h>
-
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "core/hosting/hosted_programs.hpp"
+#include "core/hosting/spawned_processes.hpp"
 #include "core/time.hpp"
 #include "modules/nodes/master_side.hpp"
 #include "modules/ros1/launch.hpp"
@@ -36,7 +36,7 @@ class NodeProcesses {
  public:
   /// `master` must outlive this.
   NodeProcesses(std::vector<NodeCommand> commands, const MasterSide& master, NodeEnds ends = NodeEnds::asked,
-                std::vector<ros1::EnvironmentVariable> environment = {});
+                const std::vector<EnvironmentVariable>& environment = {});
   ~NodeProcesses() { end(); }
   NodeProcesses(const NodeProcesses&) = delete;
   NodeProcesses& operator=(const NodeProcesses&) = delete;
@@ -48,7 +48,7 @@ class NodeProcesses {
   /// True when a required node has ended, or all tests have.
   bool is_over() const { return is_over_; }
   /// True when all have ended.
-  bool have_ended() const;
+  bool have_ended() const { return programs_.have_all_ended(); }
   /// True when those that could start so far have registered with the master, ended, or been told of.
   bool are_there() const;
   /// A line for each node whose conditions have not come true.
@@ -60,28 +60,27 @@ class NodeProcesses {
   void end();
 
  private:
-  enum class State : unsigned char { waiting, running, ended };
-  struct Process {
+  struct WatchedNode {
     NodeCommand command;
-    State state = State::waiting;
-    pid_t id = 0;
     Time started = {};
     bool is_registered = false, is_missed = false;
-    int status = 0;  // of its end
+    bool is_end_noted = false;
+
+    std::string name() const { return command.node.global_name(); }
+    bool is_test() const { return command.time_limit.has_value(); }
   };
 
-  bool may_start(const Process& process) const;
-  bool holds(const ros1::NodeCondition& condition) const;
-  const Process* find(const std::string& name) const;
-  void start(Process& process, Time now);
-  void watch(Process& process, Time now);
-  void note_end(Process& process, int status);
-  void reap();
+  bool is_advertised(const StartCondition& condition) const;
+  void start_if_due(std::size_t number, Time now);
+  void watch(std::size_t number, Time now);
+  void note_ends();
+  void note_end(WatchedNode& node, const ProgramEnd& end);
 
   const MasterSide& master_;
   NodeEnds ends_;
-  std::vector<ros1::EnvironmentVariable> environment_;  // of all nodes
-  std::vector<Process> processes_;                      // in their order
+  SpawnedProcesses processes_;
+  HostedPrograms programs_;
+  std::vector<WatchedNode> nodes_;  // in the order of their starts
   std::vector<NodeNews> news_;
   bool is_over_ = false, is_ending_ = false;
 };

@@ -23,8 +23,8 @@ namespace waitpoint::nodes {
 struct NodeRunOptions {
   /// It ends as soon as an expectation of the scenario cannot be met any more, and its nodes are killed at the end.
   bool is_brief = false;
-  std::vector<ros1::EnvironmentVariable> environment = {};  ///< of all nodes, besides the run's
-  std::shared_ptr<ShownTopics> shown = {};                  ///< gets the messages that pictures and recordings show
+  std::vector<EnvironmentVariable> environment = {};  ///< of all nodes, besides the run's
+  std::shared_ptr<ShownTopics> shown = {};            ///< gets the messages that pictures and recordings show
 };
 
 class WorldNode final : public outside::Partner {

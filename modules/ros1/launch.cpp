@@ -92,24 +92,19 @@ void Launch::add_text(const std::string& text) {
 
 void settle_conditions(Launch& launch) {
   std::vector<std::string> names;
-  std::vector<std::vector<StartCondition>> after(launch.nodes.size());
   names.reserve(launch.nodes.size());
-  for (std::size_t i = 0; i < launch.nodes.size(); ++i) {
-    Node& node = launch.nodes[i];
+  for (Node& node : launch.nodes) {
     names.push_back(node.global_name());
-    for (NodeCondition& each : node.after) {
-      auto* condition = std::get_if<StartCondition>(&each);
-      if (condition == nullptr || !condition->is_of_program()) continue;
-      condition->of = launch.nodes[index_of(launch, node, condition->of)].global_name();
-      after[i].push_back(*condition);
-    }
+    for (StartCondition& each : node.after)
+      if (each.is_of_program()) each.of = launch.nodes[index_of(launch, node, each.of)].global_name();
   }
   std::vector<ConditionedStart> starts;
   starts.reserve(names.size());
-  for (std::size_t i = 0; i < names.size(); ++i) starts.push_back({names[i], after[i]});
-  if (const std::size_t never = first_never_started(starts); never < starts.size())
+  for (std::size_t i = 0; i < names.size(); ++i) starts.push_back({names[i], launch.nodes[i].after});
+  check_conditions(starts, [&](std::size_t never, const StartCondition*) {
     throw launch.nodes[never].written.bad("'" + launch.nodes[never].name +
                                           "' can never start: the conditions in after form a cycle");
+  });
 }
 
 }  // namespace waitpoint::ros1

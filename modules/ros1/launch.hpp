@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "core/hosting/program_host.hpp"
 #include "core/location.hpp"
 #include "modules/ros1/node_condition.hpp"
 
@@ -17,10 +18,6 @@ namespace waitpoint::ros1 {
 /// A name of a node's code, and the one used in its place; as written, relative to the node's namespace.
 struct Remapping {
   std::string from, to;
-};
-
-struct EnvironmentVariable {
-  std::string name, value;
 };
 
 struct Node {
@@ -33,7 +30,7 @@ struct Node {
   std::string package, type;           ///< without a command: the executable `type` of the package
   std::vector<std::string> arguments;  ///< after the command or the executable
   std::vector<Remapping> remappings;   ///< no two from one name
-  std::vector<NodeCondition> after;    ///< its start waits for all; names are those of nodes of the launch
+  std::vector<StartCondition> after;   ///< its start waits for all; names are those of nodes of the launch
   std::vector<EnvironmentVariable> environment;  ///< besides the one of the run; no two of one name
   std::string clock;      ///< time that its computing takes, as of `waitpoint exec --clock`; may be empty
   bool required = false;  ///< its end is the end of the run

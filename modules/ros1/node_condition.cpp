@@ -7,16 +7,16 @@
 
 namespace waitpoint::ros1 {
 
-bool parse(const std::string& text, std::string_view ns, NodeCondition& condition) {
-  constexpr std::pair<std::string_view, Advertisement::Kind> kinds[] = {{"topic:", Advertisement::Kind::topic},
-                                                                        {"service:", Advertisement::Kind::service}};
+bool parse(const std::string& text, std::string_view ns, StartCondition& condition) {
+  using Kind = StartCondition::Kind;
+  constexpr std::pair<std::string_view, Kind> kinds[] = {{"topic:", Kind::topic}, {"service:", Kind::service}};
   for (const auto& [prefix, kind] : kinds) {
     if (!text.starts_with(prefix)) continue;
     const std::string_view name = std::string_view(text).substr(prefix.size());
-    condition = Advertisement{kind, resolved(name, ns)};
+    condition = {.kind = kind, .of = resolved(name, ns)};
     return is_graph_name(name) && name != "/" && !name.starts_with('~');
   }
-  return parse(text, condition.emplace<StartCondition>());
+  return parse(text, condition);
 }
 
 }  // namespace waitpoint::ros1

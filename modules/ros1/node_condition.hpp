@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a node waits for before its start: the conditions of core/start_condition.hpp, whose names are those of nodes,
-// and
+// What a node waits for before its start: the conditions of core/hosting/start_condition.hpp, whose names are those of
+// nodes, and
 //
 //   topic:NAME    a publisher of the topic is registered with the master
 //   service:NAME  a server of the service is
@@ -8,25 +8,17 @@
 
 #include <string>
 #include <string_view>
-#include <variant>
 
-#include "core/start_condition.hpp"
+#include "core/hosting/start_condition.hpp"
 
 namespace waitpoint::ros1 {
-
-struct Advertisement {
-  enum class Kind : unsigned char { topic, service };
-  Kind kind = Kind::topic;
-  std::string name;  ///< global
-};
-
-using NodeCondition = std::variant<StartCondition, Advertisement>;
 
 /// What parse() takes, for messages.
 inline constexpr std::string_view node_conditions =
     "NODE, NODE.started, tcp:PORT, topic:NAME, service:NAME or a path with a '/'";
 
-/// Parses a condition of a node in the namespace `ns`. False for an invalid name or port, or an empty text.
-bool parse(const std::string& text, std::string_view ns, NodeCondition& condition);
+/// Parses a condition of a node in the namespace `ns`; the names of topics and services become global. False for an
+/// invalid name or port, or an empty text.
+bool parse(const std::string& text, std::string_view ns, StartCondition& condition);
 
 }  // namespace waitpoint::ros1

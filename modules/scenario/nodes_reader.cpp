@@ -69,7 +69,7 @@ void read_program(const YamlMap& map, ros1::Node& node) {
 void read_conditions_of_node(const YamlNode& list, ros1::Node& node) {
   for (const YamlNode& item : read_list(list, "after")) {
     const std::string text = read_lines(item, "a condition");
-    if (!parse(text, node.ns, node.after.emplace_back()))
+    if (!ros1::parse(text, node.ns, node.after.emplace_back()))
       throw item.written.bad("expected " + std::string(ros1::node_conditions) + " in after, found '" + text + "'");
   }
 }

@@ -64,7 +64,7 @@ KeyTable software(std::string name) {
       .add("executive", outer("executive"), "parameters of the executive")
       .add("processors", names_schema,
            "names of processors that tasks of the modules can share; without it, each task has one of its own")
-      .add("programs", list_of(program_keys()), "programs: processes, or shared objects whose threads are tasks")
+      .add("programs", list_of(program_keys()), "programs: commands, or shared objects")
       .add("control", control_schema, "rules between the clients of the modules and the modules")
       .add("ros", map_of(robot_ros_keys()), "names and topics of the robot's nodes of ROS")
       .add("launch", launch_schema, "a launch file of ROS")
@@ -128,9 +128,9 @@ const KeyTable& program_keys() {
   static const KeyTable keys =
       KeyTable("program")
           .add("name", name_schema, "its name", Need::required)
-          .add("file", text_form().schema, "a shared object with a `main()`: its threads are tasks of the robot")
+          .add("file", text_form().schema, "a shared object with a `main()`: in-process, unless `hosting` says otherwise")
           .add("arguments", texts(), "of the shared object")
-          .add("command", texts(1), "a program and its arguments: processes")
+          .add("command", texts(1), "a program and its arguments: processes, unless `hosting` says otherwise")
           .add("after", texts(), "what its start waits for: `NAME`, `NAME.started`, `tcp:PORT`, a path with a `/`")
           .add("enabled", truth_form().schema, "`false`: it is left out")
           .require({{"oneOf", {needed({"file"}), needed({"command"})}}})

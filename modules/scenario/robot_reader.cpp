@@ -117,19 +117,15 @@ std::vector<StartCondition> read_conditions(const YamlNode& node) {
 
 // Those on other programs must be of enabled ones of the robot, and without cycles.
 void check_conditions(const std::vector<ProgramScenario>& programs) {
-  const auto is_known = [&programs](const std::string& name) {
-    return std::any_of(programs.begin(), programs.end(), [&name](const auto& each) { return each.name == name; });
-  };
   std::vector<ConditionedStart> starts;
-  for (const ProgramScenario& program : programs) {
-    for (const StartCondition& condition : program.after)
-      if (condition.is_of_program() && !is_known(condition.of))
-        throw program.written.bad("after: the robot has no program '" + condition.of + "'");
-    starts.push_back({program.name, program.after});
-  }
-  if (const std::size_t never = first_never_started(starts); never < starts.size())
-    throw programs[never].written.bad("'" + programs[never].name +
-                                      "' can never start: the conditions in after form a cycle");
+  starts.reserve(programs.size());
+  for (const ProgramScenario& program : programs) starts.push_back({program.name, program.after});
+  waitpoint::check_conditions(starts, [&](std::size_t refused, const StartCondition* unknown) {
+    const ProgramScenario& program = programs[refused];
+    throw program.written.bad(unknown != nullptr
+                                  ? "after: the robot has no program '" + unknown->of + "'"
+                                  : "'" + program.name + "' can never start: the conditions in after form a cycle");
+  });
 }
 
 std::vector<ProgramScenario> read_programs(const YamlNode& node) {
@@ -141,16 +137,18 @@ std::vector<ProgramScenario> read_programs(const YamlNode& node) {
     program.name = read_name(map.require("name"), "the name of a program");
     if (Confinement::exists()) throw item.written.bad("programs are not loaded with --confined");
     if (const YamlNode* command = map.find("command")) {
-      program.command = read_command(*command);
+      program.words = read_command(*command);
       if (map.find("file") != nullptr || map.find("arguments") != nullptr)
         throw item.written.bad("expected a file with arguments, or a command, in a program, got both");
     } else {
       const YamlNode& file = map.require("file");
-      program.file = file.written.resolve(read_text(file, "file"));
+      program.words = {file.written.resolve(read_text(file, "file"))};
+      program.is_shared_object = true;
+      program.hosting = Hosting::in_process;
     }
     if (const YamlNode* arguments = map.find("arguments"))
       for (const YamlNode& argument : read_list(*arguments, "arguments"))
-        program.arguments.push_back(read_lines(argument, "an argument"));
+        program.words.push_back(read_lines(argument, "an argument"));
     if (const YamlNode* after = map.find("after")) program.after = read_conditions(*after);
     for (const ProgramScenario& other : programs)
       if (other.name == program.name)

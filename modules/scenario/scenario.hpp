@@ -14,9 +14,9 @@
 #include <string_view>
 #include <vector>
 
+#include "core/hosting/program_host.hpp"
 #include "core/pose.hpp"
 #include "core/setting.hpp"
-#include "core/start_condition.hpp"
 #include "core/time.hpp"
 #include "fibers/io/medium.hpp"
 #include "modules/logs/given_laser.hpp"
@@ -104,14 +104,13 @@ struct ModuleScenario {
   Location written;
 };
 
-/// A program of the robot, instead of or beside modules: a shared object, whose threads are tasks of the robot, or a
-/// command, which is a process with all that it starts.
+/// A program of the robot, instead of or beside modules.
 struct ProgramScenario {
   std::string name;
-  std::filesystem::path file;          ///< a shared object with a main(): resolved; empty for a command
-  std::vector<std::string> command;    ///< a program and its arguments; empty for a shared object
-  std::vector<std::string> arguments;  ///< of the shared object
-  std::vector<StartCondition> after;   ///< its start waits for all; names are of the robot's programs
+  std::vector<std::string> words;  ///< its file, resolved, and its arguments
+  bool is_shared_object = false;   ///< the file is one, with a main()
+  Hosting hosting = Hosting::processes;
+  std::vector<StartCondition> after;  ///< its start waits for all; names are of the robot's programs
   Location written;
 };
 

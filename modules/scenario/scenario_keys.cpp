@@ -153,6 +153,7 @@ const KeyTable& scenario_keys() {
                          .add("expect", map_of(expectation_table().table()), "results, otherwise exit status 1")
                          .add("until_s", duration_form(1s).schema, "time limit, in virtual time")
                          .add("world", unless_included(map_of(world_keys().table())), "obstacles")
+                         .add("hosting", word_form<Hosting>(hosting_words).schema, "how robots' programs are hosted")
                          .add("medium", map_of(medium_keys().table()), "model of communication between robots")
                          .add("robot_types", unless_included(types_schema),
                               "robots' equipment by name; `include: FILE` reads a file of types")

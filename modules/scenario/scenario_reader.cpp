@@ -123,6 +123,13 @@ void add_texts(Scenario& scenario) {
   scenario.fingerprint = digest.value();
 }
 
+// In the place of what follows from the kind of each program.
+void read_hosting(const YamlMap& map, Scenario& scenario) {
+  const auto hosting = static_cast<Hosting>(map.one_of("hosting", hosting_words, 0));
+  for (RobotScenario& robot : scenario.robots)
+    for (ProgramScenario& program : robot.programs) program.hosting = hosting;
+}
+
 }  // namespace
 
 void MapFile::read() {
@@ -177,6 +184,7 @@ Scenario read_scenario(const std::filesystem::path& file, const std::vector<std:
   else if (map.has("robots") || (from_map == nullptr && !scenario.play))
     read_robots(map.require("robots"), types, scenario);
   if (from_map != nullptr) read_robots_from_map(*from_map, types, scenario);
+  if (map.has("hosting")) read_hosting(map, scenario);
   if (const YamlNode* control = map.find("control")) read_common_control(*control, scenario);
   if (const YamlNode* ros = map.find("ros")) scenario.ros = read_ros(*ros);
   take_nodes_beside_bag(map, scenario);

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Programs of a robot: robots_programs_test.py BUILD [CLASS[.TEST]...].
 
-They are shared objects in the simulator's process, or commands, which are processes. Their sources are independent of waitpoint
-(several/).
+The tests of Hosted are those of both back ends: processes, and copies of shared objects in the simulator's process. The
+programs' sources are independent of waitpoint (several/).
 """
 
 import ctypes.util
@@ -84,10 +84,11 @@ PROGRAMS_OF_ROBOT = "[" + ", ".join(
     f"{{name: {path.stem}, file: {path}, arguments: {arguments}}}" for path, *arguments in CHAIN) + "]"
 
 
-def office(command, *words, programs=PROGRAMS_OF_ROBOT, env=None, folder=None):
+def office(command, *words, programs=PROGRAMS_OF_ROBOT, hosting=None, env=None, folder=None):
     """The office's robot with programs, for some seconds."""
-    return subprocess.run([WAITPOINT, command, SCENARIO, *words, "--set", f"robots.rackham.programs={programs}",
-                           "--set", "expect={}"], capture_output=True, text=True, timeout=120, env=env, cwd=folder)
+    hosted = ["--set", f"hosting={hosting}"] if hosting else []
+    return subprocess.run([WAITPOINT, command, SCENARIO, *words, "--set", f"robots.rackham.programs={programs}", *hosted,
+                           "--set", "expect={}"], capture_output=True, text=True, timeout=240, env=env, cwd=folder)
 
 
 def program(name, file, *arguments):
@@ -98,8 +99,127 @@ def digest_of_summary(run):
     return re.search(r"digest +(wp1:[0-9a-f]{16})", run.stdout).group(1)
 
 
-class Robot(unittest.TestCase):
-    """The writer, the filter and the reader as parts of the robot in the office."""
+class Hosted:
+    """What programs do however they are hosted: in each class below, by its back end."""
+
+    hosting = None
+
+    def office(self, *words, **options):
+        return office(*words, hosting=self.hosting, **options)
+
+    def test_programs_repeat_and_end_with_their_statuses(self):
+        runs = [self.office("run", "--until", "5") for _ in range(2)]
+        for run in runs:
+            self.assertEqual(run.returncode, 0, run.stderr)
+            self.assertIn("LINE 2 AT 0.2 S\n", run.stdout)
+            self.assertIn("5 lines\n", run.stdout)
+            for program, status in ("writer", 0), ("filter", 0), ("reader", 5):
+                self.assertIn(f"  rackham: program {program} ended with exit status {status}\n", run.stdout)
+            self.assertEqual(digest_of_summary(run), digest_of_summary(runs[0]))
+        alone = office("run", "--until", "5", programs="[]")
+        self.assertNotIn("program", alone.stdout)
+        self.assertNotEqual(digest_of_summary(runs[0]), digest_of_summary(alone))
+
+    def test_conditions_order_the_starts(self):
+        chain = PROGRAMS_OF_ROBOT.replace(", arguments: [1, 10]", ", arguments: [1, 10], after: [reader.started]")
+        run = self.office("run", "--until", "5", programs=chain)
+        self.assertIn("LINE 10 AT 1.0 S\n5 lines\n", run.stdout, run.stderr)
+
+    def test_schedules_of_them_are_explored(self):
+        run = self.office("explore", "--until", "2", "--iterations", "4")
+        self.assertEqual(run.returncode, 0, run.stdout + run.stderr)
+        again = self.office("explore", "--until", "2", "--iterations", "4")
+        last = [re.sub(r"[0-9.]+ (s|schedules/s|a second)", "", r.stdout.splitlines()[-1]) for r in (run, again)]
+        self.assertEqual(last[0], last[1])
+
+    def test_sem_undo_releases_at_the_end_of_a_program(self):
+        holders = ", ".join(f"{{name: h{i}, file: {PROGRAMS / 'holder.so'}, arguments: [5]}}" for i in range(3))
+        run = self.office("run", "--until", "5", programs=f"[{holders}]")
+        self.assertEqual(run.stdout.count("ended with exit status 0\n"), 3, run.stdout)
+
+    def test_a_run_with_them_checks_itself(self):
+        run = self.office("run", "--until", "1", "--verify")
+        self.assertEqual(run.returncode, 0, run.stdout + run.stderr)
+        self.assertIn("the same run, twice in this process and once in a perturbed one", run.stdout)
+
+    def test_a_program_that_does_not_end_is_left_where_it_is(self):
+        run = self.office("run", "--until", "0.5")
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertIn("  rackham: program writer was running to the end\n", run.stdout)
+
+    def test_each_has_the_libraries_that_it_is_linked_to_for_itself(self):
+        own = subprocess.run([PROGRAMS / "linked-program", "x", "3"], capture_output=True, text=True)
+        self.assertEqual(own.stdout, "x: lower upper program, 3 4 7 7 1, 7\n" + self.DESTROYED.format(3, 4))
+        run = self.office("run", "--until", "1", programs=f"[{program('a', 'linked.so', 'a', 3)}, {{name: b, file: linked.so, arguments: [b, 5]}}]",
+                     folder=PROGRAMS)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertIn("a: lower upper program, 3 4 7 7 1, 7\n" + self.DESTROYED.format(3, 4), run.stdout)
+        self.assertIn("b: lower upper program, 5 6 11 11 1, 7\n" + self.DESTROYED.format(5, 6), run.stdout)
+
+    def test_each_opens_its_own_libraries_and_those_that_it_finds(self):
+        def expected(name, count):
+            return f"{name}: lower plugin noted, {count} {count} {count + 1}\nplugin destroyed at {count}\nlower destroyed at {count}\n"
+
+        own = subprocess.run([PROGRAMS / "opening-program", "x", "3"], capture_output=True, text=True)
+        self.assertEqual(own.stdout, expected("x", 3))
+        run = self.office("run", "--until", "1", programs=f"[{program('a', 'opening.so', 'a', 3)}, {program('b', 'opening.so', 'b', 5)}]")
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertIn(expected("a", 3), run.stdout)
+        self.assertIn(expected("b", 5), run.stdout)
+
+    DESTROYED = "program destroyed\nupper destroyed at {}\nlower destroyed at {}\n"
+
+    def test_each_run_begins_with_fresh_globals(self):
+        run = self.office("run", "--until", "0.1", "--verify", programs=f"[{program('a', 'again.so')}]")
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertEqual(run.stdout.count("begun 1 and 1 times\n"), 3, run.stdout)
+
+    def test_each_can_use_openmp(self):
+        programs = ", ".join(program(name, "sum.so", name) for name in ("a", "b"))
+        run = self.office("run", "--until", "0.1", programs=f"[{programs}]")
+        self.assertEqual(sorted(line for line in run.stdout.splitlines() if "sum" in line), ["a: sum 4950", "b: sum 4950"])
+
+    def test_each_has_its_handlers_and_timers(self):
+        programs = [program(name, "handlers.so", name, ms) for name, ms in (("a", 100), ("b", 200))]
+        programs += [program("c", "handlers.so", "c", "user"), program("d", "handlers.so", "d", "pipe")]
+        programs += [program(name, "ticks.so") for name in ("e", "f")]
+        runs = [self.office("run", "--until", "1.1", programs=f"[{', '.join(programs)}]") for _ in range(2)]
+        run = runs[0]
+        self.assertEqual(run.returncode, 0, run.stderr)
+        for line in "a: 10, 1 held, 5 10 10\n", "b: 20, 1 held, 10 20 20\n", "100 ticks\n100 ticks\n":
+            self.assertIn(line, run.stdout)
+        statuses = re.findall(r"program (\w) ended with exit status (\d+)", run.stdout)
+        self.assertEqual(statuses, [("a", "0"), ("b", "0"), ("c", "138"), ("d", "141"), ("e", "0"), ("f", "0")])
+        self.assertEqual(digest_of_summary(runs[0]), digest_of_summary(runs[1]))
+
+    def test_each_has_its_environment(self):
+        env = {**os.environ, "GIVEN": "yes"}
+        own = subprocess.run([PROGRAMS / "environment-program", "x"], capture_output=True, text=True, env=env)
+        self.assertIn("x: set x x, put by x by x, given none\n", own.stdout)
+        programs = ", ".join(program(name, "environment.so", name) for name in ("a", "b"))
+        run = self.office("run", "--until", "1", programs=f"[{programs}]", env=env)
+        for name in "a", "b":
+            said = [line for line in run.stdout.splitlines() if line.startswith(f"{name}: ")]
+            self.assertEqual(said, re.sub(r"\bx\b", name, own.stdout).splitlines(), run.stderr)
+
+    def test_each_has_its_working_directory(self):
+        with tempfile.TemporaryDirectory() as folder:
+            for name in "a", "b":
+                os.mkdir(f"{folder}/{name}")
+            programs = ", ".join(program(name, "directory.so", name, f"{folder}/{name}") for name in ("a", "b"))
+            run = self.office("run", "--until", "1", "--events", "events", programs=f"[{programs}]", folder=folder)
+            self.assertEqual(run.returncode, 0, run.stderr)
+            for name in "a", "b":
+                self.assertIn(f"{name} is in {folder}/{name}\n", run.stdout)
+                self.assertIn(f"{name} is in /\n", run.stdout)
+                self.assertEqual(pathlib.Path(f"{folder}/{name}/mark").read_text(), f"{name}\n" * 6)
+            self.assertEqual(sorted(os.listdir(folder)), ["a", "b", "events"])
+
+
+class InProcess(Hosted, unittest.TestCase):
+    """Copies of shared objects in the simulator's process: their threads are tasks of the robot."""
+
+    hosting = "in-process"
 
     def test_their_threads_are_tasks_of_it(self):
         with tempfile.TemporaryDirectory() as folder:
@@ -139,55 +259,11 @@ class Robot(unittest.TestCase):
         self.assertEqual(run.returncode, 0, run.stderr)
         self.assertEqual(digest_of_summary(run), digest_of_summary(office("run", "--until", "1")))
 
-    def test_schedules_of_them_are_explored(self):
-        run = office("explore", "--until", "2", "--iterations", "4")
-        self.assertEqual(run.returncode, 0, run.stdout + run.stderr)
-        again = office("explore", "--until", "2", "--iterations", "4")
-        last = [re.sub(r"[0-9.]+ (s|schedules/s|a second)", "", r.stdout.splitlines()[-1]) for r in (run, again)]
-        self.assertEqual(last[0], last[1])
-
-    def test_sem_undo_releases_at_the_end_of_a_program(self):
-        holders = ", ".join(f"{{name: h{i}, file: {PROGRAMS / 'holder.so'}, arguments: [5]}}" for i in range(3))
-        run = office("run", "--until", "5", programs=f"[{holders}]")
-        self.assertEqual(run.stdout.count("ended with exit status 0\n"), 3, run.stdout)
-
-    def test_a_run_with_them_checks_itself(self):
-        run = office("run", "--until", "1", "--verify")
-        self.assertEqual(run.returncode, 0, run.stdout + run.stderr)
-        self.assertIn("the same run, twice in this process and once in a perturbed one", run.stdout)
-
     def test_events_are_written_into_a_pipe(self):
         run = office("run", "--until", "1.5", "--events", "/dev/stdout")
         self.assertRegex(run.stdout, r"rackham +writer: main")
         self.assertNotIn("  digest ", run.stdout)  # the text has the error stream then
         self.assertIn(digest_of_summary(office("run", "--until", "1.5")), run.stderr)
-
-    def test_a_program_that_does_not_end_is_left_where_it_is(self):
-        run = office("run", "--until", "0.5")
-        self.assertEqual(run.returncode, 0, run.stderr)
-        self.assertIn("  rackham: program writer was running to the end\n", run.stdout)
-
-    def test_each_has_the_libraries_that_it_is_linked_to_for_itself(self):
-        own = subprocess.run([PROGRAMS / "linked-program", "x", "3"], capture_output=True, text=True)
-        self.assertEqual(own.stdout, "x: lower upper program, 3 4 7 7 1, 7\n" + self.DESTROYED.format(3, 4))
-        run = office("run", "--until", "1", programs=f"[{program('a', 'linked.so', 'a', 3)}, {{name: b, file: linked.so, arguments: [b, 5]}}]",
-                     folder=PROGRAMS)
-        self.assertEqual(run.returncode, 0, run.stderr)
-        self.assertIn("a: lower upper program, 3 4 7 7 1, 7\n" + self.DESTROYED.format(3, 4), run.stdout)
-        self.assertIn("b: lower upper program, 5 6 11 11 1, 7\n" + self.DESTROYED.format(5, 6), run.stdout)
-
-    def test_each_opens_its_own_libraries_and_those_that_it_finds(self):
-        def expected(name, count):
-            return f"{name}: lower plugin noted, {count} {count} {count + 1}\nplugin destroyed at {count}\nlower destroyed at {count}\n"
-
-        own = subprocess.run([PROGRAMS / "opening-program", "x", "3"], capture_output=True, text=True)
-        self.assertEqual(own.stdout, expected("x", 3))
-        run = office("run", "--until", "1", programs=f"[{program('a', 'opening.so', 'a', 3)}, {program('b', 'opening.so', 'b', 5)}]")
-        self.assertEqual(run.returncode, 0, run.stderr)
-        self.assertIn(expected("a", 3), run.stdout)
-        self.assertIn(expected("b", 5), run.stdout)
-
-    DESTROYED = "program destroyed\nupper destroyed at {}\nlower destroyed at {}\n"
 
     def test_a_debugger_finds_their_symbols_and_those_of_their_libraries(self):
         if shutil.which("gdb") is None:
@@ -198,52 +274,6 @@ class Robot(unittest.TestCase):
                              capture_output=True, text=True, timeout=60)
         self.assertRegex(run.stdout, r"count_in_upper \(\) at \S+/upper.cpp:\d+\n(.*\n)*.* main \(.*\) at \S+/linked.cpp:\d+\n",
                          run.stderr)
-
-    def test_each_run_of_a_process_has_fresh_copies(self):
-        run = office("run", "--until", "0.1", "--verify", programs=f"[{program('a', 'again.so')}]")
-        self.assertEqual(run.returncode, 0, run.stderr)
-        self.assertEqual(run.stdout.count("begun 1 and 1 times\n"), 3, run.stdout)
-
-    def test_they_share_the_runtime_of_openmp(self):
-        programs = ", ".join(program(name, "sum.so", name) for name in ("a", "b"))
-        run = office("run", "--until", "0.1", programs=f"[{programs}]")
-        self.assertEqual(sorted(line for line in run.stdout.splitlines() if "sum" in line), ["a: sum 4950", "b: sum 4950"])
-
-    def test_each_has_its_handlers_and_timers(self):
-        programs = [program(name, "handlers.so", name, ms) for name, ms in (("a", 100), ("b", 200))]
-        programs += [program("c", "handlers.so", "c", "user"), program("d", "handlers.so", "d", "pipe")]
-        programs += [program(name, "ticks.so") for name in ("e", "f")]
-        runs = [office("run", "--until", "1.1", programs=f"[{', '.join(programs)}]") for _ in range(2)]
-        run = runs[0]
-        self.assertEqual(run.returncode, 0, run.stderr)
-        for line in "a: 10, 1 held, 5 10 10\n", "b: 20, 1 held, 10 20 20\n", "100 ticks\n100 ticks\n":
-            self.assertIn(line, run.stdout)
-        statuses = re.findall(r"program (\w) ended with exit status (\d+)", run.stdout)
-        self.assertEqual(statuses, [("a", "0"), ("b", "0"), ("c", "138"), ("d", "141"), ("e", "0"), ("f", "0")])
-        self.assertEqual(digest_of_summary(runs[0]), digest_of_summary(runs[1]))
-
-    def test_each_has_its_environment(self):
-        env = {**os.environ, "GIVEN": "yes"}
-        own = subprocess.run([PROGRAMS / "environment-program", "x"], capture_output=True, text=True, env=env)
-        self.assertIn("x: set x x, put by x by x, given none\n", own.stdout)
-        programs = ", ".join(program(name, "environment.so", name) for name in ("a", "b"))
-        run = office("run", "--until", "1", programs=f"[{programs}]", env=env)
-        for name in "a", "b":
-            said = [line for line in run.stdout.splitlines() if line.startswith(f"{name}: ")]
-            self.assertEqual(said, re.sub(r"\bx\b", name, own.stdout).splitlines(), run.stderr)
-
-    def test_each_has_its_working_directory(self):
-        with tempfile.TemporaryDirectory() as folder:
-            for name in "a", "b":
-                os.mkdir(f"{folder}/{name}")
-            programs = ", ".join(program(name, "directory.so", name, f"{folder}/{name}") for name in ("a", "b"))
-            run = office("run", "--until", "1", "--events", "events", programs=f"[{programs}]", folder=folder)
-            self.assertEqual(run.returncode, 0, run.stderr)
-            for name in "a", "b":
-                self.assertIn(f"{name} is in {folder}/{name}\n", run.stdout)
-                self.assertIn(f"{name} is in /\n", run.stdout)
-                self.assertEqual(pathlib.Path(f"{folder}/{name}/mark").read_text(), f"{name}\n" * 6)
-            self.assertEqual(sorted(os.listdir(folder)), ["a", "b", "events"])
 
     def test_unloadable_program_is_bad_input(self):
         for file, line in ("nowhere.so", "there is no program '.*nowhere.so': No such file or directory"), \
@@ -262,9 +292,25 @@ class Robot(unittest.TestCase):
             self.assertEqual(run.returncode, 2, run.stderr)
             self.assertRegex(run.stderr, r"^waitpoint: --set .*: \S+/linked.so cannot be loaded: liblower.so: cannot open shared "
                                          r"object file: No such file or directory\n$")
+        run = office("run", programs=f"[{{name: one, command: [{PROGRAMS / 'executable'}]}}]", hosting="in-process")
+        self.assertEqual(run.returncode, 2, run.stderr)
+        self.assertRegex(run.stderr, r"executable is an executable: build it with -shared -fPIC\n$")
+        run = office("check", programs="[]", hosting="threads")
+        self.assertEqual(run.returncode, 2)
+        self.assertRegex(run.stderr, r"^waitpoint: --set hosting=threads: .*processes.*in-process")
         run = office("check", programs="[{name: one}]")
         self.assertEqual(run.returncode, 2)
         self.assertIn("expected key 'file' in a program", run.stderr)
+
+
+class AsProcesses(Hosted, unittest.TestCase):
+    """The same shared objects, each a process."""
+
+    hosting = "processes"
+
+    def test_events_are_not_of_threads(self):
+        run = self.office("run", "--until", "1.5", "--events", "/dev/stdout")
+        self.assertNotIn("writer: main", run.stdout)
 
 
 def command(name, *words):

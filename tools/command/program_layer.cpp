@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "fibers/posix/host/in_process_host.hpp"
 #include "modules/run/robot_program.hpp"
 #include "tools/command/installed_part.hpp"
 
@@ -33,8 +34,9 @@ std::vector<std::string> command_line() {
 void begin_with_program_layer(const scenario::Scenario& scenario) {
   const bool tried = std::getenv(tried_variable) != nullptr;
   unsetenv(tried_variable);
-  if (run::has_commands(scenario)) setenv(run::library_variable, find_part("libwaitpoint-exec.so").c_str(), 1);
-  if (!run::has_shared_objects(scenario) || run::can_load_programs()) return;
+  if (run::has_programs(scenario, Hosting::processes))
+    setenv(run::library_variable, find_part("libwaitpoint-exec.so").c_str(), 1);
+  if (!run::has_programs(scenario, Hosting::in_process) || posix::InProcessHost::is_possible()) return;
   const std::filesystem::path library = find_part("libwaitpoint-guests.so");
   if (tried) throw BadInput(library, 0, "the library for robots' programs cannot be loaded into this program");
   setenv(tried_variable, "1", 1);

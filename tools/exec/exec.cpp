@@ -81,16 +81,17 @@ int run_seeds(const ExecOptions& options, const ProgramFiles& files) {
     output.forget();
     const RunMemory memory(settings_of(options, seed));
     const ProgramRun run(files, memory, output.descriptor());
-    if (run.is_interrupted()) end_by(run.signal());  // not a failure of the program
+    if (run.is_interrupted()) end_by(run.end().signal());  // not a failure of the program
     if (const int signal = EndRequests::too_late(); signal != 0) end_by(signal);
     ++runs;
     if (memory.record().began) digests.insert(digest_of(memory.record()).value());
-    if (run.exit_status() != 0) {
+    if (run.end().exit_status() != 0) {
       if (terminal) std::fprintf(stderr, "\r%40s\r", "");
       output.show();
       std::fprintf(stderr, "waitpoint: seed %llu failed, after %llu that passed: exit status %d\n",
-                   static_cast<unsigned long long>(seed), static_cast<unsigned long long>(runs - 1), status_of(run));
-      print_failure(options, run.signal(), seed);
+                   static_cast<unsigned long long>(seed), static_cast<unsigned long long>(runs - 1),
+                   run.end().exit_status());
+      print_failure(options, run.end().signal(), seed);
       if (!options.json) return 1;
       const std::string failed =
           exec_json({files.programs.title(), seed, replay_line(options, seed)}, run, memory.record());
@@ -134,25 +135,25 @@ int exec(const ExecOptions& options) {
   if (options.trace) trace.emplace(*options.trace);
   const RunMemory memory(settings_of(options, options.seed));
   const ProgramRun run(files, memory, options.json ? STDERR_FILENO : -1);
-  const bool failed = run.signal() != 0 || memory.record().ending != posix::Ending::own;
+  const bool failed = run.end().signal() != 0 || memory.record().ending != posix::Ending::own;
   if (memory.record().began) {
     std::fputs(races_of(memory.record()).c_str(), stderr);
     std::fputs(misuses_of(memory.record()).c_str(), stderr);
     if (failed) std::fputs(last_calls_of(memory.record()).c_str(), stderr);
     if (!options.quiet || failed) print_summary(memory.record(), files.programs.title());
     // Any other status is a failure only to the program's users.
-    if (failed || (!options.quiet && run.exit_status() != 0))
-      print_failure(options, run.is_interrupted() ? 0 : run.signal(), options.seed);
+    if (failed || (!options.quiet && run.end().exit_status() != 0))
+      print_failure(options, run.is_interrupted() ? 0 : run.end().signal(), options.seed);
   }
-  if (!memory.record().began && run.signal() != 0)
-    std::fprintf(stderr, "waitpoint: terminated by %s before main()\n", signal_in_words(run.signal()).c_str());
+  if (!memory.record().began && run.end().signal() != 0)
+    std::fprintf(stderr, "waitpoint: terminated by %s before main()\n", signal_in_words(run.end().signal()).c_str());
   if (trace) write_trace_of(memory.record(), *trace);
   if (options.json)
     end_with_json(
-        "exec", status_of(run),
+        "exec", run.end().exit_status(),
         exec_json({files.programs.title(), options.seed, replay_line(options, options.seed)}, run, memory.record()));
-  if (run.signal() != 0) end_by(run.signal());
-  return run.exit_status();
+  if (run.end().signal() != 0) end_by(run.end().signal());
+  return run.end().exit_status();
 }
 
 }  // namespace waitpoint::tools

@@ -49,14 +49,12 @@ void put_run(const posix::Record& record, Json& json) {
 
 }  // namespace
 
-int status_of(const ProgramRun& run) { return run.signal() != 0 ? 128 + run.signal() : run.exit_status(); }
-
 std::string exec_json(const NamedRun& named, const ProgramRun& run, const posix::Record& record) {
   Json json{{"program", named.program}, {"seed", named.seed}};
-  if (run.signal() != 0)
-    json["signal"] = signal_name(run.signal());
+  if (run.end().signal() != 0)
+    json["signal"] = signal_name(run.end().signal());
   else
-    json["exit_status"] = run.exit_status();
+    json["exit_status"] = run.end().exit_status();
   if (record.began) put_run(record, json);
   json["replay"] = named.replay;
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);

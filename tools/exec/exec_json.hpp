@@ -18,9 +18,6 @@ struct NamedRun {
   std::string replay;  ///< the command
 };
 
-/// The status that a shell sees.
-int status_of(const ProgramRun& run);
-
 /// How the run ended, its digest and counts, its races and misuses.
 std::string exec_json(const NamedRun& named, const ProgramRun& run, const posix::Record& record);
 

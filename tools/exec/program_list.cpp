@@ -6,7 +6,7 @@
 #include <tuple>
 
 #include "core/error.hpp"
-#include "core/start_condition.hpp"
+#include "core/hosting/start_condition.hpp"
 #include "tools/exec/program_file.hpp"
 
 namespace waitpoint::tools {
@@ -96,32 +96,27 @@ void ProgramList::name_apart() {
   }
 }
 
-// Conditions on other programs must be of known ones, and without cycles: then some program can always start.
 void ProgramList::check_conditions() const {
-  const auto is_known = [this](const std::string& name) {
-    return std::any_of(programs_.begin(), programs_.end(), [&name](const Program& each) { return each.name == name; });
-  };
   std::vector<std::vector<StartCondition>> conditions;
   std::vector<ConditionedStart> starts;
   conditions.reserve(programs_.size());
   for (const Program& program : programs_) {
     std::vector<StartCondition>& after = conditions.emplace_back();
-    for (const std::string& text : program.conditions) {
-      const StartCondition& condition = after.emplace_back(condition_of(text));
-      if (condition.is_of_program() && !is_known(condition.of))
-        throw BadInput("exec", "after:" + text + ": there is no program '" + condition.of + "'");
-    }
+    for (const std::string& text : program.conditions) after.push_back(condition_of(text));
     starts.push_back({program.name, after});
   }
-  if (const std::size_t never = first_never_started(starts); never < starts.size())
-    throw BadInput("exec", "'" + programs_[never].name + "' can never start: the conditions after: form a cycle");
+  waitpoint::check_conditions(starts, [&](std::size_t refused, const StartCondition* unknown) {
+    if (unknown != nullptr)
+      throw BadInput("exec", "after:" + in_words(*unknown) + ": there is no program '" + unknown->of + "'");
+    throw BadInput("exec", "'" + programs_[refused].name + "' can never start: the conditions after: form a cycle");
+  });
 }
 
 std::string ProgramList::title() const {
   return programs_.size() == 1 ? programs_.front().name : std::to_string(programs_.size()) + " programs";
 }
 
-std::vector<std::string> ProgramList::words_of_session(const std::string& host, bool quiet) const {
+std::vector<std::string> ProgramList::words_of_session(const std::string& loader, bool quiet) const {
   std::vector<std::string> words;
   if (quiet) words.emplace_back("--quiet");
   for (const Program& program : programs_) {
@@ -130,7 +125,7 @@ std::vector<std::string> ProgramList::words_of_session(const std::string& host, 
     words.push_back(std::to_string(program.place));
     for (const std::string& condition : program.conditions) words.push_back(std::string(after).append(condition));
     words.emplace_back("--");
-    if (is_shared_object(program.words.front())) words.push_back(host);
+    if (is_shared_object(program.words.front())) words.push_back(loader);
     words.insert(words.end(), program.words.begin(), program.words.end());
   }
   return words;

@@ -4,7 +4,7 @@
 //   FILE ARGUMENTS :: after:CONDITION NAME=FILE ARGUMENTS :: ...
 //
 // A program is named after its file by default; equal default names are numbered. Programs are sorted by name, so that
-// a run does not depend on the order in which they are given. Conditions: see core/start_condition.hpp.
+// a run does not depend on the order in which they are given. Conditions: see core/hosting/start_condition.hpp.
 #pragma once
 
 #include <string>
@@ -30,8 +30,8 @@ class ProgramList {
   const std::vector<Program>& programs() const { return programs_; }
   /// A title for messages: the name of a single program, or the number of programs.
   std::string title() const;
-  /// The arguments of waitpoint-session. `host` runs the programs that are shared objects.
-  std::vector<std::string> words_of_session(const std::string& host, bool quiet) const;
+  /// The arguments of waitpoint-session. `loader` runs the programs that are shared objects.
+  std::vector<std::string> words_of_session(const std::string& loader, bool quiet) const;
 
  private:
   void read(const std::vector<std::string>& words);

@@ -60,23 +60,23 @@ std::filesystem::path checked_program(const std::string& name) {
 
 ProgramFiles::ProgramFiles(const std::vector<std::string>& given, bool quiet, SwitchAt at)
     : programs(given), library(find_part("libwaitpoint-exec.so")) {
-  const std::filesystem::path host = find_part("waitpoint-host");
+  const std::filesystem::path loader = find_part("waitpoint-load");
   for (const ProgramList::Program& one : programs.programs())
     if (!is_shared_object(one.words.front())) program = checked_program(one.words.front());
   if (programs.is_session()) {
     program = find_part("waitpoint-session");
-    words = programs.words_of_session(host, quiet);
+    words = programs.words_of_session(loader, quiet);
     words.insert(words.begin(), program.filename());
     return;
   }
   words = programs.programs().front().words;
   if (program.empty()) {
-    program = host;
+    program = loader;
     words.insert(words.begin(), programs.title());
   }
   instrumented = is_instrumented(program);
   if (instrumented) (void)find_part("libtsan.so.2");  // the program would not start without it
-  if (!instrumented && at == SwitchAt::accesses && program != host) accesses = access_instructions(program);
+  if (!instrumented && at == SwitchAt::accesses && program != loader) accesses = access_instructions(program);
   if (watches_accesses()) library = find_part("libwaitpoint-exec-races.so");
 }
 

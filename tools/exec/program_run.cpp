@@ -61,9 +61,6 @@ ProgramRun::ProgramRun(const ProgramFiles& files, const RunMemory& memory, int o
   if (is_interrupted_) status_ = requests.ended_by();
 }
 
-int ProgramRun::exit_status() const { return WIFEXITED(status_) ? WEXITSTATUS(status_) : -1; }
-int ProgramRun::signal() const { return WIFSIGNALED(status_) ? WTERMSIG(status_) : 0; }
-
 void end_by(int signal) {
   const rlimit no_second_core{};
   setrlimit(RLIMIT_CORE, &no_second_core);

@@ -2,6 +2,7 @@
 // A run of a program from start to end.
 #pragma once
 
+#include "core/hosting/program_end.hpp"
 #include "tools/exec/program_process.hpp"
 
 namespace waitpoint::tools {
@@ -16,10 +17,7 @@ class ProgramRun {
 
   /// As from waitpid().
   int status() const { return status_; }
-  /// The exit status; -1 if a signal ended it.
-  int exit_status() const;
-  /// The signal that ended it; 0 if none.
-  int signal() const;
+  ProgramEnd end() const { return ProgramEnd(status_); }
   /// True if it was ended by a signal to this process: see end_requests.hpp.
   bool is_interrupted() const { return is_interrupted_; }
   /// True if it was ended at the limit.

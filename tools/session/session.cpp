@@ -7,12 +7,8 @@
 //
 // PLACE is the program's number on the command line. The exit status is that of the first on the command line that has
 // another than 0, as a shell reports it.
-#include <spawn.h>
 #include <sys/wait.h>
-#include <unistd.h>
 
-#include <algorithm>
-#include <cerrno>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -22,22 +18,18 @@
 #include <thread>
 #include <vector>
 
-#include "core/start_condition.hpp"
+#include "core/hosting/hosted_programs.hpp"
+#include "core/hosting/spawned_processes.hpp"
 
 namespace waitpoint::session {
 namespace {
 
-constexpr std::size_t told_apart_max = 20;  // limit of programs whose exit statuses are listed one by one
+constexpr std::size_t listed_one_by_one_max = 20;  // programs whose exit statuses are
 constexpr std::chrono::milliseconds between_looks{1};
 
 struct Program {
-  std::string name;
+  HostedProgram hosted;
   int place = 0;
-  std::vector<StartCondition> conditions;
-  std::vector<char*> words;  // ends with null
-  pid_t process = 0;         // 0: not started yet
-  bool has_ended = false;
-  int status = 0;
 };
 
 // The words are those that `waitpoint exec` has checked and composed.
@@ -46,11 +38,13 @@ std::vector<Program> programs_of(char** words) {
   std::vector<Program> programs;
   while (*words != nullptr) {
     Program& program = programs.emplace_back();
-    program.name = *words++;
+    HostedProgram& hosted = program.hosted;
+    hosted.name = *words++;
+    hosted.has_input = true;
+    hosted.environment = {{"WAITPOINT_NAME", hosted.name}};
     program.place = std::atoi(*words++);
-    for (; std::strcmp(*words, "--") != 0; ++words) parse(*words + after.size(), program.conditions.emplace_back());
-    for (++words; *words != nullptr && std::strcmp(*words, "::") != 0; ++words) program.words.push_back(*words);
-    program.words.push_back(nullptr);
+    for (; std::strcmp(*words, "--") != 0; ++words) parse(*words + after.size(), hosted.after.emplace_back());
+    for (++words; *words != nullptr && std::strcmp(*words, "::") != 0; ++words) hosted.words.emplace_back(*words);
     if (*words != nullptr) ++words;
   }
   return programs;
@@ -58,39 +52,44 @@ std::vector<Program> programs_of(char** words) {
 
 class Session {
  public:
-  explicit Session(std::vector<Program> programs) : programs_(std::move(programs)) {}
+  explicit Session(const std::vector<Program>& programs) {
+    for (const Program& program : programs) {
+      programs_.add(program.hosted);
+      places_.push_back(program.place);
+    }
+    reported_.resize(programs.size());
+  }
 
   void run() {
-    while (start_those_due(), !have_all_ended()) {
-      const bool looks = waits_for_outside();
-      const bool has_ended = note_end(looks ? WNOHANG : 0);
+    while (start_those_due(), !programs_.have_all_ended()) {
+      const bool looks = programs_.waits_for_outside();
+      const bool has_ended = processes_.await_end(looks ? WNOHANG : 0);
+      report_signals();
       if (!looks || has_ended) continue;
-      tell_who_waits_alone();
+      report_lone_waits();
       std::this_thread::sleep_for(between_looks);
     }
   }
 
   int status() const {
-    const Program* failed = nullptr;
-    for (const Program& program : programs_)
-      if (program.status != 0 && (failed == nullptr || program.place < failed->place)) failed = &program;
-    return failed == nullptr ? 0 : failed->status;
+    std::size_t failed = programs_.size();
+    for (std::size_t i = 0; i < programs_.size(); ++i)
+      if (status_of(i) != 0 && (failed == programs_.size() || places_[i] < places_[failed])) failed = i;
+    return failed == programs_.size() ? 0 : status_of(failed);
   }
 
   /// "exit status: filter 0, reader 5", or, of many, a number and those that failed.
   std::string ends() const {
-    const bool are_told_apart = programs_.size() <= told_apart_max;
+    const bool are_listed = programs_.size() <= listed_one_by_one_max;
     std::string text;
     std::size_t good = 0;
-    for (const Program& program : programs_) {
-      if (program.status == 0) ++good;
-      if (program.status == 0 && !are_told_apart) continue;
+    for (std::size_t i = 0; i < programs_.size(); ++i) {
+      if (status_of(i) == 0) ++good;
+      if (status_of(i) == 0 && !are_listed) continue;
       text += text.empty() ? "" : ", ";
-      text += program.name;
-      text += ' ';
-      text += std::to_string(program.status);
+      text += programs_.program(i).name + " " + std::to_string(status_of(i));
     }
-    if (are_told_apart) return text;
+    if (are_listed) return text;
     std::string all = good == programs_.size() ? "0 of all " : "0 of ";
     all += std::to_string(good);
     if (!text.empty()) all += ", ";
@@ -98,84 +97,49 @@ class Session {
   }
 
  private:
-  bool holds(const StartCondition& condition) const {
-    if (!condition.is_of_program()) return holds_outside(condition);
-    const auto other = std::find_if(programs_.begin(), programs_.end(),
-                                    [&condition](const Program& each) { return each.name == condition.of; });
-    if (other == programs_.end()) return true;
-    return condition.kind == StartCondition::Kind::end ? other->has_ended : other->process != 0;
-  }
-
-  // A start may be another program's condition.
   void start_those_due() {
-    for (bool any = true; any;) {
-      any = false;
-      for (Program& program : programs_) {
-        const auto& conditions = program.conditions;
-        if (program.process != 0 || !std::all_of(conditions.begin(), conditions.end(),
-                                                 [this](const StartCondition& each) { return holds(each); }))
-          continue;
-        start(program);
-        any = true;
+    for (bool are_started = false; !are_started;) {
+      try {
+        programs_.start_those_due();
+        are_started = true;
+      } catch (const HostingError& error) {
+        std::fprintf(stderr, "waitpoint: exec: %s\n", error.what());
       }
     }
   }
 
-  static void start(Program& program) {
-    setenv("WAITPOINT_NAME", program.name.c_str(), 1);
-    const int error = posix_spawnp(&program.process, program.words[0], nullptr, nullptr, program.words.data(), environ);
-    unsetenv("WAITPOINT_NAME");
-    if (error == 0) return;
-    std::fprintf(stderr, "waitpoint: exec: %s cannot be started: %s\n", program.words[0], std::strerror(error));
-    program.process = -1;
-    program.has_ended = true;
-    program.status = 127;
+  int status_of(std::size_t program) const {
+    const std::optional<ProgramEnd> end = programs_.end_of(program);
+    return end ? end->exit_status() : 0;
   }
 
-  bool have_all_ended() const {
-    return std::all_of(programs_.begin(), programs_.end(), [](const Program& each) { return each.has_ended; });
-  }
-
-  bool waits_for_outside() const {
-    return std::any_of(programs_.begin(), programs_.end(), [](const Program& each) {
-      return each.process == 0 && std::any_of(each.conditions.begin(), each.conditions.end(),
-                                              [](const StartCondition& one) { return !one.is_of_program(); });
-    });
+  void report_signals() {
+    for (std::size_t i = 0; i < programs_.size(); ++i) {
+      const std::optional<ProgramEnd> end = programs_.end_of(i);
+      if (!end || end->signal() == 0 || reported_[i]) continue;
+      reported_[i] = true;
+      std::fprintf(stderr, "waitpoint: %s was terminated by signal %d (%s)\n", programs_.program(i).name.c_str(),
+                   end->signal(), strsignal(end->signal()));
+    }
   }
 
   // Once: what an ended program has left behind may still fulfil a condition.
-  void tell_who_waits_alone() {
-    const auto runs = [](const Program& each) { return each.process != 0 && !each.has_ended; };
-    if (has_told_ || std::any_of(programs_.begin(), programs_.end(), runs)) return;
-    has_told_ = true;
-    for (const Program& program : programs_)
-      for (const StartCondition& each : program.conditions)
-        if (program.process == 0 && !holds(each))
-          std::fprintf(stderr, "waitpoint: %s waits for its start, after:%s, and no program is running\n",
-                       program.name.c_str(), in_words(each).c_str());
+  void report_lone_waits() {
+    for (std::size_t i = 0; i < programs_.size(); ++i)
+      if (has_reported_waits_ || programs_.runs(i)) return;
+    has_reported_waits_ = true;
+    for (std::size_t i = 0; i < programs_.size(); ++i)
+      if (const StartCondition* const awaited = programs_.awaited_by(i);
+          !programs_.has_started(i) && awaited != nullptr)
+        std::fprintf(stderr, "waitpoint: %s waits for its start, after:%s, and no program is running\n",
+                     programs_.program(i).name.c_str(), in_words(*awaited).c_str());
   }
 
-  static std::string in_words(const StartCondition& condition) {
-    if (condition.kind == StartCondition::Kind::port) return "tcp:" + std::to_string(condition.port);
-    return condition.kind == StartCondition::Kind::start ? condition.of + ".started" : condition.of;
-  }
-
-  bool note_end(int flags) {
-    int status = 0;
-    const pid_t process = waitpid(-1, &status, flags);
-    for (Program& program : programs_) {
-      if (process <= 0 || program.process != process) continue;
-      program.has_ended = true;
-      program.status = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-      if (!WIFEXITED(status))
-        std::fprintf(stderr, "waitpoint: %s was terminated by signal %d (%s)\n", program.name.c_str(), WTERMSIG(status),
-                     strsignal(WTERMSIG(status)));
-    }
-    return process > 0;
-  }
-
-  std::vector<Program> programs_;
-  bool has_told_ = false;  // that none is running
+  SpawnedProcesses processes_;
+  HostedPrograms programs_{processes_};
+  std::vector<int> places_;
+  std::vector<bool> reported_;  // ends by signals
+  bool has_reported_waits_ = false;
 };
 
 }  // namespace

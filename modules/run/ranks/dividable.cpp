@@ -29,7 +29,7 @@ void check_dividable(const scenario::Scenario& scenario) {
     for (const scenario::ModuleScenario& module : robot.modules)
       if (module.enabled) check_clocks(module.settings);
     for (const scenario::ProgramScenario& program : robot.programs)
-      if (program.command.empty())
+      if (program.hosting == Hosting::in_process)
         throw program.written.bad(
             "expected no program that is a shared object, as there are several ranks: use `command`");
   }

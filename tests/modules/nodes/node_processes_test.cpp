@@ -28,8 +28,8 @@ NodeCommand node(const std::string& name, const std::string& script) {
   return command;
 }
 
-ros1::NodeCondition condition(const std::string& text) {
-  ros1::NodeCondition condition;
+StartCondition condition(const std::string& text) {
+  StartCondition condition;
   EXPECT_TRUE(ros1::parse(text, "/", condition)) << text;
   return condition;
 }

@@ -38,18 +38,18 @@ TEST(WordsOfText, SplitAsAShellDoes) {
 }
 
 TEST(NodeCondition, NamesNodesTopicsServicesAndPorts) {
-  NodeCondition condition;
+  StartCondition condition;
   ASSERT_TRUE(parse("topic:scan", "/r", condition));
-  EXPECT_EQ(std::get<Advertisement>(condition).name, "/r/scan");
-  EXPECT_EQ(std::get<Advertisement>(condition).kind, Advertisement::Kind::topic);
+  EXPECT_EQ(condition.of, "/r/scan");
+  EXPECT_EQ(condition.kind, StartCondition::Kind::topic);
   ASSERT_TRUE(parse("service:/static_map", "/r", condition));
-  EXPECT_EQ(std::get<Advertisement>(condition).name, "/static_map");
-  EXPECT_EQ(std::get<Advertisement>(condition).kind, Advertisement::Kind::service);
+  EXPECT_EQ(condition.of, "/static_map");
+  EXPECT_EQ(condition.kind, StartCondition::Kind::service);
   ASSERT_TRUE(parse("driver.started", "/r", condition));
-  EXPECT_EQ(std::get<StartCondition>(condition).of, "driver");
-  EXPECT_EQ(std::get<StartCondition>(condition).kind, StartCondition::Kind::start);
+  EXPECT_EQ(condition.of, "driver");
+  EXPECT_EQ(condition.kind, StartCondition::Kind::start);
   ASSERT_TRUE(parse("tcp:11311", "/", condition));
-  EXPECT_EQ(std::get<StartCondition>(condition).port, 11311);
+  EXPECT_EQ(condition.port, 11311);
   for (const char* bad : {"topic:", "topic:/", "topic:a b", "service:~x", "tcp:0", ""})
     EXPECT_FALSE(parse(bad, "/", condition)) << bad;
 }
@@ -70,8 +70,8 @@ TEST(LaunchConditions, PreferNodesOfTheirOwnNamespace) {
   launch.add(node("/", "only", 3));
   launch.add(node("/b", "user", 4, {"map.started", "only", "topic:x"}));
   settle_conditions(launch);
-  EXPECT_EQ(std::get<StartCondition>(launch.nodes[3].after[0]).of, "/b/map");
-  EXPECT_EQ(std::get<StartCondition>(launch.nodes[3].after[1]).of, "/only");
+  EXPECT_EQ(launch.nodes[3].after[0].of, "/b/map");
+  EXPECT_EQ(launch.nodes[3].after[1].of, "/only");
   Launch apart;
   apart.add(node("/a", "map", 1));
   apart.add(node("/b", "map", 2));

@@ -66,10 +66,10 @@ TEST_F(NodesReader, ReadsProgramsNamesAndParameters) {
   EXPECT_EQ(driver.remappings[0].to, "base/cmd_vel");
   EXPECT_EQ(driver.remappings[1].from, "/odom");
   EXPECT_EQ(driver.environment[0].value, "C");
-  EXPECT_EQ(std::get<StartCondition>(driver.after[0]).of, "/sub/rsp");
-  EXPECT_EQ(std::get<ros1::Advertisement>(driver.after[1]).name, "/map");
-  EXPECT_EQ(std::get<ros1::Advertisement>(driver.after[2]).kind, ros1::Advertisement::Kind::service);
-  EXPECT_EQ(std::get<StartCondition>(driver.after[3]).port, 11311);
+  EXPECT_EQ(driver.after[0].of, "/sub/rsp");
+  EXPECT_EQ(driver.after[1].of, "/map");
+  EXPECT_EQ(driver.after[2].kind, StartCondition::Kind::service);
+  EXPECT_EQ(driver.after[3].port, 11311);
   EXPECT_TRUE(driver.required);
   EXPECT_EQ(driver.output, ros1::Node::Output::screen);
   EXPECT_EQ(driver.clock, "interval:10..50");

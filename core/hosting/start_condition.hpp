@@ -5,9 +5,12 @@
 //   NAME.started  it has been started
 //   tcp:PORT      a socket of this machine listens at the port
 //   PATH          with a '/': the file or socket exists
+//
+// Nodes of ROS have two further kinds, of which their owner decides: modules/ros1/node_condition.hpp.
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -15,7 +18,7 @@
 namespace waitpoint {
 
 struct StartCondition {
-  enum class Kind : unsigned char { end, start, port, file };
+  enum class Kind : unsigned char { end, start, port, file, topic, service };
   Kind kind = Kind::end;
   std::string of;  ///< a name or path
   int port = 0;
@@ -26,15 +29,20 @@ struct StartCondition {
 
 /// Parses a condition, without checks of names. False for an invalid port or an empty text.
 bool parse(const std::string& text, StartCondition& condition);
+/// The text that parse() takes.
+std::string in_words(const StartCondition& condition);
 
 /// A program that waits for all conditions.
 struct ConditionedStart {
   std::string_view name;
   std::span<const StartCondition> after;
 };
-/// The index of the first program that can never start, since conditions on programs form a cycle with it; the number
-/// of programs if there is none. Conditions are of programs among these.
-std::size_t first_never_started(std::span<const ConditionedStart> programs);
+
+/// Checks the conditions of programs on each other. Calls `refuse` with the index of the first program whose condition
+/// is of a program that is not among them, and that condition; or with the first program that can never start, since
+/// conditions form a cycle with it, and null.
+void check_conditions(std::span<const ConditionedStart> programs,
+                      const std::function<void(std::size_t program, const StartCondition* unknown)>& refuse);
 
 /// True if a condition on a port or a file is fulfilled.
 bool holds_outside(const StartCondition& condition);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "core/start_condition.hpp"
+#include "core/hosting/start_condition.hpp"
 
 #include <arpa/inet.h>
 #include <linux/inet_diag.h>
@@ -97,22 +97,33 @@ bool parse(const std::string& text, StartCondition& condition) {
   return !condition.of.empty();
 }
 
-std::size_t first_never_started(std::span<const ConditionedStart> programs) {
+std::string in_words(const StartCondition& condition) {
+  if (condition.kind == StartCondition::Kind::port) return std::string(of_port) + std::to_string(condition.port);
+  return condition.kind == StartCondition::Kind::start ? condition.of + std::string(of_start) : condition.of;
+}
+
+void check_conditions(std::span<const ConditionedStart> programs,
+                      const std::function<void(std::size_t program, const StartCondition* unknown)>& refuse) {
+  const auto index_of = [&](const std::string& name) {
+    const auto found = std::ranges::find(programs, std::string_view(name), &ConditionedStart::name);
+    return static_cast<std::size_t>(found - programs.begin());
+  };
+  for (std::size_t i = 0; i < programs.size(); ++i)
+    for (const StartCondition& condition : programs[i].after)
+      if (condition.is_of_program() && index_of(condition.of) == programs.size()) return refuse(i, &condition);
   std::vector<bool> can_start(programs.size());
   const auto holds = [&](const StartCondition& condition) {
-    if (!condition.is_of_program()) return true;
-    for (std::size_t i = 0; i < programs.size(); ++i)
-      if (programs[i].name == condition.of) return static_cast<bool>(can_start[i]);
-    return false;
+    return !condition.is_of_program() || can_start[index_of(condition.of)];
   };
   for (bool any = true; any;) {
     any = false;
     for (std::size_t i = 0; i < programs.size(); ++i) {
-      if (can_start[i] || !std::all_of(programs[i].after.begin(), programs[i].after.end(), holds)) continue;
+      if (can_start[i] || !std::ranges::all_of(programs[i].after, holds)) continue;
       can_start[i] = any = true;
     }
   }
-  return static_cast<std::size_t>(std::find(can_start.begin(), can_start.end(), false) - can_start.begin());
+  const auto never = std::ranges::find(can_start, false);
+  if (never != can_start.end()) refuse(static_cast<std::size_t>(never - can_start.begin()), nullptr);
 }
 
 bool holds_outside(const StartCondition& condition) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// waitpoint-host FILE ARGUMENTS: runs a program that is built as a shared object, as a process of its own.
+// waitpoint-load FILE ARGUMENTS: runs a program that is built as a shared object, as a process of its own.
 #include <dlfcn.h>
 
 #include <cstdio>
@@ -19,7 +19,7 @@ int refuse(const char* file, const char* reason) {
 
 // This main() is not exported: dlsym() finds the object's.
 int main(int argc, char** argv, char** environment) {
-  if (argc < 2) return refuse("waitpoint-host", "expects a shared object");
+  if (argc < 2) return refuse("waitpoint-load", "expects a shared object");
   // The dynamic linker would look for a name without a '/' in its own folders.
   std::string file = argv[1];
   if (file.find('/') == std::string::npos) file.insert(0, "./");

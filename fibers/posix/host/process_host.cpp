@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "fibers/posix/host/hosted_family.hpp"
+#include "fibers/posix/host/process_host.hpp"
 
 #include <fcntl.h>
 #include <linux/futex.h>
@@ -17,6 +17,7 @@
 #include <cstdlib>
 #include <new>
 
+#include "core/program_path.hpp"
 #include "fibers/posix/base/direct_call.hpp"
 #include "fibers/posix/family/keys.hpp"
 #include "fibers/posix/family/system_processes.hpp"
@@ -31,11 +32,15 @@ using family::Process;
 void futex(std::atomic<std::uint32_t>& word, int operation, std::uint32_t value, const timespec* timeout) {
   call_directly(SYS_futex, reinterpret_cast<long>(&word), operation, value, reinterpret_cast<long>(timeout));
 }
+[[noreturn]] void fail(const HostedProgram& program) {
+  throw HostingError("the system makes no process for program '" + program.name + "'");
+}
+
 void sleep_really(const timespec& span) { call_directly(SYS_nanosleep, reinterpret_cast<long>(&span)); }
 
 }  // namespace
 
-HostedFamily::HostedFamily(kernel::Scheduler& scheduler, std::filesystem::path library)
+ProcessHost::ProcessHost(kernel::Scheduler& scheduler, std::filesystem::path library)
     : scheduler_(scheduler), library_(std::move(library)) {
   file_ = memfd_create("waitpoint-family", MFD_CLOEXEC);
   if (file_ < 0 || ftruncate(file_, run_bytes) != 0) return;
@@ -51,14 +56,13 @@ HostedFamily::HostedFamily(kernel::Scheduler& scheduler, std::filesystem::path l
   family_->file = {getpid(), file_};
   family_->arena.start(reinterpret_cast<Family*>(family_address) + 1,
                        reinterpret_cast<char*>(family_address + family_bytes));
-  Process& host = *add(nullptr);
+  Process& host = *add_process(nullptr);
   host.real_id = getpid();
   limit_.node.fire = fire;
-  limit_.family = this;
+  limit_.host = this;
 }
 
-// The programs are left where they are.
-HostedFamily::~HostedFamily() {
+ProcessHost::~ProcessHost() {
   if (limit_.node.in_list()) scheduler_.cancel(limit_.node);
   const bool is_own =
       family_ != nullptr && family_->file.watcher == getpid();  // else of the process that forked this one
@@ -66,13 +70,14 @@ HostedFamily::~HostedFamily() {
     for (const Process& process : family::entries_of(*family_).subspan(1))
       if (process.state != Process::State::none && process.state != Process::State::ended && process.real_id > 0)
         kill(process.real_id, SIGKILL);
-    for (const Program& program : programs_) waitpid(program.process->real_id, nullptr, 0);
+    for (const Program& program : programs_)
+      if (program.process != nullptr) waitpid(program.process->real_id, nullptr, 0);
   }
   if (family_ != nullptr) munmap(family_, family_bytes);
   if (file_ >= 0) close(file_);
 }
 
-Process* HostedFamily::add(const Process* parent) {
+Process* ProcessHost::add_process(const Process* parent) {
   if (family_->entries == family::processes_max) return nullptr;
   Process& made = *new (family_->processes + family_->entries++) Process();
   made.state = Process::State::alive;
@@ -84,52 +89,64 @@ Process* HostedFamily::add(const Process* parent) {
   return &made;
 }
 
-int HostedFamily::start(const std::string& name, const std::vector<std::string>& words, kernel::Robot& robot) {
-  Process* const process = add(&own());
-  if (process == nullptr) return -1;
-  const std::uint64_t tie = family::tie_of_first(family_->settings.seed, robot.id, *process);
+void ProcessHost::add(const HostedProgram& program) {
+  if (find_program(program.words.front()).empty())
+    throw HostingError("there is no program '" + program.words.front() + "'");
+  programs_.push_back({program, &robot_of(scheduler_, program)});
+}
+
+void ProcessHost::start(std::size_t number) {
+  Program& program = programs_[number];
+  Process* const process = family_ != nullptr ? add_process(&own()) : nullptr;
+  if (process == nullptr) fail(program.hosted);
+  const std::uint64_t tie = family::tie_of_first(family_->settings.seed, program.robot->id, *process);
   process->next = {scheduler_.global_time(), kernel::make_order(kernel::Phase::tasks, tie)};
-  std::vector<std::string> environment = {"LD_PRELOAD=" + library_.string(), std::string(name_variable) + "=" + name};
-  char place[64];
-  // Of one length in every run: the addresses on the stack depend on it.
-  std::snprintf(place, sizeof place, "%s=%09d:%05d:%04d", record_variable, getpid(), file_,
-                static_cast<int>(process - family_->processes));
-  environment.emplace_back(place);
-  std::vector<char*> arguments;
-  arguments.reserve(words.size() + 1);
-  for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
-  arguments.push_back(nullptr);
+  program.process = process;
   std::fflush(nullptr);
   const pid_t host = getpid(), child = fork();
   if (child == 0) {
     prctl(PR_SET_PDEATHSIG, SIGKILL);
-    if (getppid() != host) _exit(127);
-    const int persona = personality(0xFFFFFFFF);
-    if (persona >= 0) personality(static_cast<unsigned long>(persona) | ADDR_NO_RANDOMIZE);
-    const int nothing = open("/dev/null", O_RDONLY);
-    if (nothing > 0) dup2(nothing, STDIN_FILENO);
-    for (std::string& variable : environment) putenv(variable.data());
-    execvp(arguments[0], arguments.data());
-    _exit(127);
+    if (getppid() != host) _exit(ProgramEnd::not_started);
+    execute(program, host);
   }
   if (child < 0) {
     process->state = Process::State::none;
     --family_->alive;
-    return -1;
+    program.process = nullptr;
+    fail(program.hosted);
   }
   process->real_id = child;
-  programs_.push_back({process, &robot});
   set_limit();
-  return static_cast<int>(programs_.size()) - 1;
 }
 
-std::optional<int> HostedFamily::exit_status(int program) const {
-  const Process& process = *programs_[static_cast<std::size_t>(program)].process;
-  if (process.state != Process::State::ended) return std::nullopt;
-  return WIFEXITED(process.status) ? WEXITSTATUS(process.status) : 128 + WTERMSIG(process.status);
+// In the child.
+void ProcessHost::execute(const Program& program, pid_t host) const {
+  const int persona = personality(0xFFFFFFFF);
+  if (persona >= 0) personality(static_cast<unsigned long>(persona) | ADDR_NO_RANDOMIZE);
+  if (const int nothing = open("/dev/null", O_RDONLY); nothing > 0) dup2(nothing, STDIN_FILENO);
+  std::vector<std::string> environment = {"LD_PRELOAD=" + library_.string(),
+                                          std::string(name_variable) + "=" + program.hosted.name};
+  char place[64];
+  // Of one length in every run: the addresses on the stack depend on it.
+  std::snprintf(place, sizeof place, "%s=%09d:%05d:%04d", record_variable, host, file_,
+                static_cast<int>(program.process - family_->processes));
+  environment.emplace_back(place);
+  for (std::string& variable : environment) putenv(variable.data());
+  std::vector<char*> words;
+  words.reserve(program.hosted.words.size() + 1);
+  for (const std::string& word : program.hosted.words) words.push_back(const_cast<char*>(word.c_str()));
+  words.push_back(nullptr);
+  execvp(words[0], words.data());
+  _exit(ProgramEnd::not_started);
 }
 
-void HostedFamily::set_limit() {
+std::optional<ProgramEnd> ProcessHost::end_of(std::size_t program) const {
+  const Process* const process = programs_[program].process;
+  if (process == nullptr || process->state != Process::State::ended) return std::nullopt;
+  return ProgramEnd(process->status);
+}
+
+void ProcessHost::set_limit() {
   if (limit_.node.in_list()) scheduler_.cancel(limit_.node);
   const Process* const least = family::least_other(*family_, own());
   kernel::EventKey key = least != nullptr ? family::key_of(*family_, *least) : kernel::EventKey::never();
@@ -141,9 +158,9 @@ void HostedFamily::set_limit() {
   scheduler_.schedule(limit_.node, key);
 }
 
-void HostedFamily::fire(kernel::EventNode& node) { reinterpret_cast<Limit&>(node).family->hand_over(); }
+void ProcessHost::fire(kernel::EventNode& node) { reinterpret_cast<Limit&>(node).host->hand_over(); }
 
-void HostedFamily::hand_over() {
+void ProcessHost::hand_over() {
   Family& all = *family_;
   all.now = std::max(all.now, scheduler_.global_time());
   own().next = scheduler_.next_key();
@@ -162,7 +179,7 @@ void HostedFamily::hand_over() {
   set_limit();
 }
 
-void HostedFamily::await_turn() {
+void ProcessHost::await_turn() {
   constexpr timespec patience{0, 20'000'000};
   while (own().has_turn.exchange(0) == 0) {
     futex(own().has_turn, FUTEX_WAIT, 0, &patience);
@@ -172,7 +189,7 @@ void HostedFamily::await_turn() {
 }
 
 // A process that was killed while it had the turn, or has not got so far as to join.
-void HostedFamily::take_from_killed() {
+void ProcessHost::take_from_killed() {
   Process& holder = family_->processes[family_->holder];
   if (&holder == &own() || holder.real_id == 0 || family::is_running(holder.real_id)) return;
   if (holder.state == Process::State::alive || holder.state == Process::State::stopped) {
@@ -188,13 +205,13 @@ void HostedFamily::take_from_killed() {
 }
 
 // What the system does at a process's end must have happened when another continues.
-void HostedFamily::await_end_of_leaving() {
+void ProcessHost::await_end_of_leaving() {
   constexpr timespec soon{0, 20'000};
   while (family_->leaving != 0 && family::is_running(family_->leaving)) sleep_really(soon);
   family_->leaving = 0;
 }
 
-std::uint64_t HostedFamily::digest() const {
+std::uint64_t ProcessHost::digest() const {
   std::uint64_t sum = family_->digest_of_ended;
   for (const Process& process : family::entries_of(*family_))
     if (process.state != Process::State::none) sum += family::share_of_digest(process.id, process.digest);
