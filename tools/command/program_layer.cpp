@@ -37,7 +37,7 @@ void begin_with_program_layer(const scenario::Scenario& scenario) {
   if (run::has_programs(scenario, Hosting::processes))
     setenv(run::library_variable, find_part("libwaitpoint-exec.so").c_str(), 1);
   if (!run::has_programs(scenario, Hosting::in_process) || posix::InProcessHost::is_possible()) return;
-  const std::filesystem::path library = find_part("libwaitpoint-guests.so");
+  const std::filesystem::path library = find_part("libwaitpoint-in-process.so");
   if (tried) throw BadInput(library, 0, "the library for robots' programs cannot be loaded into this program");
   setenv(tried_variable, "1", 1);
   const char* const others = std::getenv("LD_PRELOAD");

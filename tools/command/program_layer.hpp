@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Loading of the library in front of the C library that robots' programs need (fibers/posix/guests/guests.hpp).
+// Loading of the library in front of the C library that robots' programs need (fibers/posix/in_process/layer.hpp).
 #pragma once
 
 #include "modules/scenario/scenario.hpp"

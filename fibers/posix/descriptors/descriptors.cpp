@@ -126,7 +126,7 @@ void (*before_partner)() = nullptr;
 int wait_for(pollfd* descriptors, nfds_t count, Time deadline, Restart restart) {
   kernel::Task& task = *kernel::running;
   bool outside = false, within_family = true;
-  // A host does not look outside at the end of its instants: descriptors are checked when a guest acts on one.
+  // A host does not look outside at the end of its instants: descriptors are checked when a program acts on one.
   for (nfds_t i = 0; i < count && !has_host; ++i)
     if (descriptors[i].fd >= 0 && !is_inside(descriptors[i].fd)) {
       outside = true;

@@ -15,7 +15,7 @@ bool is_in_range(int descriptor) { return descriptor >= 0 && descriptor < known_
 }  // namespace
 
 void note_owner(int descriptor) {
-  if (!is_in_range(descriptor) || !is_simulated() || !this_program().is_member) return;
+  if (!is_in_range(descriptor) || !is_simulated() || !this_program().is_loaded) return;
   owners[descriptor] = &this_program();
   if (descriptor >= owned_end) owned_end = descriptor + 1;
 }

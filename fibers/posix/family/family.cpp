@@ -23,7 +23,7 @@ constexpr std::size_t page = 4096;
 static_assert(family_address % page == 0 && family_bytes % page == 0, "the family's memory is mapped in whole pages");
 static_assert(sizeof(Family) % Arena::alignment == 0, "the arena begins behind the family's record");
 
-// Guests have no run's file, and no processes.
+// Programs in the process of a host have no run's file, and no processes.
 Family& memory() {
   if (family != nullptr) return *family;
   void* const pages = mmap(reinterpret_cast<void*>(family_address), family_bytes, PROT_READ | PROT_WRITE,

@@ -10,10 +10,12 @@ namespace waitpoint::posix {
 namespace {
 
 // Null without the library.
-const Guests* layer() { return static_cast<const Guests*>(dlsym(RTLD_DEFAULT, Guests::symbol)); }
+const InProcessLayer* layer() {
+  return static_cast<const InProcessLayer*>(dlsym(RTLD_DEFAULT, InProcessLayer::symbol));
+}
 
 void deliver_signals_of(kernel::Task& task) {
-  layer()->is_guest(task) ? layer()->deliver_signals(task) : sync::deliver_signals(task);
+  layer()->is_program_task(task) ? layer()->deliver_signals(task) : sync::deliver_signals(task);
 }
 
 }  // namespace
@@ -23,7 +25,7 @@ bool InProcessHost::is_possible() { return layer() != nullptr; }
 InProcessHost::~InProcessHost() {
   if (!is_possible()) return;
   layer()->set_carrier(nullptr);
-  for (const Program& program : programs_) layer()->take_away(program.loaded, scheduler_);
+  for (const Program& program : programs_) layer()->drop(program.loaded, scheduler_);
   layer()->forget_names();
 }
 
@@ -36,8 +38,9 @@ void InProcessHost::add(const HostedProgram& program) {
   std::vector<const char*> words;
   words.reserve(program.words.size());
   for (const std::string& word : program.words) words.push_back(word.c_str());
-  Guests::Error error;
-  Guest* const loaded = layer()->load(program.name.c_str(), static_cast<int>(words.size()), words.data(), error);
+  InProcessLayer::Error error;
+  LoadedProgram* const loaded =
+      layer()->load(program.name.c_str(), static_cast<int>(words.size()), words.data(), error);
   if (loaded == nullptr) throw HostingError(error);
   programs_.push_back({loaded, &robot_of(scheduler_, program), program.name});
   scheduler_.hooks().deliver_signals = deliver_signals_of;
@@ -51,8 +54,7 @@ void InProcessHost::start(std::size_t program) {
 
 std::optional<ProgramEnd> InProcessHost::end_of(std::size_t program) const {
   int status = 0;
-  return layer()->has_ended(*programs_[program].loaded, status) ? std::optional(ProgramEnd::by_exit(status))
-                                                                : std::nullopt;
+  return layer()->has_ended(*programs_[program].loaded, status) ? std::optional(ProgramEnd(status)) : std::nullopt;
 }
 
 }  // namespace waitpoint::posix

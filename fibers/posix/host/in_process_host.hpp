@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The back end of programs in the owner's process: shared objects with a main(), each a copy with its own globals,
 // whose threads are tasks of the run. It needs the library in front of the C library that has the table of functions
-// in_process/programs.hpp, and throws HostingError without it.
+// in_process/layer.hpp, and throws HostingError without it.
 #pragma once
 
 #include <vector>
 
 #include "core/hosting/program_host.hpp"
 #include "fibers/kernel/scheduler.hpp"
-#include "fibers/posix/guests/guests.hpp"
+#include "fibers/posix/in_process/layer.hpp"
 
 namespace waitpoint::posix {
 
@@ -32,7 +32,7 @@ class InProcessHost final : public ProgramHost {
 
  private:
   struct Program {
-    Guest* loaded;
+    LoadedProgram* loaded;
     kernel::Robot* robot;
     std::string name;
   };

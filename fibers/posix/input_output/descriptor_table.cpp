@@ -100,7 +100,7 @@ void close_descriptors_of(const Program& program) {
   const Program* owner = nullptr;
   for (int descriptor = next_owned(0, owner); descriptor >= 0; descriptor = next_owned(descriptor + 1, owner)) {
     if (owner != &program) continue;
-    WAITPOINT_CHECK(owner->is_member, "a program that is alone in its process owns a descriptor");
+    WAITPOINT_CHECK(owner->is_loaded, "a program that is alone in its process owns a descriptor");
     clear_owner(descriptor);
     forget_timer_descriptor(descriptor);
     forget_signal_descriptor(descriptor);

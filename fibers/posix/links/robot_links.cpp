@@ -33,7 +33,7 @@ bool is_connected_to(int descriptor, const SocketAddress& peer) {
 void set_carrier(const Carrier* to) { carrier = to; }
 
 const Carrier* carrier_here() {
-  const bool carries = carrier != nullptr && is_simulated() && (this_program().is_member || carrier->find != nullptr);
+  const bool carries = carrier != nullptr && is_simulated() && (this_program().is_loaded || carrier->find != nullptr);
   return carries ? carrier : nullptr;
 }
 

@@ -9,7 +9,7 @@ namespace waitpoint::posix {
 /// Before main(): makes children that are forked within the C library simulations of their own, too.
 void register_fork();
 /// True if the process is a host's: a copy of it would be no process of the program.
-bool is_guest();
+bool is_in_process();
 /// Called before the running thread makes a child.
 void before_child();
 /// The running thread has made, or is about to make, a child whose end only the system notes: from now on its signal is

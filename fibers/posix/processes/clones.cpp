@@ -151,7 +151,7 @@ int make_clone(const Clone& clone) {
   if (clone.function == nullptr || clone.stack == nullptr) return fail(EINVAL);
   if ((shares_actions && !shares_memory) || ((clone.flags & CLONE_THREAD) != 0 && !shares_actions)) return fail(EINVAL);
   if ((clone.flags & CLONE_THREAD) != 0) return make_thread(clone);
-  if (is_guest()) return fail(ENOSYS);
+  if (is_in_process()) return fail(ENOSYS);
   return shares_memory ? lend_memory(clone) : fork_and_call(clone);
 }
 
@@ -162,12 +162,12 @@ long call_about_clones(long number, const CallWords& words) {
     case SYS_exit: exit_thread(words.word<int>(0));
     case SYS_set_tid_address: this_thread().cleared_at_end = words.word<std::uint32_t*>(0); return this_thread().id;
     case SYS_clone:
-      if (is_guest() || (words.at[0] & CLONE_VM) != 0 || words.at[1] != 0) return fail(ENOSYS);
+      if (is_in_process() || (words.at[0] & CLONE_VM) != 0 || words.at[1] != 0) return fail(ENOSYS);
       return fork_by_number(number, words);
     default: {  // SYS_clone3
       const auto arguments = words.word<const clone_args*>(0);
       if (!can_be_read(arguments)) return fail(EFAULT);
-      if (is_guest() || (arguments->flags & CLONE_VM) != 0 || arguments->stack != 0) return fail(ENOSYS);
+      if (is_in_process() || (arguments->flags & CLONE_VM) != 0 || arguments->stack != 0) return fail(ENOSYS);
       return fork_by_number(number, words);
     }
   }

@@ -180,7 +180,7 @@ void await_child_in_system() {
   install(SIGCHLD);
 }
 
-bool is_guest() { return has_host && is_simulated(); }
+bool is_in_process() { return has_host && is_simulated(); }
 
 }  // namespace waitpoint::posix
 
@@ -188,12 +188,12 @@ using namespace waitpoint;
 using namespace waitpoint::posix;
 
 WAITPOINT_INTERPOSED pid_t fork() noexcept {
-  if (is_guest()) return fail(ENOSYS);
+  if (is_in_process()) return fail(ENOSYS);
   if (!is_simulated()) return WAITPOINT_NEXT(fork)();
   return fork_by([](const void*) { return WAITPOINT_NEXT(fork)(); }, nullptr, true);
 }
 WAITPOINT_INTERPOSED pid_t _Fork() noexcept {
-  if (is_guest()) return fail(ENOSYS);
+  if (is_in_process()) return fail(ENOSYS);
   if (!is_simulated()) return WAITPOINT_NEXT(_Fork)();
   return fork_by([](const void*) { return WAITPOINT_NEXT(_Fork)(); }, nullptr, false);
 }
@@ -201,7 +201,7 @@ WAITPOINT_INTERPOSED pid_t _Fork() noexcept {
 // The child does not share its parent's memory, but the parent waits for its end or exec, as programs may expect.
 WAITPOINT_INTERPOSED pid_t vfork() noexcept {
   if (!is_simulated()) return WAITPOINT_NEXT(fork)();
-  if (is_guest()) return fail(ENOSYS);
+  if (is_in_process()) return fail(ENOSYS);
   const pid_t id = fork();
   if (id <= 0) return id;
   family::Process& child = *family::find(id);

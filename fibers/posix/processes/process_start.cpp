@@ -108,7 +108,7 @@ using Spawn = decltype(&posix_spawn);
 int spawn(Spawn real, const char* path, pid_t* child, const char* file, const posix_spawn_file_actions_t* actions,
           const posix_spawnattr_t* attributes, char* const* words, char* const* environment) {
   if (!is_simulated()) return real(child, file, actions, attributes, words, environment);
-  if (is_guest()) return ENOSYS;
+  if (is_in_process()) return ENOSYS;
   const ProgramKind kind = kind_in_simulation(path);
   Child made(kind != ProgramKind::native);
   if (!made.has_room()) return EAGAIN;

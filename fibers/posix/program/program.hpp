@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The process as all rooms see it: the record of the run, and whether there is a host. The top room, exec/ or guests/,
-// of which a library has one, defines has_host and refuse().
+// The process as all rooms see it: the record of the run, and whether there is a host. The top room, exec/ or
+// in_process/, of which a library has one, defines has_host and refuse().
 #pragma once
 
 #include "fibers/posix/program/record.hpp"
@@ -8,10 +8,10 @@
 
 namespace waitpoint::posix {
 
-/// Null outside `waitpoint exec`; for guests it holds only settings.
+/// Null outside `waitpoint exec`; in the process of a host it holds only settings.
 extern Record* record;
 
-/// True if programs are guests in another program's process (guests.hpp), whose own code is not simulated.
+/// True if programs are in the process of their host (in_process/layer.hpp), whose own code is not simulated.
 extern const bool has_host;
 inline bool is_host_code() { return has_host && !is_simulated(); }
 

@@ -19,7 +19,7 @@ struct Program {
   kernel::Robot* robot = nullptr;  ///< to which its threads belong, as tasks
   const char* label = "";          ///< prefix of the names of its tasks
   bool is_service = false;         ///< it does not keep the run alive
-  bool is_member = false;          ///< it is one of several: a Member
+  bool is_loaded = false;          ///< into the process of its host: a LoadedProgram
   /// Called, unless null, by each thread about to end; in the last one it ends the program.
   void (*thread_ends)() = nullptr;
   /// The default action of a signal that ends the program; null: it ends the process.

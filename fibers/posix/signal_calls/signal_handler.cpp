@@ -81,7 +81,7 @@ void keep(const siginfo_t& information) {
 }
 
 // The system's notice of an end that the family has noted, or of a process that has just executed another program.
-bool is_end_of_member(const siginfo_t& information) {
+bool is_noted_in_family(const siginfo_t& information) {
   if (information.si_signo != SIGCHLD || information.si_code <= 0 || family::own == nullptr) return false;
   const family::Process* const child = family::find_in_system(information.si_pid);
   return child == nullptr || !child->is_native;
@@ -276,7 +276,7 @@ bool take_in_signals_from_outside() {
     const siginfo_t information = place.information;
     place.is_there.store(false);
     next_taken.fetch_add(1);
-    if (is_end_of_member(information)) continue;
+    if (is_noted_in_family(information)) continue;
     if (!ring_by_signal(information)) send(information, program_for(information.si_signo));
     any = true;
   }

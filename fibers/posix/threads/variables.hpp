@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Destructors of a thread's variables (thread_local of C++). The C library keeps them, and with them the libraries that
-// they are of; for guests the layer does: their threads may end without them, and their libraries are to go then.
+// they are of; in the process of a host the layer does: their threads may end without them, and their libraries are to
+// go then.
 #pragma once
 
 #include "fibers/posix/program/thread.hpp"

@@ -152,7 +152,7 @@ bool has_program_layer() {
     Dl_info info{};
     void* const function = dlsym(RTLD_NEXT, "pthread_create");
     return function != nullptr && dladdr(function, &info) != 0 && info.dli_fname != nullptr &&
-           std::string_view(info.dli_fname).find("libwaitpoint-guests") != std::string_view::npos;
+           std::string_view(info.dli_fname).find("libwaitpoint-in-process") != std::string_view::npos;
   }();
   return has;
 }

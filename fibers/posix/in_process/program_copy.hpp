@@ -2,7 +2,7 @@
 // The copies of a program's file and of those of its libraries, of which the program is loaded: see program_image.hpp.
 #pragma once
 
-#include "fibers/posix/members/object_changes.hpp"
+#include "fibers/posix/in_process/object_changes.hpp"
 
 namespace waitpoint::posix {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "fibers/posix/members/environment.hpp"
+#include "fibers/posix/in_process/environment.hpp"
 
 #include <cerrno>
 #include <cstdio>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "fibers/posix/members/linked_libraries.hpp"
+#include "fibers/posix/in_process/linked_libraries.hpp"
 
 #include <dlfcn.h>
 #include <fcntl.h>
@@ -23,14 +23,28 @@ namespace waitpoint::posix {
 namespace {
 
 constexpr std::string_view shared[] = {
-    "ld-linux-x86-64.so.", "libc.so.",          "libm.so.",
-    "libmvec.so.",         "libdl.so.",         "libpthread.so.",
-    "librt.so.",           "libutil.so.",       "libanl.so.",
-    "libnsl.so.",          "libresolv.so.",     "libstdc++.so.",
-    "libgcc_s.so.",        "libgomp.so.",       "libtsan.so.",
-    "libasan.so.",         "libubsan.so.",      "liblsan.so.",
-    "libwaitpoint.so",     "libwaitpoint-exec", "libthread_db.so.",
-    "libwaitpoint-guests",
+    "ld-linux-x86-64.so.",
+    "libc.so.",
+    "libm.so.",
+    "libmvec.so.",
+    "libdl.so.",
+    "libpthread.so.",
+    "librt.so.",
+    "libutil.so.",
+    "libanl.so.",
+    "libnsl.so.",
+    "libresolv.so.",
+    "libstdc++.so.",
+    "libgcc_s.so.",
+    "libgomp.so.",
+    "libtsan.so.",
+    "libasan.so.",
+    "libubsan.so.",
+    "liblsan.so.",
+    "libwaitpoint.so",
+    "libwaitpoint-exec",
+    "libthread_db.so.",
+    "libwaitpoint-in-process",
 };
 
 /// This process's environment, with one variable in front.

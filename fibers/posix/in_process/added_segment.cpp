@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "fibers/posix/members/added_segment.hpp"
+#include "fibers/posix/in_process/added_segment.hpp"
 
 #include <cstdlib>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "fibers/posix/members/program_image.hpp"
+#include "fibers/posix/in_process/program_image.hpp"
 
 #include <dlfcn.h>
 #include <link.h>
@@ -11,7 +11,7 @@
 
 #include "core/error.hpp"
 #include "fibers/posix/base/interposed.hpp"
-#include "fibers/posix/members/linked_libraries.hpp"
+#include "fibers/posix/in_process/linked_libraries.hpp"
 
 namespace waitpoint::posix {
 namespace {

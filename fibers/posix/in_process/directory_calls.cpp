@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The working directory of a guest.
+// The working directory of a program.
 #include <fcntl.h>
 #include <unistd.h>
 
@@ -9,7 +9,7 @@
 #include "fibers/posix/base/error_number.hpp"
 #include "fibers/posix/base/high_descriptor.hpp"
 #include "fibers/posix/base/interposed.hpp"
-#include "fibers/posix/members/members.hpp"
+#include "fibers/posix/in_process/loaded_program.hpp"
 
 namespace waitpoint::posix {
 namespace {
@@ -23,9 +23,9 @@ int change_to(int opened) {
     WAITPOINT_NEXT(close)(directory);
     return fail(EACCES);
   }
-  Member& member = this_member();
-  if (member.directory != directory_of_process) WAITPOINT_NEXT(close)(member.directory);
-  member.directory = directory;
+  LoadedProgram& program = this_loaded_program();
+  if (program.directory != directory_of_process) WAITPOINT_NEXT(close)(program.directory);
+  program.directory = directory;
   return 0;
 }
 
@@ -39,8 +39,8 @@ int open_directory(int at, const char* path) {
 using namespace waitpoint::posix;
 
 WAITPOINT_INTERPOSED int chdir(const char* path) noexcept {
-  return runs_in_member() ? change_to(open_directory(AT_FDCWD, path)) : WAITPOINT_NEXT(chdir)(path);
+  return runs_in_loaded_program() ? change_to(open_directory(AT_FDCWD, path)) : WAITPOINT_NEXT(chdir)(path);
 }
 WAITPOINT_INTERPOSED int fchdir(int descriptor) noexcept {
-  return runs_in_member() ? change_to(open_directory(descriptor, ".")) : WAITPOINT_NEXT(fchdir)(descriptor);
+  return runs_in_loaded_program() ? change_to(open_directory(descriptor, ".")) : WAITPOINT_NEXT(fchdir)(descriptor);
 }

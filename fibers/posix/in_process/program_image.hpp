@@ -12,8 +12,8 @@
 //   environ                     is a variable of the program's
 #pragma once
 
-#include "fibers/posix/members/environment.hpp"
-#include "fibers/posix/members/program_copy.hpp"
+#include "fibers/posix/in_process/environment.hpp"
+#include "fibers/posix/in_process/program_copy.hpp"
 
 namespace waitpoint::posix {
 

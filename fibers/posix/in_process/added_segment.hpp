@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include "fibers/posix/members/object_file.hpp"
+#include "fibers/posix/in_process/object_file.hpp"
 
 namespace waitpoint::posix {
 

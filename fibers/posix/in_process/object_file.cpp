@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "fibers/posix/members/object_file.hpp"
+#include "fibers/posix/in_process/object_file.hpp"
 
 #include <fcntl.h>
 #include <sys/mman.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "fibers/posix/members/object_changes.hpp"
+#include "fibers/posix/in_process/object_changes.hpp"
 
 #include <sys/mman.h>
 

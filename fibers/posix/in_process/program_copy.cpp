@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "fibers/posix/members/program_copy.hpp"
+#include "fibers/posix/in_process/program_copy.hpp"
 
 #include <dlfcn.h>
 #include <sys/mman.h>
@@ -14,9 +14,9 @@
 #include "core/error.hpp"
 #include "fibers/posix/base/high_descriptor.hpp"
 #include "fibers/posix/base/interposed.hpp"
-#include "fibers/posix/members/added_segment.hpp"
-#include "fibers/posix/members/linked_libraries.hpp"
-#include "fibers/posix/members/object_changes.hpp"
+#include "fibers/posix/in_process/added_segment.hpp"
+#include "fibers/posix/in_process/linked_libraries.hpp"
+#include "fibers/posix/in_process/object_changes.hpp"
 
 namespace waitpoint::posix {
 namespace {
