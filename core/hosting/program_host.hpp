@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the owner of a run asks of the programs that it hosts. Owners are the experiment (modules/run), the session of
-// several programs (tools/session), and the launch of nodes of ROS (modules/nodes); conditions of starts are the same
-// for all of them (hosted_programs.hpp). A host is one of two back ends:
+// The interface between the owner of a run and the programs that it hosts. Owners are the experiment (modules/run), the
+// session of several programs (tools/session), and the launch of nodes of ROS (modules/nodes); conditions of starts are
+// the same for all of them (hosted_programs.hpp). A host is one of two back ends:
 //
 //   processes   each program is a process, with all that it starts. An owner that is itself simulated starts them as
 //               any program does (spawned_processes.hpp); one that has the run's scheduler takes turns with them

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a program, of several, waits for before its start:
+// Conditions of the start of a program, of several:
 //
 //   NAME          the program of this name has ended
 //   NAME.started  it has been started
 //   tcp:PORT      a socket of this machine listens at the port
 //   PATH          with a '/': the file or socket exists
 //
-// Nodes of ROS have two further kinds, of which their owner decides: modules/ros1/node_condition.hpp.
+// Nodes of ROS have two further kinds, decided by their owner: modules/ros1/node_condition.hpp.
 #pragma once
 
 #include <cstddef>

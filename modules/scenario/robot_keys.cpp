@@ -128,7 +128,8 @@ const KeyTable& program_keys() {
   static const KeyTable keys =
       KeyTable("program")
           .add("name", name_schema, "its name", Need::required)
-          .add("file", text_form().schema, "a shared object with a `main()`: in-process, unless `hosting` says otherwise")
+          .add("file", text_form().schema,
+               "a shared object with a `main()`: in-process, unless `hosting` says otherwise")
           .add("arguments", texts(), "of the shared object")
           .add("command", texts(1), "a program and its arguments: processes, unless `hosting` says otherwise")
           .add("after", texts(), "what its start waits for: `NAME`, `NAME.started`, `tcp:PORT`, a path with a `/`")

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "modules/scenario/scenario_keys.hpp"
 
+#include "core/hosting/program_host.hpp"
 #include "modules/scenario/expectation_reader.hpp"
 #include "modules/scenario/log_reader.hpp"
 #include "modules/scenario/medium_reader.hpp"
