@@ -59,7 +59,8 @@ def idl_of(full_name, members):
         if full_name == "std_msgs/Header" and member == "seq":  # ROS 2 has none
             continue
         written = IDL_TYPES[kind] if kind in IDL_TYPES else "::msg::".join(kind.split("/")) + "_"
-        lines.append(f"  sequence<{written}> {member};" if brackets == "[]" else f"  {written} {member}{brackets};")
+        # The underscore is not of the name: it may be a keyword of IDL.
+        lines.append(f"  sequence<{written}> _{member};" if brackets == "[]" else f"  {written} _{member}{brackets};")
     return "\n".join(lines) + "\n}; }; };\n"
 
 
