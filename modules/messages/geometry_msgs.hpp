@@ -31,6 +31,16 @@ struct Point {
   }
 };
 
+struct PointStamped {
+  static constexpr std::string_view type_name = "geometry_msgs/PointStamped";
+  std_msgs::Header header;
+  Point point;
+  static void fields(auto field) {
+    field("header", &PointStamped::header);
+    field("point", &PointStamped::point);
+  }
+};
+
 struct Quaternion {
   static constexpr std::string_view type_name = "geometry_msgs/Quaternion";
   double x = 0;

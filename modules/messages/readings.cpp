@@ -59,6 +59,10 @@ sensor_msgs::Imu message_of(const posters::Inertial& inertial, const std::string
   return message;
 }
 
+geometry_msgs::PointStamped message_of(const posters::PositionFix& fix, const std::string& frame) {
+  return {header_of(fix.date, frame), {fix.position.x, fix.position.y, fix.height_m}};
+}
+
 nav_msgs::OccupancyGrid message_of(const OccupancyGrid& grid, Time date, const std::string& frame) {
   constexpr std::int8_t free = 0, occupied = 100, unknown = -1;
   nav_msgs::OccupancyGrid message;

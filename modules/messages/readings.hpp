@@ -35,6 +35,8 @@ sensor_msgs::LaserScan message_of(const posters::LaserReading& scan, const std::
 
 /// Rates and accelerations: no orientation is measured.
 sensor_msgs::Imu message_of(const posters::Inertial& inertial, const std::string& frame);
+/// Of the antenna.
+geometry_msgs::PointStamped message_of(const posters::PositionFix& fix, const std::string& frame);
 
 nav_msgs::OccupancyGrid message_of(const OccupancyGrid& grid, Time date, const std::string& frame);
 

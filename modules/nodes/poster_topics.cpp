@@ -21,6 +21,9 @@ std::optional<Time> date_of(const posters::Odometry& odometry) { return odometry
 std::optional<Time> date_of(const posters::Echoes& echoes) { return echoes.scan.date; }
 std::optional<Time> date_of(const posters::SpeedReference& speed) { return speed.date; }
 std::optional<Time> date_of(const posters::Inertial& inertial) { return inertial.date; }
+std::optional<Time> date_of(const posters::PositionFix& fix) {
+  return fix.number == 0 ? std::nullopt : std::optional(fix.date);
+}
 
 auto message_of(const posters::FusedPosition& fused, const PosterFrames&) {
   return messages::message_of(fused.position, "map");
@@ -42,6 +45,7 @@ auto message_of(const posters::SpeedReference& speed, const PosterFrames&) {
 auto message_of(const posters::Inertial& inertial, const PosterFrames& frames) {
   return messages::message_of(inertial, frames.prefix + "base_link");
 }
+auto message_of(const posters::PositionFix& fix, const PosterFrames&) { return messages::message_of(fix, "map"); }
 
 }  // namespace
 
@@ -78,10 +82,10 @@ PosterTopics::PosterTopics(const scenario::NodesScenario& nodes, const genom::Na
     }
     Row& row = rows_.emplace_back(Row{entry.topic, nullptr});
     if (!find_look<posters::FusedPosition, posters::Localisation, posters::Odometry, posters::Echoes,
-                   posters::SpeedReference, posters::Inertial>(*poster, row))
-      throw entry.written.bad(
-          "poster '" + entry.poster +
-          "' cannot be a topic: expected a position, odometry, echoes, a speed or inertial readings");
+                   posters::SpeedReference, posters::Inertial, posters::PositionFix>(*poster, row))
+      throw entry.written.bad("poster '" + entry.poster +
+                              "' cannot be a topic: expected a position, odometry, echoes, a speed, inertial "
+                              "readings or position fixes");
   }
 }
 

@@ -8,6 +8,7 @@
 //   Echoes                   sensor_msgs/LaserScan
 //   SpeedReference           geometry_msgs/Twist
 //   Inertial                 sensor_msgs/Imu
+//   PositionFix              geometry_msgs/PointStamped, in `map`
 //
 // They are looked at after each step of the world, which is no event of the run.
 #pragma once
