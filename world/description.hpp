@@ -52,29 +52,31 @@ struct Obstacle {
 /// Errors of wheel odometry, see vehicles/odometer.hpp. The first group are errors of the controller's result, for
 /// every kind of base; the wheel errors apply only to bases with two driven sides.
 struct OdometryErrors {
-  double travel_scale = 1;               ///< measured / true distance (sideways too)
-  double turn_scale = 1;                 ///< measured / true turn: the wheel base factor E_b, or the turn gear
-  double drift_rad_per_m = 0;            ///< systematic turn per metre: unequal wheels E_d, or the heading gear
-  double travel_noise_m_per_sqrt_m = 0;  ///< standard deviation of the distance after one metre
-  double turn_noise_rad_per_sqrt_m = 0;  ///< standard deviation of the turn after one metre travelled
+  double travel_scale = 1;
+  double turn_scale = 1;
+  double drift_rad_per_m = 0;
+  double travel_noise_m_per_sqrt_m = 0;
+  double turn_noise_rad_per_sqrt_m = 0;
   double turn_noise_rad_per_sqrt_rad = 0;
-  double slips_per_m = 0;       ///< mean rate at which wheels spin
-  double slip_m = 0;            ///< mean excess distance counted per slip
-  double slip_turn_rad = 0;     ///< standard deviation of the turn counted per slip
-  double units_per_m = 103000;  ///< quantisation (B21r)
+  double slips_per_m = 0;
+  double slip_m = 0;
+  double slip_turn_rad = 0;
+  double units_per_m = 103000;
   double units_per_rad = 35000;
 
-  double wheel_diameter_ratio = 1;      ///< right / left: E_d of UMBmark
-  double wheel_base_ratio = 1;          ///< actual / nominal: E_b of UMBmark
-  double wheel_noise_m_per_sqrt_m = 0;  ///< standard deviation of a wheel's distance after one metre of it
-  double wheel_ticks_per_m = 0;         ///< of its encoder; 0: continuous
+  double wheel_diameter_ratio = 1;
+  double wheel_base_ratio = 1;
+  double wheel_noise_m_per_sqrt_m = 0;
+  double wheel_ticks_per_m = 0;
 
   static void fields(auto field) {
     using Errors = OdometryErrors;
     constexpr NumberRange slips{0, 1000, "a number from 0 to 1000"};
-    field("travel_scale", &Errors::travel_scale, ranges::factor, "measured by true distance");
-    field("turn_scale", &Errors::turn_scale, ranges::factor, "measured by true turn");
-    field("drift_rad_per_m", &Errors::drift_rad_per_m, ranges::signed_angle_error, "systematic turn for each metre");
+    field("travel_scale", &Errors::travel_scale, ranges::factor, "measured by true distance, sideways too");
+    field("turn_scale", &Errors::turn_scale, ranges::factor,
+          "measured by true turn: E_b of the controller, or the turn gear");
+    field("drift_rad_per_m", &Errors::drift_rad_per_m, ranges::signed_angle_error,
+          "systematic turn for each metre: unequal wheels, or the heading gear");
     field("travel_noise_m_per_sqrt_m", &Errors::travel_noise_m_per_sqrt_m, ranges::length_error,
           "standard deviation of the distance after a metre");
     field("turn_noise_rad_per_sqrt_m", &Errors::turn_noise_rad_per_sqrt_m, ranges::angle_error,
@@ -86,8 +88,9 @@ struct OdometryErrors {
     field("slip_turn_rad", &Errors::slip_turn_rad, ranges::angle_error, "standard deviation of the turn of a slip");
     field("units_per_m", &Errors::units_per_m, ranges::units, "quantisation of distances");
     field("units_per_rad", &Errors::units_per_rad, ranges::units, "quantisation of turns");
-    field("wheel_diameter_ratio", &Errors::wheel_diameter_ratio, ranges::factor, "right by left wheel");
-    field("wheel_base_ratio", &Errors::wheel_base_ratio, ranges::factor, "actual by nominal distance of the wheels");
+    field("wheel_diameter_ratio", &Errors::wheel_diameter_ratio, ranges::factor, "right by left wheel, E_d of UMBmark");
+    field("wheel_base_ratio", &Errors::wheel_base_ratio, ranges::factor,
+          "actual by nominal distance of the wheels, E_b of UMBmark");
     field("wheel_noise_m_per_sqrt_m", &Errors::wheel_noise_m_per_sqrt_m, ranges::length_error,
           "standard deviation of a wheel's distance after a metre");
     field("wheel_ticks_per_m", &Errors::wheel_ticks_per_m, ranges::units,
@@ -101,20 +104,20 @@ struct BaseDescription {
   Kind kind = Kind::synchro;
   double v_max_m_s = 0.9, w_max_rad_s = 1.5;
   double v_acceleration_m_s2 = 1.0, w_acceleration_rad_s2 = 3.0;
-  double axle_m = 0.4;                ///< differential, skid-steer: distance between the wheels
-  double effective_axle_ratio = 1.5;  ///< skid-steer: effective axle in turns / axle_m; at least 1
-  double wheelbase_m = 0.5;           ///< Ackermann: between the front and the rear axle
-  double steering_max_rad = 0.6;      ///< Ackermann: of the equivalent single front wheel, below a quarter turn
+  double axle_m = 0.4;
+  double effective_axle_ratio = 1.5;
+  double wheelbase_m = 0.5;
+  double steering_max_rad = 0.6;
   double steering_rate_rad_s = 0.8;
   double climb_max_m_s = 0.5, climb_acceleration_m_s2 = 1.0;  ///< aerial
-  double mass_kg = 50;                                        ///< dynamic worlds: of the whole robot
-  double drive_force_n = 0;  ///< dynamic worlds: the greatest; 0: twice the force for v_acceleration_m_s2
-  double grip = 0.8;         ///< dynamic worlds: friction of the wheels with the floor, which bounds their forces
-  Duration watchdog;         ///< without a new command for longer than this it brakes to a stop; 0: off
+  double mass_kg = 50;
+  double drive_force_n = 0;
+  double grip = 0.8;
+  Duration watchdog;
   OdometryErrors odometry;
   double battery_volts_full = 26.0, battery_volts_empty = 22.0;
-  double battery_capacity_s = 4 * 3600;  ///< until empty, standing still
-  double battery_capacity_m = 8000;      ///< until empty, if only driving drained it
+  double battery_capacity_s = 4 * 3600;
+  double battery_capacity_m = 8000;
 
   static constexpr std::string_view kinds[] = {"differential", "synchro", "omni", "ackermann", "skid_steer", "aerial"};
   static constexpr NumberRange volts{0, 1e5, "a number of volts from 0 to 100000"};
@@ -137,7 +140,8 @@ struct BaseDescription {
     field("axle_m", &Base::axle_m, ranges::length, "distance between the wheels of two sides");
     field("effective_axle_ratio", &Base::effective_axle_ratio, longer, "skid_steer: effective axle in turns by axle_m");
     field("wheelbase_m", &Base::wheelbase_m, ranges::length, "ackermann: between the front and the rear axle");
-    field("steering_max_deg", &Base::steering_max_rad, degrees, steering, "ackermann: of the front wheels");
+    field("steering_max_deg", &Base::steering_max_rad, degrees, steering,
+          "ackermann: of the equivalent single front wheel");
     field("steering_rate_deg_s", &Base::steering_rate_rad_s, degrees, steering_rate, "ackermann: of the front wheels");
     field("climb_max_m_s", &Base::climb_max_m_s, ranges::rate, "aerial: greatest vertical speed");
     field("climb_acceleration_m_s2", &Base::climb_acceleration_m_s2, ranges::acceleration, "aerial: vertical");

@@ -6,6 +6,10 @@
 namespace waitpoint::scenario {
 namespace {
 
+double read_degrees_of_heading(const YamlNode& node) {
+  return exact::wrap_angle(radians(read_number(node, "heading_deg", heading_range)));
+}
+
 void read_written_point(const YamlNode& node, std::string_view what, Point& point) {
   if (node.kind == YamlNode::Kind::map) {
     const YamlMap map(node, std::string(what), {"x_m", "y_m"});
@@ -25,7 +29,7 @@ void read_written_pose(const YamlNode& node, std::string_view what, Pose& pose) 
   } else {
     const std::vector<double> numbers = read_numbers(node, what, 2, 3, ranges::coordinate);
     pose = {numbers[0], numbers[1], 0};
-    if (numbers.size() == 3) heading_form().read(node.items[2], "heading_deg", pose.heading);
+    if (numbers.size() == 3) pose.heading = read_degrees_of_heading(node.items[2]);
   }
 }
 
@@ -49,8 +53,8 @@ Json pose_list_schema() {
 
 Form<double> heading_form() {
   Form<double> form = degrees_form(heading_range);
-  form.read = [](const YamlNode& node, std::string_view what, double& heading_rad) {
-    heading_rad = exact::wrap_angle(radians(read_number(node, what, heading_range)));
+  form.read = [](const YamlNode& node, std::string_view, double& heading_rad) {
+    heading_rad = read_degrees_of_heading(node);
   };
   return form;
 }
@@ -78,20 +82,19 @@ Form<Pose> pose_form() {
 
 Point read_point(const YamlNode& node, std::string_view what) {
   Point point;
-  point_form().read(node, what, point);
+  read_written_point(node, what, point);
   return point;
 }
 
 Pose read_pose(const YamlNode& node, std::string_view what) {
   Pose pose;
-  pose_form().read(node, what, pose);
+  read_written_pose(node, what, pose);
   return pose;
 }
 
 double read_heading(const YamlMap& map) {
-  double heading_rad = 0;
-  if (const YamlNode* heading = map.find("heading_deg")) heading_form().read(*heading, "heading_deg", heading_rad);
-  return heading_rad;
+  const YamlNode* const heading = map.find("heading_deg");
+  return heading == nullptr ? 0 : read_degrees_of_heading(*heading);
 }
 
 }  // namespace waitpoint::scenario
