@@ -62,26 +62,26 @@ void Executive::run() {
   wait_for_position();
   if (lost()) find_robot();
   // A separate statement: the order of evaluation of arguments differs between compilers, and the read may take time.
-  Point here = place_of_planning();
-  const Order* order = planned(mission_.start(threads::now(), here));
+  Point position = place_of_planning();
+  const Order* order = planned(mission_.start(threads::now(), position));
   while (order->kind != Order::Kind::finished && !stopping_) {
     if (order->kind == Order::Kind::wait) {
       wait_until(order->until);
-      here = place_of_planning();
-      order = planned(mission_.waited(threads::now(), here));
+      position = place_of_planning();
+      order = planned(mission_.waited(threads::now(), position));
       continue;
     }
     const std::optional<genom::Report> report = drive(order->via_points);
     if (!report && lost() && !stopping_) {
       find_robot();
-      here = place_of_planning();
-      order = planned(mission_.waited(threads::now(), here));
+      position = place_of_planning();
+      order = planned(mission_.waited(threads::now(), position));
       continue;
     }
     if (!report) break;
-    here = place_of_planning();
-    order = planned(*report == genom::ok ? mission_.arrived(threads::now(), here)
-                                         : mission_.blocked(threads::now(), here, looks_.seen()));
+    position = place_of_planning();
+    order = planned(*report == genom::ok ? mission_.arrived(threads::now(), position)
+                                         : mission_.blocked(threads::now(), position, looks_.seen()));
   }
   stop_modules();
 }
@@ -163,8 +163,8 @@ void Executive::wait_until(Time until) {
 std::span<const Point> Executive::reroute(std::span<const Point> via_points) {
   if (threads::now() < next_plan_) return via_points;
   next_plan_ = threads::now() + parameters_.replan_ms;
-  const Point here = place_of_planning();
-  const Order* const order = mission_.replanned(here);
+  const Point position = place_of_planning();
+  const Order* const order = mission_.replanned(position);
   threads::compute(parameters_.plan_cost_us);
   if (order == nullptr || !client_.send("ndd", "Reroute", first_of(order->via_points))) return via_points;
   return order->via_points;

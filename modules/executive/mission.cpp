@@ -73,8 +73,8 @@ const Order* Mission::replanned(Point robot) {
 }
 
 const Order& Mission::make_for_goal(Time now, Point robot) {
-  for (std::size_t left = 0; current_ < goals_.size(); leave_goal(now, GoalState::no_route)) {
-    if (left++ == goals_.size()) return wait(now);  // rounds of goals without routes take time, too
+  for (std::size_t unreachable = 0; current_ < goals_.size(); leave_goal(now, GoalState::no_route)) {
+    if (unreachable++ == goals_.size()) return wait(now);  // rounds of goals without routes take time, too
     planner_.plan(robot, goals_[current_].goal, plan_);
     if (plan_.outcome != PlanOutcome::found && planner_.space().marked()) {
       planner_.space().forget();

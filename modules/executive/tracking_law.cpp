@@ -13,9 +13,9 @@ constexpr double v_correction_m_s_max = 0.3, w_correction_rad_s_max = 0.6;
 
 }  // namespace
 
-posters::SpeedInput tracking_speeds(const TrajectoryPoint& wanted, const Pose& here) {
+posters::SpeedInput tracking_speeds(const TrajectoryPoint& wanted, const Pose& pose) {
   constexpr double small_rad = 1e-6;
-  const Pose error = between(here, wanted.pose);
+  const Pose error = between(pose, wanted.pose);
   const auto [sin, cos] = exact::sincos(error.heading);
   const double sinc = std::fabs(error.heading) > small_rad ? sin / error.heading : 1;
   const double v = std::clamp(k_x_per_s * error.x, -v_correction_m_s_max, v_correction_m_s_max);

@@ -14,7 +14,7 @@
 
 namespace waitpoint::executive {
 
-/// The speeds of a robot at `here` that ought to be at `wanted`.
-posters::SpeedInput tracking_speeds(const TrajectoryPoint& wanted, const Pose& here);
+/// The speeds of a robot at `pose` that ought to be at `wanted`.
+posters::SpeedInput tracking_speeds(const TrajectoryPoint& wanted, const Pose& pose);
 
 }  // namespace waitpoint::executive

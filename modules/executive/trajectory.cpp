@@ -70,9 +70,9 @@ TrajectoryPoint Trajectory::at(Duration time) const {
   constexpr Duration half = std::chrono::milliseconds(500);
   const Duration from = std::max(time - half, Duration()), to = std::min(time + half, duration());
   if (from >= to) return {pose_at(time), 0, 0};
-  const Pose here = pose_at(time), before = between(here, pose_at(from)), after = between(here, pose_at(to));
+  const Pose pose = pose_at(time), before = between(pose, pose_at(from)), after = between(pose, pose_at(to));
   const double span_s = (to - from).seconds();
-  return {here, (after.x - before.x) / span_s, (after.heading - before.heading) / span_s};
+  return {pose, (after.x - before.x) / span_s, (after.heading - before.heading) / span_s};
 }
 
 Pose Trajectory::pose_at(Duration time) const {

@@ -66,9 +66,9 @@ void TrajectoryFollower::follow() {
     posters::FusedPosition position;
     position_.read(position);
     const TrajectoryPoint wanted = trajectory_.at(reached);
-    const Pose& here = position.position.pose;
-    const double away_m = length(wanted.pose.position() - here.position());
-    drive(tracking_speeds(wanted, here));
+    const Pose& pose = position.position.pose;
+    const double away_m = length(wanted.pose.position() - pose.position());
+    drive(tracking_speeds(wanted, pose));
     next = next + period;
     if (reached >= progressed_to + progress) {
       progressed_to = reached;

@@ -27,17 +27,17 @@ class ActivityTable {
    public:
     class Iterator {
      public:
-      Iterator(const Slot* slots, std::uint32_t left) : slots_(slots), left_(left) {}
-      A& operator*() const { return *slots_[std::countr_zero(left_)]; }
+      Iterator(const Slot* slots, std::uint32_t remaining) : slots_(slots), remaining_(remaining) {}
+      A& operator*() const { return *slots_[std::countr_zero(remaining_)]; }
       Iterator& operator++() {
-        left_ &= left_ - 1;
+        remaining_ &= remaining_ - 1;
         return *this;
       }
-      bool operator==(const Iterator& other) const { return left_ == other.left_; }
+      bool operator==(const Iterator& other) const { return remaining_ == other.remaining_; }
 
      private:
       const Slot* slots_;
-      std::uint32_t left_;
+      std::uint32_t remaining_;
     };
     Used(const Slot* slots, std::uint32_t used) : slots_(slots), used_(used) {}
     Iterator begin() const { return {slots_, used_}; }
@@ -55,8 +55,8 @@ class ActivityTable {
   /// Those of one execution task.
   Used<Activity> used_of(const ExecutionTask& task) {
     std::uint32_t own = 0;
-    for (std::uint32_t left = used_; left != 0; left &= left - 1)
-      if (task_[static_cast<std::size_t>(std::countr_zero(left))] == &task) own |= left & -left;
+    for (std::uint32_t remaining = used_; remaining != 0; remaining &= remaining - 1)
+      if (task_[static_cast<std::size_t>(std::countr_zero(remaining))] == &task) own |= remaining & -remaining;
     return {slots_.data(), own};
   }
   bool empty() const { return used_ == 0; }

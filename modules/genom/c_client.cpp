@@ -40,8 +40,9 @@ int CClient::wait(int request_id, int block, Duration timeout) {
   }
   const Time begin = threads::now();
   while (!awaited()) {
-    const Duration left = timeout == Duration::max() ? timeout : timeout - (threads::now() - begin);
-    if (left <= Duration() || !take(left)) return replies->started ? FINAL_REPLY_TIMEOUT : INTERMED_REPLY_TIMEOUT;
+    const Duration remaining = timeout == Duration::max() ? timeout : timeout - (threads::now() - begin);
+    if (remaining <= Duration() || !take(remaining))
+      return replies->started ? FINAL_REPLY_TIMEOUT : INTERMED_REPLY_TIMEOUT;
   }
   if (replies->final) return FINAL_REPLY_OK;
   return replies->started ? WAITING_FINAL_REPLY : WAITING_INTERMED_REPLY;

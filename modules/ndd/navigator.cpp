@@ -96,10 +96,10 @@ void Navigator::go(Time now, const posters::PositionEstimate& position, std::spa
 
 bool Navigator::reroute(const posters::PositionEstimate& position, std::span<const Point> via_points) {
   if (route_.empty()) return false;
-  const Point here = position.pose.position();
-  const double before_m = route_.remaining_m(here);
-  route_.start(here, via_points);
-  watch_.lengthen(route_.remaining_m(here) - before_m);
+  const Point start = position.pose.position();
+  const double before_m = route_.remaining_m(start);
+  route_.start(start, via_points);
+  watch_.lengthen(route_.remaining_m(start) - before_m);
   return true;
 }
 

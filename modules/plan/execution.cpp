@@ -136,9 +136,9 @@ void Execution::end(std::size_t action, Duration now) {
 
 void Execution::fail(std::size_t action, Duration now, const std::string& reason) {
   note(now, EventKind::failed, action, reason);
-  const std::string told = "action '" + plan_.actions[action].name + "' failed: " + reason;
+  const std::string failure = "action '" + plan_.actions[action].name + "' failed: " + reason;
   const std::optional<std::size_t> alternative = plan_.actions[action].alternative;
-  if (!alternative) return abort(now, told);
+  if (!alternative) return abort(now, failure);
   std::size_t& branch = situation_.branch[*alternative];
   for (std::size_t i = 0; i < plan_.actions.size(); ++i)
     if (plan_.actions[i].alternative == alternative && plan_.actions[i].branch == branch && running_[i])
@@ -148,7 +148,7 @@ void Execution::fail(std::size_t action, Duration now, const std::string& reason
     note(now, EventKind::branch, *alternative, std::to_string(branch + 1));
     return;
   }
-  abort(now, told);
+  abort(now, failure);
 }
 
 void Execution::abort(Duration now, const std::string& reason) {

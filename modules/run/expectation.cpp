@@ -5,6 +5,8 @@
 
 #include <limits>
 
+#include "core/number_text.hpp"
+
 namespace waitpoint::run {
 namespace {
 
@@ -34,7 +36,7 @@ std::vector<std::string> broken(const scenario::Expectation& expect, const bridg
   if (expect.goals_reached && figures.goals_reached > *expect.goals_reached)
     lines.push_back(goals_text(figures) + ", expected " + std::to_string(*expect.goals_reached));
   if (expect.collisions && figures.collisions > *expect.collisions)
-    lines.push_back(fmt::format("{} collisions, expected {}", figures.collisions, *expect.collisions));
+    lines.push_back(fmt::format("{}, expected {}", counted(figures.collisions, "collision"), *expect.collisions));
   if (expect.position_error_max_m && !(figures.position_error_max_m <= *expect.position_error_max_m))
     lines.push_back(fmt::format("position error of {} m, expected at most {:g} m",
                                 greater_text(figures.position_error_max_m, *expect.position_error_max_m),
@@ -55,7 +57,7 @@ std::vector<std::string> unmet(const scenario::Expectation& expect, const bridge
   if (expect.goals_reached && sum.goals_reached < *expect.goals_reached)
     lines.push_back(goals_text(sum) + ", expected " + std::to_string(*expect.goals_reached));
   if (expect.collisions && sum.collisions < *expect.collisions)
-    lines.push_back(fmt::format("{} collisions, expected {}", sum.collisions, *expect.collisions));
+    lines.push_back(fmt::format("{}, expected {}", counted(sum.collisions, "collision"), *expect.collisions));
   if (expect.plans_completed && sum.plans_completed != sum.plans)
     lines.push_back(
         fmt::format("{} of {} plans completed, expected all{}", sum.plans_completed, sum.plans, first_abort(result)));

@@ -14,7 +14,7 @@ namespace waitpoint::run {
 /// without progress is always unmet.
 std::vector<std::string> unmet(const scenario::Expectation& expect, const bridge::RunResult& result);
 
-/// The same during a run, for expectations that can no longer be met: "1 collisions, expected 0".
+/// The same during a run, for expectations that can no longer be met: "1 collision, expected 0".
 std::vector<std::string> broken(const scenario::Expectation& expect, const bridge::RunTotals& figures);
 
 }  // namespace waitpoint::run

@@ -58,8 +58,8 @@ void ExternalRobot::note_lag(Duration lag, Time now) {
 }
 
 void ExternalRobot::go_to(const Pose& pose, const world::Velocity& velocity, Time now) {
-  const Pose here = world_.body(body_).pose;
-  if (length(pose.position() - here.position()) > settings_.jump_m) return jump_to(pose, velocity, now);
+  const Pose body_pose = world_.body(body_).pose;
+  if (length(pose.position() - body_pose.position()) > settings_.jump_m) return jump_to(pose, velocity, now);
   is_refused_ = false;
   world_.guide_body(body_, pose, velocity);
 }

@@ -22,13 +22,13 @@ RunEnd end_of(Failure::Kind kind) { return kind == Failure::Kind::deadlock ? Run
 }  // namespace
 
 RankWindows::RankWindows(Ranks& ranks, const RankedParts& parts)
-    : ranks_(ranks), parts_(parts), remote_steps_(parts.robots.size()), told_(parts.robots.size()) {
+    : ranks_(ranks), parts_(parts), remote_steps_(parts.robots.size()), reported_(parts.robots.size()) {
   ranks.set_place([this] {
     return "in window " + std::to_string(windows_ + 1) + ", from " + to_string(reached_) + " s of virtual time on";
   });
   send_elsewhere();
   for (std::size_t i = 0; i < parts.robots.size(); ++i) {
-    told_[i].robot = static_cast<std::uint32_t>(i);
+    reported_[i].robot = static_cast<std::uint32_t>(i);
     if (is_here(i)) parts.robots[i]->bridge().set_command_log(commands_);
   }
 }
@@ -85,10 +85,10 @@ Window RankWindows::run_window(Time end) {
   window.messages = messages_;
   for (std::size_t i = 0; i < parts_.robots.size(); ++i) {
     if (!is_here(i)) continue;
-    const GoalCounts now{told_[i].robot, parts_.robots[i]->goals(), parts_.robots[i]->goals_reached()};
-    if (windows_ > 0 && now == told_[i]) continue;
+    const GoalCounts now{reported_[i].robot, parts_.robots[i]->goals(), parts_.robots[i]->goals_reached()};
+    if (windows_ > 0 && now == reported_[i]) continue;
     window.goals.push_back(now);
-    told_[i] = now;
+    reported_[i] = now;
   }
   const std::vector<InterventionOutcome>& outcomes = parts_.the_operator.outcomes();
   for (; seen_outcomes_ < outcomes.size(); ++seen_outcomes_)

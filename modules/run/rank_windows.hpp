@@ -75,7 +75,7 @@ class RankWindows {
   std::vector<bridge::BodyCommand> commands_;  // of robots here, in this window
   std::vector<Message> messages_;              // to robots elsewhere, in this window
   std::vector<RemoteStep> remote_steps_;       // by robot; unused for those here
-  std::vector<GoalCounts> told_;               // by robot
+  std::vector<GoalCounts> reported_;           // by robot
   std::vector<std::uint64_t> bodies_;          // hashes of their states at the end of this window, by robot
   std::size_t seen_outcomes_ = 0;
   Time reached_;

@@ -50,9 +50,9 @@ bridge::Outcome ThreadedExperiment::wait_for_rounds(Time end, const std::functio
       std::count_if(robots().begin(), robots().end(), [](auto& robot) { return robot->has_mission(); });
   for (std::ptrdiff_t ended = 0; ended < with_mission || with_mission == 0;) {
     if (interrupted()) return bridge::Outcome::interrupted;
-    const Duration left = end - threads::now();
-    if (left <= Duration()) return bridge::Outcome::time_limit;
-    if (round_ended_.try_acquire_for(std::chrono::nanoseconds(std::min(left, look_period).ns()))) ++ended;
+    const Duration remaining = end - threads::now();
+    if (remaining <= Duration()) return bridge::Outcome::time_limit;
+    if (round_ended_.try_acquire_for(std::chrono::nanoseconds(std::min(remaining, look_period).ns()))) ++ended;
   }
   return bridge::Outcome::finished;
 }

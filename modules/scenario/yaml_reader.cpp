@@ -37,7 +37,9 @@ double read_number(const YamlNode& node, std::string_view what, const NumberRang
 std::uint64_t read_count(const YamlNode& node, std::string_view what, std::uint64_t low, std::uint64_t high) {
   std::uint64_t number = 0;
   if (!parse(node, number) || number < low || number > high) {
-    refuse(node, what, "a whole number from " + std::to_string(low) + " to " + std::to_string(high));
+    refuse(node, what,
+           low == high ? std::to_string(low)
+                       : "a whole number from " + std::to_string(low) + " to " + std::to_string(high));
   }
   return number;
 }

@@ -123,7 +123,7 @@ class Instances(unittest.TestCase):
     def test_a_shared_object_alone(self):
         run = execute(["holder.so", "5"], folder=PROGRAMS)
         self.assertEqual((run.returncode, run.stdout), (0, "has it\n"), run.stderr)
-        self.assertRegex(run.stderr, r"^waitpoint: holder: 1 threads, ")
+        self.assertRegex(run.stderr, r"^waitpoint: holder: 1 thread, ")
 
 
 class Ends(unittest.TestCase):

@@ -71,7 +71,7 @@ TEST(Interactive, StepExecutesAndPrintsOneEvent) {
   const std::string events = folder.read("events");
   ASSERT_EQ(lines_of(events), 43u) << "a heading, and 42 events";
   std::size_t last = events.rfind('\n', events.size() - 2) + 1;
-  EXPECT_NE(outcome.output.find("after 1 events\n"), std::string::npos) << outcome.output;
+  EXPECT_NE(outcome.output.find("after 1 event\n"), std::string::npos) << outcome.output;
   EXPECT_NE(outcome.output.find("after 2 events\n"), std::string::npos) << outcome.output;
   EXPECT_NE(outcome.output.find("after 42 events\n" + events.substr(last)), std::string::npos) << outcome.output;
 }

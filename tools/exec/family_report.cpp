@@ -8,6 +8,7 @@
 
 #include <algorithm>
 
+#include "core/number_text.hpp"
 #include "fibers/posix/family/processes.hpp"
 
 namespace waitpoint::tools {
@@ -92,8 +93,9 @@ RunCounts counts_in(const posix::Record& record) {
 std::string counts_of(const posix::Record& record) {
   const RunCounts counts = counts_in(record);
   const std::string all = counts.processes > 1 ? fmt::format("{} processes, ", counts.processes) : "";
-  return all + fmt::format("{} threads, {} at once, {} events, {} switches, {} s of virtual time", counts.threads,
-                           counts.threads_at_once, counts.events, counts.switches, to_string(counts.time));
+  return all + fmt::format("{}, {} at once, {}, {} switches, {} s of virtual time", counted(counts.threads, "thread"),
+                           counts.threads_at_once, counted(counts.events, "event"), counts.switches,
+                           to_string(counts.time));
 }
 
 void kill_all(const posix::Record& record) {

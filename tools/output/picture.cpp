@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/number_text.hpp"
 #include "core/polyline.hpp"
 #include "tools/output/occupied_shapes.hpp"
 #include "tools/output/picture_frame.hpp"
@@ -231,9 +232,9 @@ void draw_title(Svg& svg, const RunResult& result) {
            fmt::format("font-size=\"24\" font-weight=\"bold\" fill=\"{}\"", ink));
   const bridge::RunTotals sum = totals(result);
   const std::string line =
-      fmt::format("seed {} · {} after {:.1f} s · {} of {} goals · {:.1f} m driven · {} collisions · {}", result.seed,
+      fmt::format("seed {} · {} after {:.1f} s · {} of {} goals · {:.1f} m driven · {} · {}", result.seed,
                   bridge::to_string(result.outcome), result.simulated.seconds(), sum.goals_reached, sum.goals,
-                  sum.distance_m, sum.collisions, to_string(result.digest));
+                  sum.distance_m, counted(sum.collisions, "collision"), to_string(result.digest));
   svg.text({PictureFrame::left, 60}, line, "font-size=\"14\" fill=\"#495057\"");
 }
 

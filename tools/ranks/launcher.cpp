@@ -24,7 +24,7 @@
 namespace waitpoint::tools {
 namespace {
 
-constexpr const char* door_variable = "WAITPOINT_LAUNCHER";  // the pipe, as a file of the launcher's
+constexpr const char* pipe_variable = "WAITPOINT_LAUNCHER";  // the pipe, as a file of the launcher's
 constexpr int not_yet = -1;
 
 // What Open MPI 4 and 5 have different options for, or none: a release passes over the parameters that it does not
@@ -38,8 +38,8 @@ constexpr std::pair<const char*, const char*> mpi_parameters[] = {
     {"orte_execute_quiet", "1"},
 };
 
-/// What a rank tells the launcher, in a single write.
-struct Told {
+/// A rank's notice to the launcher, in a single write.
+struct Notice {
   pid_t process;
   int status;  ///< not_yet: it leads, and runs
 };
@@ -80,35 +80,35 @@ std::vector<std::string> command_of(const std::string& mpirun, int ranks, std::s
   _exit(2);
 }
 
-void tell(int status) {
-  const char* const door = std::getenv(door_variable);
-  const int pipe = door != nullptr ? open(door, O_WRONLY | O_CLOEXEC) : -1;
+void notify(int status) {
+  const char* const file = std::getenv(pipe_variable);
+  const int pipe = file != nullptr ? open(file, O_WRONLY | O_CLOEXEC) : -1;
   if (pipe < 0) return;
-  const Told told{getpid(), status};
-  static_cast<void>(!write(pipe, &told, sizeof told));
+  const Notice notice{getpid(), status};
+  static_cast<void>(!write(pipe, &notice, sizeof notice));
   close(pipe);
 }
 
-/// What the ranks have told so far.
-class Door {
+/// The notices of the ranks so far.
+class Notices {
  public:
-  Door() {
+  Notices() {
     if (pipe2(ends_, O_CLOEXEC | O_NONBLOCK) != 0) throw BadInput("--ranks", std::strerror(errno));
-    setenv(door_variable, ("/proc/" + std::to_string(getpid()) + "/fd/" + std::to_string(ends_[1])).c_str(), 1);
+    setenv(pipe_variable, ("/proc/" + std::to_string(getpid()) + "/fd/" + std::to_string(ends_[1])).c_str(), 1);
   }
-  ~Door() {
+  ~Notices() {
     close(ends_[0]);
     close(ends_[1]);
   }
-  Door(const Door&) = delete;
-  Door& operator=(const Door&) = delete;
+  Notices(const Notices&) = delete;
+  Notices& operator=(const Notices&) = delete;
 
   void read_all() {
-    for (Told told{}; read(ends_[0], &told, sizeof told) == sizeof told;)
-      if (told.status == not_yet)
-        leader_ = told.process;
+    for (Notice notice{}; read(ends_[0], &notice, sizeof notice) == sizeof notice;)
+      if (notice.status == not_yet)
+        leader_ = notice.process;
       else if (!status_)
-        status_ = told.status;
+        status_ = notice.status;
   }
   std::optional<pid_t> leader() const { return leader_; }
   std::optional<int> status() const { return status_; }
@@ -119,8 +119,8 @@ class Door {
   std::optional<int> status_;
 };
 
-int status_of(const Door& door, int of_mpirun, bool is_interrupted) {
-  if (door.status()) return *door.status();
+int status_of(const Notices& notices, int of_mpirun, bool is_interrupted) {
+  if (notices.status()) return *notices.status();
   if (is_interrupted) return 130;
   if (WIFEXITED(of_mpirun) && WEXITSTATUS(of_mpirun) != 0) return WEXITSTATUS(of_mpirun);
   std::fprintf(stderr, "waitpoint: the run failed: all its processes have ended without a result\n");
@@ -138,7 +138,7 @@ int run_ranks(int ranks, std::span<const std::string> arguments) {
   const std::string mpirun = find_program("mpirun").string();
   if (mpirun.empty()) throw BadInput("--ranks", std::string("there is no program 'mpirun': ") + missing_part::ranks);
   const std::vector<std::string> words = command_of(mpirun, ranks, arguments);
-  Door door;
+  Notices notices;
   sigset_t heeded, before;
   sigemptyset(&heeded);
   for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGCHLD}) sigaddset(&heeded, signal);
@@ -154,20 +154,20 @@ int run_ranks(int ranks, std::span<const std::string> arguments) {
     if (signal < 0 || signal == SIGCHLD) continue;
     is_interrupted = true;
     // A terminal sends its own to mpirun, too.
-    door.read_all();
-    if (info.si_code != SI_KERNEL) kill(door.leader().value_or(child), signal);
+    notices.read_all();
+    if (info.si_code != SI_KERNEL) kill(notices.leader().value_or(child), signal);
   }
-  door.read_all();
-  return status_of(door, of_mpirun, is_interrupted);
+  notices.read_all();
+  return status_of(notices, of_mpirun, is_interrupted);
 }
 
 void tell_launcher_of_leader() {
-  if (own_rank() == 0) tell(not_yet);
+  if (own_rank() == 0) notify(not_yet);
 }
 
 int give_status(int status) {
-  if (!is_rank() || std::getenv(door_variable) == nullptr) return status;
-  if (own_rank() == 0 || status != 0) tell(status);
+  if (!is_rank() || std::getenv(pipe_variable) == nullptr) return status;
+  if (own_rank() == 0 || status != 0) notify(status);
   return 0;
 }
 

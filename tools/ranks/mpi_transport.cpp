@@ -153,9 +153,9 @@ class MpiTransport final : public run::Transport {
 
   // In the background: the other one may not be there any more.
   void tell(int rank, int what) {
-    told_ = number_;
+    announced_ = number_;
     MPI_Request request;
-    MPI_Isend(&told_, 1, MPI_UINT64_T, rank, what, MPI_COMM_WORLD, &request);
+    MPI_Isend(&announced_, 1, MPI_UINT64_T, rank, what, MPI_COMM_WORLD, &request);
     MPI_Request_free(&request);
   }
 
@@ -173,7 +173,7 @@ class MpiTransport final : public run::Transport {
   int rank_ = 0, ranks_ = 1;
   bool has_failed_ = false;
   std::uint64_t number_ = 0;         // of the present call of gather()
-  std::uint64_t told_ = 0;           // sent in the background
+  std::uint64_t announced_ = 0;      // sent in the background
   std::vector<std::uint64_t> came_;  // by rank: the last call it is known to wait in, this one or the one before
   std::vector<char> blocks_;
   std::string rest_;

@@ -116,7 +116,7 @@ void Prompt::carry_on(Time target, const Session::Enough& enough, bool heeding) 
 
 void Prompt::tell_place() {
   const run::JournalEnd here = session_.here();
-  fmt::print("at {} s after {} events\n", to_string(here.time), here.events);
+  fmt::print("at {} s after {}\n", to_string(here.time), counted(here.events, "event"));
 }
 
 void Prompt::help(std::string_view rest) {
@@ -198,10 +198,10 @@ void Prompt::status(std::string_view rest) {
   for (std::size_t i = 0; i < experiment.robots().size(); ++i) {
     const bridge::Robot& robot = *experiment.robots()[i];
     const auto& body = experiment.world().body(world::BodyId(i));
-    fmt::print(
-        "  {}: {} of {} goals, at ({:.3f}, {:.3f}) heading {:.1f} degrees, {:.2f} m travelled, {} collisions{}\n",
-        robot.name(), robot.goals_reached(), robot.goals(), body.pose.x, body.pose.y,
-        body.pose.heading / exact::pi * 180, body.travelled_m, body.collisions, body.stalled ? ", stalled" : "");
+    fmt::print("  {}: {} of {} goals, at ({:.3f}, {:.3f}) heading {:.1f} degrees, {:.2f} m travelled, {}{}\n",
+               robot.name(), robot.goals_reached(), robot.goals(), body.pose.x, body.pose.y,
+               body.pose.heading / exact::pi * 180, body.travelled_m, counted(body.collisions, "collision"),
+               body.stalled ? ", stalled" : "");
   }
 }
 

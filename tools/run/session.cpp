@@ -106,8 +106,8 @@ void Session::close_window(Time end) {
 
 void Session::tell_outcomes() {
   const std::vector<run::InterventionOutcome>& outcomes = experiment_.outcomes();
-  for (; told_ < outcomes.size(); ++told_)
-    progress_.log(outcomes[told_].date, outcomes[told_].of, outcomes[told_].text);
+  for (; printed_ < outcomes.size(); ++printed_)
+    progress_.log(outcomes[printed_].date, outcomes[printed_].of, outcomes[printed_].text);
 }
 
 void Session::tell_lag() {

@@ -99,8 +99,8 @@ class Session : private outside::Host {
   RunEnd end_ = RunEnd::time_reached;
   Time reached_;
   double wall_s_ = 0;
-  pid_t process_;         // of the run
-  std::size_t told_ = 0;  // outcomes of interventions
+  pid_t process_;            // of the run
+  std::size_t printed_ = 0;  // outcomes of interventions
 };
 
 }  // namespace waitpoint::tools

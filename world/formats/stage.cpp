@@ -49,7 +49,7 @@ class StageReader {
   // Warns about properties and parts of the thing, and of its type, that are not supported; once per definition.
   void tell_unread(const StageThing& thing) {
     for (const StageThing* at = &thing; at != nullptr; at = at->base) {
-      if (!told_.insert(at).second) return;
+      if (!reported_.insert(at).second) return;
       for (const StageProperty& property : at->properties)
         if (!is_read(thing.built_in, property.name)) tell(property);
       for (const StageThing& inner : at->things)
@@ -267,7 +267,7 @@ class StageReader {
   std::int64_t pixel_count_ = 0;
   StageRobotReader robots_;
   StageWorld world_;
-  std::set<const StageThing*> told_;  // for membership only: the order of pointers varies from run to run
+  std::set<const StageThing*> reported_;  // for membership only: the order of pointers varies from run to run
   std::map<std::string, std::size_t> name_counts_, robot_counts_;
   std::set<std::string> robot_names_;
 };

@@ -13,7 +13,7 @@ void ExpectedScans::List::clear() {
 }
 
 void ExpectedScans::restart(std::size_t bodies) {
-  for (List* list : {&coming_, &made_}) {
+  for (List* list : {&next_, &made_}) {
     list->entries.clear();
     list->of_body.assign(bodies, none);
   }
@@ -21,17 +21,17 @@ void ExpectedScans::restart(std::size_t bodies) {
 }
 
 void ExpectedScans::expect(std::uint32_t body, std::uint32_t laser, std::uint64_t number) {
-  std::uint32_t& last = coming_.of_body.at(body);
-  WAITPOINT_FAST_CHECK(last == none || last < coming_.entries.size(), "a body's list begins beyond its end");
-  coming_.entries.push_back({body, laser, number, last});
-  last = static_cast<std::uint32_t>(coming_.entries.size() - 1);
+  std::uint32_t& last = next_.of_body.at(body);
+  WAITPOINT_FAST_CHECK(last == none || last < next_.entries.size(), "a body's list begins beyond its end");
+  next_.entries.push_back({body, laser, number, last});
+  last = static_cast<std::uint32_t>(next_.entries.size() - 1);
 }
 
 bool ExpectedScans::begin() {
   made_.clear();
-  std::swap(made_, coming_);
+  std::swap(made_, next_);
   ranges_m_.clear();
-  WAITPOINT_FAST_CHECK(made_.of_body.size() == coming_.of_body.size(), "two lists of scans are of different bodies");
+  WAITPOINT_FAST_CHECK(made_.of_body.size() == next_.of_body.size(), "two lists of scans are of different bodies");
   valid_ = !made_.entries.empty();
   return valid_;
 }

@@ -35,7 +35,7 @@ class ExpectedScans {
   /// Announces a scan, each at most once per step.
   void expect(std::uint32_t body, std::uint32_t laser, std::uint64_t number);
 
-  /// Discards the scans made, and takes the coming list as the one to be made. False if it is empty.
+  /// Discards the scans made, and takes the next list as the one to be made. False if it is empty.
   bool begin();
   /// Calls make(entry, scan) for each of the body's entries, and keeps the scan that it fills in.
   template <class Make>
@@ -57,7 +57,7 @@ class ExpectedScans {
     void clear();
   };
 
-  List coming_, made_;
+  List next_, made_;
   bool valid_ = false;
   std::vector<double> ranges_m_;  // of all scans made
   LaserScan scan_;                // scratch space of one call, kept so that it allocates nothing

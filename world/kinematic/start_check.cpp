@@ -66,8 +66,8 @@ std::vector<LooseOverlap> loose_overlaps(const WorldDescription& description) {
     if (!all[i].loose()) continue;
     for (std::size_t j = 0; j < all.size(); ++j) {
       // A pair of loose obstacles is reported once, under the first.
-      const bool told = j < i && all[j].loose();
-      if (j != i && !told && overlap(all[i].shape, all[j].shape)) overlaps.push_back({all[i].name, all[j].name});
+      const bool is_reported = j < i && all[j].loose();
+      if (j != i && !is_reported && overlap(all[i].shape, all[j].shape)) overlaps.push_back({all[i].name, all[j].name});
     }
   }
   return overlaps;

@@ -34,33 +34,33 @@ void SurfaceCorners::find(std::span<const Outline> segments) {
   });
   for (std::size_t i = 0; i < ends_.size(); ++i) {
     if (ends_[i].is_taken) continue;
-    here_.clear();
+    ends_at_corner_.clear();
     for (std::size_t j = i; j < ends_.size() && ends_[j].at.x - ends_[i].at.x <= coinciding_m; ++j) {
       if (ends_[j].is_taken || std::fabs(ends_[j].at.y - ends_[i].at.y) > coinciding_m) continue;
       ends_[j].is_taken = true;
-      here_.push_back(ends_[j]);
+      ends_at_corner_.push_back(ends_[j]);
     }
-    WAITPOINT_FAST_CHECK(!here_.empty(), "a point of a cut surface has no segment");
+    WAITPOINT_FAST_CHECK(!ends_at_corner_.empty(), "a point of a cut surface has no segment");
     add_sectors();
   }
 }
 
 // Adds the sectors about the point where the ends in here_ meet.
 void SurfaceCorners::add_sectors() {
-  std::sort(here_.begin(), here_.end(), [](const End& a, const End& b) {
+  std::sort(ends_at_corner_.begin(), ends_at_corner_.end(), [](const End& a, const End& b) {
     return std::tie(a.angle_rad, a.length_m) < std::tie(b.angle_rad, b.length_m);
   });
-  for (std::size_t i = 0; i < here_.size(); ++i) {
-    const bool is_last = i + 1 == here_.size();
-    const End &from = here_[i], &to = here_[is_last ? 0 : i + 1];
+  for (std::size_t i = 0; i < ends_at_corner_.size(); ++i) {
+    const bool is_last = i + 1 == ends_at_corner_.size();
+    const End &from = ends_at_corner_[i], &to = ends_at_corner_[is_last ? 0 : i + 1];
     WAITPOINT_FAST_CHECK(is_last || from.angle_rad <= to.angle_rad,
                          "the segments at a point are not in order of angle");
     const double wide_rad = to.angle_rad - from.angle_rad + (is_last ? 2 * exact::pi : 0);
     if (wide_rad > exact::pi + turn_rad_min) {
-      edges_.push_back({here_[0].at, from.along, to.along});
+      edges_.push_back({ends_at_corner_[0].at, from.along, to.along});
     } else if (wide_rad < exact::pi && is_corner_of_walls(from.along, to.along) &&
                std::min(from.length_m, to.length_m) > corner_wall_m_min) {
-      corners_.push_back({here_[0].at, {-from.along.y, from.along.x}, {to.along.y, -to.along.x}});
+      corners_.push_back({ends_at_corner_[0].at, {-from.along.y, from.along.x}, {to.along.y, -to.along.x}});
     }
   }
 }

@@ -40,7 +40,7 @@ class SurfaceCorners {
   };
   void add_sectors();
 
-  std::vector<End> ends_, here_;
+  std::vector<End> ends_, ends_at_corner_;
   std::vector<ConvexEdge> edges_;
   std::vector<ConcaveCorner> corners_;
 };

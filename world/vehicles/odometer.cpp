@@ -89,10 +89,10 @@ Odometer::Motion Odometer::of_wheels(std::uint64_t step, Motion moved) {
 // The excess motion counted by spinning wheels in a step of that distance. The number of slips is drawn by inversion.
 Odometer::Motion Odometer::slipped(std::uint64_t step, double distance_m) const {
   const double expected = errors_.slips_per_m * std::fabs(distance_m);
-  double left = draws_.slip.uniform(step), probability = exact::exp(-expected);
+  double remaining = draws_.slip.uniform(step), probability = exact::exp(-expected);
   Motion slip = {0, 0};
-  for (std::uint64_t k = 1; left >= probability && k <= slips_max; ++k) {
-    left -= probability;
+  for (std::uint64_t k = 1; remaining >= probability && k <= slips_max; ++k) {
+    remaining -= probability;
     probability *= expected / static_cast<double>(k);
     const double longer_m = -errors_.slip_m * exact::log(1 - draws_.slip.uniform(step, 2 * k));
     slip.travel_m += distance_m < 0 ? -longer_m : longer_m;

@@ -25,7 +25,7 @@ TEST(Expectation, ChecksGoalsAndCollisions) {
   expect.collisions = 0;
   EXPECT_EQ(unmet(expect, result_with(3, 3, 0)), Lines{});
   EXPECT_EQ(unmet(expect, result_with(2, 3, 0)), Lines{"2 of 3 goals reached, expected all"});
-  EXPECT_EQ(unmet(expect, result_with(3, 3, 1)), Lines{"1 collisions, expected 0"});
+  EXPECT_EQ(unmet(expect, result_with(3, 3, 1)), Lines{"1 collision, expected 0"});
   EXPECT_EQ(unmet(expect, result_with(2, 3, 1)).size(), 2u);
 }
 

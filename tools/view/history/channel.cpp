@@ -89,8 +89,8 @@ void Channel::queue(std::string_view text) {
 
 bool Channel::flush() {
   while (is_open_ && !outgoing_.empty()) {
-    const std::string_view left = std::string_view(outgoing_.front()).substr(sent_of_first_);
-    const ssize_t part = send_part(number(), left, -1, MSG_DONTWAIT);
+    const std::string_view rest = std::string_view(outgoing_.front()).substr(sent_of_first_);
+    const ssize_t part = send_part(number(), rest, -1, MSG_DONTWAIT);
     if (part < 0) {
       if (errno == EAGAIN || errno == EWOULDBLOCK) return false;
       is_open_ = false;

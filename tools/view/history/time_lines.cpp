@@ -41,16 +41,16 @@ Origin TimeLines::origin(std::size_t line, const IsEarly& is_early) const {
   const Snapshot* first = nullptr;
   Time end = Time::max();
   for (int at = static_cast<int>(line); at >= 0; at = lines_[static_cast<std::size_t>(at)].parent) {
-    const TimeLine& here = lines_[static_cast<std::size_t>(at)];
+    const TimeLine& current = lines_[static_cast<std::size_t>(at)];
     const Snapshot* found = nullptr;
-    for (const Snapshot& snapshot : here.snapshots) {
+    for (const Snapshot& snapshot : current.snapshots) {
       if (!snapshot.peer->is_open() || snapshot.time > end) continue;
       if (found == nullptr || is_early(snapshot)) found = &snapshot;
     }
-    if (found != nullptr && (is_early(*found) || here.parent < 0)) first = found;
+    if (found != nullptr && (is_early(*found) || current.parent < 0)) first = found;
     if (first != nullptr) return {first->peer, first->time, to_come};
-    to_come.insert(to_come.begin(), here.interventions.begin(), here.interventions.end());
-    end = std::min(end, here.from);
+    to_come.insert(to_come.begin(), current.interventions.begin(), current.interventions.end());
+    end = std::min(end, current.from);
   }
   throw BadInput("the view", "there is no snapshot of this run");
 }

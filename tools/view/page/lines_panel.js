@@ -42,7 +42,7 @@ class LinesPanel {
   }
 
   rangeText(line) {
-    return `${line.parent === null ? "from the begin" : `from line ${line.parent} at ${shortInstantText(line.from)}`}, to ${shortInstantText(line.to)}`;
+    return `${line.parent === null ? "from the beginning" : `from line ${line.parent} at ${shortInstantText(line.from)}`}, to ${shortInstantText(line.to)}`;
   }
 
   row(line) {

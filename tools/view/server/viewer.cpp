@@ -144,9 +144,9 @@ void Viewer::send_status() {
   if (status_.empty()) return;
   status_["lines"] = history_.lines();
   std::string text = text_of(status_);
-  if (text == told_) return;
+  if (text == sent_status_) return;
   send_to_all(text);
-  told_ = std::move(text);
+  sent_status_ = std::move(text);
 }
 
 void Viewer::send_to_all(const std::string& text) {
@@ -192,7 +192,7 @@ void Viewer::answer(ClientNumber client, const Json& request, const History::Rep
 void Viewer::send_header(ClientNumber client, const History::Reply& reply) {
   reply(scene_);
   server_.send(client, "{\"kind\":\"log\",\"lines\":[" + log_ + "]}");
-  told_.clear();
+  sent_status_.clear();
   send_status();
 }
 

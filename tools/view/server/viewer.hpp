@@ -66,7 +66,7 @@ class Viewer {
   std::string scene_, log_;  // as the run sent them
   std::size_t robots_ = 0;
   Json status_ = Json::object();
-  std::string told_;  // the last status that clients got
+  std::string sent_status_;  // the last status that clients got
   bool frame_is_due_ = false, run_is_over_ = false;
 };
 
