@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `waitpoint scenarios`: the shipped scenarios, each with one line.
+// `waitpoint scenarios`: the shipped scenarios, each with its `description`.
 #pragma once
-
-#include <filesystem>
-#include <string>
 
 #include "tools/command/command.hpp"
 
@@ -18,8 +15,5 @@ void declare(Command& command, ScenariosOptions& options);
 
 /// Prints name and description of each; returns the exit status.
 int list_scenarios(const ScenariosOptions& options);
-
-/// The file's `description`, or else the first sentence of its first comment.
-std::string description_of(const std::filesystem::path& scenario);
 
 }  // namespace waitpoint::tools

@@ -4,6 +4,7 @@
 import json
 import os
 import pathlib
+import pty
 import re
 import shutil
 import subprocess
@@ -171,6 +172,44 @@ class Completion(unittest.TestCase):
         done = subprocess.run([PROGRAM, "completion", "ksh"], capture_output=True, text=True)
         self.assertEqual((done.returncode, done.stdout), (2, ""))
         self.assertIn("expected bash, zsh or fish, found 'ksh'", done.stderr)
+
+
+class Scenarios(unittest.TestCase):
+    def test_are_listed_with_a_line_each_and_found_by_name(self):
+        rows = [line.split(None, 1) for line in waitpoint("scenarios").splitlines()]
+        self.assertIn(["office", "a robot's rounds on an office floor, with one door blocked"], rows)
+        self.assertTrue(all(len(row) == 2 for row in rows), rows)
+        with tempfile.TemporaryDirectory() as folder:
+            for name in ("office", "office.yaml"):
+                done = subprocess.run([PROGRAM, "check", name], cwd=folder, capture_output=True, text=True)
+                self.assertIn("good: 1 robot, 5 modules", done.stdout, done.stderr)
+
+
+def on_a_terminal(*words):
+    """What the program writes to a terminal that is its standard error."""
+    master, terminal = pty.openpty()
+    with subprocess.Popen([PROGRAM, *words], stdout=subprocess.DEVNULL, stderr=terminal) as program:
+        os.close(terminal)
+        text = b""
+        while True:
+            try:
+                text += os.read(master, 4096)
+            except OSError:  # its end
+                break
+        os.close(master)
+    return program.returncode, text.decode()
+
+
+class Progress(unittest.TestCase):
+    def test_is_for_terminals_after_two_seconds(self):
+        run = ["run", "office", "--until", "25", "--set", "expect.goals_reached=0"]
+        self.assertEqual(on_a_terminal(*run), (0, ""))
+        status, text = on_a_terminal(*run, "--speed", "10")
+        self.assertEqual(status, 0)
+        self.assertIn(" s of 25 s", text)
+        self.assertTrue(text.endswith("\r\x1b[K"), text)
+        into_a_pipe = subprocess.run([PROGRAM, *run, "--speed", "10"], capture_output=True, text=True)
+        self.assertEqual((into_a_pipe.returncode, into_a_pipe.stderr), (0, ""))
 
 
 class Version(unittest.TestCase):
