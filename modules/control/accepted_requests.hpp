@@ -35,7 +35,7 @@ class AcceptedRequests {
   /// By number: the oldest first.
   std::map<std::uint32_t, ControlledRequest>& running() { return requests_; }
 
-  /// What makes a state differ from the present one.
+  /// The difference of a state from the present one.
   struct Change {
     const ControlledRequest* accepted = nullptr;  ///< in this step
     const ControlledRequest* ended = nullptr;     ///< in this step, and removed

@@ -44,7 +44,7 @@ void Automaton::expect_room(const Rules& rules, const Check& check) const {
               "expected rules of at most " + std::to_string(DecisionDiagrams::nodes_max) + " nodes when compiled");
 }
 
-// The condition becomes true when what is true of such a request becomes true.
+// The condition becomes true with the predicate of such a request.
 void Automaton::find_raising(std::size_t check) {
   const Node forbidden = forbidden_[check];
   std::vector<bool>& raises = raises_.emplace_back();

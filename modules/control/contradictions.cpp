@@ -79,7 +79,7 @@ class Search {
     if (diagrams_.is_full()) throw TooLarge();
   }
 
-  /// What holds in every state, whatever the rules. An implication that follows from two others is left out.
+  /// Invariants of every state, independent of the rules. An implication that follows from two others is left out.
   void make_theory() {
     const std::size_t count = predicates().size();
     std::vector<std::vector<bool>> implied(count, std::vector<bool>(count));
@@ -203,7 +203,7 @@ class Search {
   /// A request type is accepted if it is with some input.
   bool is_accepted(std::size_t p, const Reachable& reachable) const {
     const std::vector<RequestPattern>& patterns = automaton_.patterns();
-    if (!patterns[p].inputs.empty()) return true;  // such patterns forbid what is not wanted
+    if (!patterns[p].inputs.empty()) return true;  // such patterns forbid unwanted states
     for (std::size_t q = 0; q < patterns.size(); ++q)
       if (reachable.accepted[q] && is_same_request(patterns[p], patterns[q])) return true;
     return false;

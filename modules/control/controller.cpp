@@ -232,7 +232,7 @@ void Controller::look_at_delayed() {
   }
 }
 
-// Interrupts what brings a forbidden state about: the activities that the check names, or the newest one whose end
+// Interrupts the causes of a forbidden state: the activities that the check names, or the newest one whose end
 // suffices, or all that contribute to it.
 void Controller::keep_safe() {
   for (std::size_t i = 0; i < automaton_.checks(); ++i) {
@@ -308,7 +308,7 @@ void Controller::decide(Verdict verdict, const ControlledRequest* request, std::
 }
 
 // A full mailbox of a module rejects the request as a system error; that of a client loses the reply, as in GenoM.
-// An abort, to which nobody replies, is tried again.
+// An abort without a reply is tried again.
 void Controller::send() {
   for (auto& [decision, text] : decisions_) {
     decision.date = threads::now();

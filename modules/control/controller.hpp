@@ -51,7 +51,7 @@ class Controller : private genom::RequestGate {
     Time arrival, until;
     std::size_t check;  ///< for which it waits
   };
-  /// What to do with a request now.
+  /// The treatment of a request now.
   struct Judgement {
     Verdict verdict = Verdict::accepted;
     std::size_t check = 0;

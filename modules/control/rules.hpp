@@ -74,7 +74,7 @@ struct Expression {
   Place place;
 };
 
-/// A state that must not be reached, and what is done to that end. A request that would lead to it is rejected, unless
+/// A state that must not be reached, and the action against it. A request that would lead to it is rejected, unless
 /// a pattern below matches it or another activity gives way.
 struct Check {
   std::string name;      ///< "context.check"

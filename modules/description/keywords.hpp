@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The words of C and C++ that name nothing else: what a description names is declared in both languages.
+// The words of C and C++ that name nothing else: names of a description are declared in both languages.
 #pragma once
 
 #include <string_view>

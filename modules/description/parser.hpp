@@ -17,10 +17,10 @@
 
 namespace waitpoint::description {
 
-/// What a file says, before names are resolved.
+/// The contents of a file, before names are resolved.
 Description parse(const SourceFile& source, const std::vector<std::string>& include_folders, const ReadFile& read_file);
 
-/// Resolves names and checks what must hold between the parts; BadInput at the first that does not.
+/// Resolves names and checks the constraints between the parts; BadInput at the first that does not.
 void resolve(Description& description);
 
 /// Both. BadInput "file:line: column N: expected ..., found ..." at the first mistake.

@@ -21,7 +21,7 @@ struct Macro {
   std::vector<Token> tokens;
 };
 
-/// A nested #if: whether the lines that follow are in use.
+/// A nested #if: true while the following lines are in use.
 struct Condition {
   Place place;
   bool outer = true;  ///< the lines around it are in use
@@ -61,7 +61,7 @@ class Preprocessor {
  private:
   bool in_use() const { return conditions_.empty() || conditions_.back().in_use; }
 
-  // Appends a token, or what the constant of its name stands for.
+  // Appends a token, or the value of the constant of its name.
   void put(Token token, std::size_t depth) {
     const auto found = token.kind == TokenKind::name ? macros_.find(token.text) : macros_.end();
     if (found == macros_.end() || token.text == token.macro) {

@@ -44,7 +44,7 @@ class TokenStream {
     if (peek().kind != TokenKind::name) fail("expected " + std::string(what));
     return take();
   }
-  /// The same of what is declared in C and C++, where keywords are no names.
+  /// The same of a declaration in C and C++, where keywords are no names.
   const Token& expect_declared_name(std::string_view what) {
     if (peek().kind == TokenKind::name && is_keyword(peek().text))
       reject(peek().place, "expected " + std::string(what) + ", found the keyword '" + peek().text + "' of C or C++");

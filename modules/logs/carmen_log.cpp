@@ -88,7 +88,7 @@ class Words {
   std::string_view rest_;
 };
 
-/// A scan, with what is needed to choose among lasers and hosts.
+/// A scan, with the keys to choose among lasers and hosts.
 struct Record {
   LoggedScan scan;
   std::optional<Pose> laser;

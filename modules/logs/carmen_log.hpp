@@ -5,7 +5,7 @@
 //   ROBOTLASER1 type start_angle field_of_view angular_resolution maximum_range accuracy remission_mode n r1 ... rn
 //     m e1 ... em  laser_x laser_y laser_theta  robot_x robot_y robot_theta  tv rv forward side axis
 //     time host logger_time
-//   RAWLASER1 (as ROBOTLASER1, without poses and what follows them)
+//   RAWLASER1 (as ROBOTLASER1, without poses and the rest)
 //   ODOM x y theta tv rv accel time host logger_time
 //   PARAM name value ...
 //   LASER_READING n r1 ... rn x y theta time    ODOM x y theta time        (gfs)

@@ -7,7 +7,7 @@
 
 namespace waitpoint::logs {
 
-/// What a decompressed log may have at most.
+/// The greatest size of a decompressed log.
 inline constexpr std::size_t log_bytes_max = std::size_t{2} << 30;
 
 bool is_gzip(std::string_view bytes);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is known about a log's laser better than by the log, which may lack it or have it wrong.
+// Corrections of a log's laser, whose data the log may lack or have wrong.
 #pragma once
 
 #include <optional>
@@ -15,7 +15,7 @@ struct GivenLaser {
   std::optional<double> range_max_m = {};        ///< readings from here on are no echoes
 };
 
-/// Replaces what the log has by what is given.
+/// Replaces the log's values by the given ones.
 void apply(const GivenLaser& laser, SensorLog& log);
 
 }  // namespace waitpoint::logs

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The greatest magnitudes of numbers in a log of sensors. What is beyond them is damage, or has another unit; within
+// The greatest magnitudes of numbers in a log of sensors. Numbers beyond them are damage, or have another unit; within
 // them, nothing that is computed from a log overflows.
 #pragma once
 
@@ -22,7 +22,7 @@ inline std::string limited_text(const char* what, double magnitude_max) {
   return std::string(what) + " within +-" + number_text(static_cast<std::int64_t>(magnitude_max));
 }
 
-/// What is wrong with a scan of so many beams, so far apart; empty if it spans about a turn at most.
+/// The error of a scan of so many beams, so far apart; empty if it spans about a turn at most.
 inline std::string span_error(std::size_t beams, double angle_step_rad) {
   constexpr double span_max_rad = 1.1 * 2 * exact::pi;  // beams of some lasers overlap
   const double span_rad = beams > 1 ? angle_step_rad * static_cast<double>(beams - 1) : 0;

@@ -31,7 +31,7 @@ class McapParser {
  public:
   explicit McapParser(const std::string& name) : name_(name), topics_(name) {}
 
-  /// Up to the end of the data; what follows is the summary.
+  /// Up to the end of the data, before the summary.
   void parse(std::string_view bytes, bool is_in_chunk) {
     for (ByteReader reader(name_, bytes); !reader.at_end();) {
       const auto operation = reader.number<std::uint8_t>();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a log of sensors takes from messages. BadInput, naming the message's `place`, for numbers beyond limits.hpp;
-// ranges beyond theirs, below the least, and such as are no numbers, are infinite: no echoes.
+// The values that a log of sensors takes from messages. BadInput, naming the message's `place`, for numbers beyond
+// limits.hpp; ranges beyond theirs, below the least, and such as are no numbers, are infinite: no echoes.
 #pragma once
 
 #include <string>

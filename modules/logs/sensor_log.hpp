@@ -42,7 +42,7 @@ struct SensorLog {
   std::map<std::string, std::uint64_t> left_out;  ///< number of other records, by type or topic
 };
 
-/// What to take from a log that has several of a kind; empty: the only one, or the format's default.
+/// The choice from a log that has several of a kind; empty: the only one, or the format's default.
 struct LogChoice {
   std::string scan = {};      ///< record type or topic
   std::string odometry = {};  ///< topic

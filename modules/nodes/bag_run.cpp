@@ -7,7 +7,7 @@
 namespace waitpoint::nodes {
 namespace {
 
-constexpr Duration between_looks = std::chrono::milliseconds(50);  // at processes, and at what was heard
+constexpr Duration between_looks = std::chrono::milliseconds(50);  // at processes, and at received messages
 
 }  // namespace
 
@@ -61,7 +61,7 @@ BagRun::End BagRun::wind_down() {
   }
 }
 
-// What is due on the way.
+// Messages that are due on the way.
 std::optional<BagRun::End> BagRun::go_on(Time until) {
   for (;;) {
     const std::int64_t tick_ns = Duration::from_seconds(1 / play_.clock_hz).ns() * clock_ticks_;

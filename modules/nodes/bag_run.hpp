@@ -16,8 +16,8 @@
 
 namespace waitpoint::nodes {
 
-/// What nodes published to a topic: the digest is that of the publishers' names and bytes, in the order in which the
-/// run heard them.
+/// The messages that nodes published to a topic: the digest is that of the publishers' names and bytes, in the order in
+/// which the run heard them.
 struct HeardTopic {
   std::string type;
   std::uint64_t messages = 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A bag of ROS 1 whose messages are published to nodes: a master, and a node that has the bag's topics, with the types,
-// definitions and latches of its connections. What the messages say is not interpreted.
+// definitions and latches of its connections. The contents of messages are not interpreted.
 //
 // Plain values only: the library has no other parts of this program.
 #pragma once
@@ -16,7 +16,7 @@
 
 namespace waitpoint::nodes {
 
-/// What is played of a bag. Its time begins with its first message.
+/// The played part of a bag. Its time begins with its first message.
 struct BagChoice {
   std::string file;
   std::vector<std::string> topics;          ///< global names; empty: all
@@ -28,7 +28,7 @@ struct BagSideSetup {
   BagChoice choice;
   bool has_clock = false;                                          ///< publishes /clock; use_sim_time is set
   bool has_debian_master = false;                                  ///< in place of one inside
-  bool hears = false;                                              ///< subscribes to what nodes publish
+  bool hears = false;                                              ///< subscribes to the nodes' topics
   std::vector<std::pair<std::string, nlohmann::json>> parameters;  ///< by global name; no maps
 };
 
@@ -54,7 +54,7 @@ class BagSide : public MasterSide {
   virtual void play_latched() = 0;
   /// Publishes /clock, at a time from start_ns.
   virtual void show_clock(std::int64_t time_ns) = 0;
-  /// What nodes have published since the last call, in the order in which it came; subscribes to topics that they have
+  /// The messages of nodes since the last call, in their order of arrival; subscribes to topics that they have
   /// begun to publish.
   virtual std::vector<HeardMessage> hear() = 0;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A ROS master, as those see it who start its nodes.
+// A ROS master, as seen by the starter of its nodes.
 #pragma once
 
 #include <string>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a scenario expects of its nodes: how many may fail (none, unless it says so), how long a call of a service may
-// take, what numbers messages have, and that the tests of launch files pass.
+// A scenario's expectations of its nodes: how many may fail (none, unless it says so), how long a call of a service may
+// take, the numbers in messages, and that the tests of launch files pass.
 #pragma once
 
 #include <string>

@@ -32,7 +32,7 @@ HostedProgram program_of(const NodeCommand& command, const MasterSide& master,
   program.environment.push_back({"ROS_MASTER_URI", master.master_address()});
   program.environment.push_back({"ROS_IP", "127.0.0.1"});
   if (node.ns != "/") program.environment.push_back({"ROS_NAMESPACE", node.ns});
-  // What a run prints is its summary.
+  // A run prints its summary only.
   using Output = HostedProgram::Output;
   program.output = node.output == ros1::Node::Output::screen ? Output::errors : Output::nothing;
   return program;

@@ -41,7 +41,7 @@ class NodeProcesses {
   NodeProcesses(const NodeProcesses&) = delete;
   NodeProcesses& operator=(const NodeProcesses&) = delete;
 
-  /// Starts the nodes whose conditions hold, and notes those that have ended. `now` is the run's virtual time.
+  /// Starts the nodes with conditions that hold, and notes those that have ended. `now` is the run's virtual time.
   void go_on(Time now);
   /// Since the last call.
   std::vector<NodeNews> take_news() { return std::exchange(news_, {}); }
@@ -51,7 +51,7 @@ class NodeProcesses {
   bool have_ended() const { return programs_.have_all_ended(); }
   /// True when those that could start so far have registered with the master, ended, or been told of.
   bool are_there() const;
-  /// A line for each node whose conditions have not come true.
+  /// A line for each node that was never started: its conditions.
   std::vector<std::string> not_started() const;
   bool have_tests() const;
   /// A line for each test that has failed, or has not ended, within its time if `now` is given.

@@ -21,7 +21,7 @@
 
 namespace waitpoint::nodes {
 
-/// What messages of a topic are to be, each of them.
+/// The expectation of each message of a topic.
 struct TopicBound {
   enum class Relation : unsigned char { at_least, at_most, equal };
 
@@ -47,7 +47,7 @@ class NodeSide : public MasterSide {
     std::string bytes;
   };
 
-  /// What nodes have as the time of the run's begin.
+  /// The nodes' time at the beginning of the run.
   virtual Time begin() const = 0;
 
   /// Names are global; the type must outlive this. `queue`: the number of messages that wait for a slow subscriber.
@@ -56,9 +56,9 @@ class NodeSide : public MasterSide {
   virtual void publish(Topic topic, std::string_view bytes) = 0;
   virtual bool has_subscribers(Topic topic) const = 0;
   virtual Subscription subscribe(const std::string& name, const messages::Ros1Type& type, std::uint32_t queue) = 0;
-  /// What has come since the last call, in its order.
+  /// The messages since the last call, in their order.
   virtual std::vector<Received> take_received() = 0;
-  /// A service whose request is empty and whose response is always the same; `type` is the response's.
+  /// A service with an empty request and a constant response; `type` is the response's.
   virtual void serve(const std::string& name, const std::string& service_type, const messages::Ros1Type& type,
                      std::string response) = 0;
 
@@ -70,14 +70,14 @@ class NodeSide : public MasterSide {
   virtual std::vector<std::string> unheard_topics() const = 0;
 };
 
-/// What the library offers.
+/// The library's functions.
 struct Library {
   static constexpr const char* file = "libwaitpoint-nodes.so";
   static constexpr const char* symbol = "waitpoint_nodes_2";  ///< with the version of this file
 
   /// Starts the master. Throws std::runtime_error.
   std::unique_ptr<NodeSide> (*make)(const NodeSideSetup& setup);
-  /// Reads the bag from its beginning to its end. Throws std::runtime_error for what cannot be played: a line.
+  /// Reads the bag from its beginning to its end. Throws std::runtime_error, a line, if it cannot be played.
   void (*check_bag)(const BagChoice& choice);
   /// Starts the master, and advertises the topics. Throws std::runtime_error.
   std::unique_ptr<BagSide> (*make_bag_side)(const BagSideSetup& setup);

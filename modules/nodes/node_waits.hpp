@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What threads of nodes wait for: calls of services, and locks that others hold.
+// Waits of the nodes' threads: for calls of services, and locks that others hold.
 #pragma once
 
 #include <string>

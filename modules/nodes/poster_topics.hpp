@@ -24,7 +24,7 @@
 
 namespace waitpoint::nodes {
 
-/// What the messages of a robot's posters have in their headers.
+/// The header fields of the messages of a robot's posters.
 struct PosterFrames {
   std::string prefix;      ///< of the robot's frames
   std::string laser;       ///< that of scans

@@ -27,7 +27,7 @@ namespace waitpoint::nodes {
 
 class RobotTopics {
  public:
-  /// What nodes ask by cmd_vel.
+  /// The nodes' command by cmd_vel.
   struct Command {
     messages::geometry_msgs::Twist twist;  ///< of the newest message
     std::uint32_t messages = 0;            ///< those that came, as far as the queue has kept them
@@ -46,7 +46,7 @@ class RobotTopics {
   void send_start() const;
   /// A goal in the map, of the last step.
   void send_goal(const Pose& goal) const;
-  /// True if somebody takes its goals.
+  /// True if a node takes its goals.
   bool has_driver() const { return goal_.has_subscribers(); }
 
   /// Takes a message of one of its subscriptions; false for others. BadInput for one that is cut off.

@@ -25,7 +25,7 @@ class RobotsAir {
 
   /// The robots have moved.
   void move(const world::World& world);
-  /// What was lost so far, for the summary: "" or ", 3 messages lost, 12 sent again".
+  /// The losses so far, for the summary: "" or ", 3 messages lost, 12 sent again".
   std::string losses() const;
 
  private:

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What nodes of ROS publish that pictures and recordings show, by the table `show` of a robot's `ros`: paths
+// Topics of ROS nodes that pictures and recordings show, by the table `show` of a robot's `ros`: paths
 // (nav_msgs/Path), clouds of poses (geometry_msgs/PoseArray), grids (nav_msgs/OccupancyGrid).
 //
-// The world's node subscribes to them whether somebody draws them or not: a viewer never changes a run.
+// The world's node subscribes to them in every run, drawn or not: a viewer never changes a run.
 #pragma once
 
 #include <optional>
@@ -41,7 +41,7 @@ ShownMessage shown_message(ShownMessage::Kind kind, const std::string& topic, st
 class ShownTopics {
  public:
   void add(ShownMessage message);
-  /// From now on take() has messages: somebody calls it.
+  /// From now on take() has messages, and has to be called.
   void begin_recording() { is_recorded_ = true; }
 
   /// Those since the last call, in the order in which they came.

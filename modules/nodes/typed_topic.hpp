@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A topic of the world's node whose messages have one declared type.
+// A topic of the world's node, with messages of one declared type.
 #pragma once
 
 #include "modules/messages/wire.hpp"

@@ -145,7 +145,7 @@ void WorldNode::pass_pose(outside::Host& host, const Robot& robot, const posters
   host.intervene(text, {place, 0});
 }
 
-// Goals are judged by the truth: a node's own opinion is not what the robot did.
+// Goals are judged by the truth, not by a node's own opinion.
 void WorldNode::show_goal(outside::Host& host, std::size_t number) {
   Robot& robot = robots_[number];
   const scenario::RobotScenario& of = scenario_.robots[robot.index];
@@ -167,7 +167,7 @@ void WorldNode::show_goal(outside::Host& host, std::size_t number) {
   const bool is_at_rest = std::fabs(body.velocity.v_m_s) < at_rest_m_s;
   const bool has_arrived = length(goal - body.pose.position()) < arrived_m && is_at_rest;
   if (!is_at_rest || std::fabs(body.velocity.w_rad_s) > no_turn_rad_s) robot.told_at = now;
-  // As a person would, who sees that nothing happens: a planner that starts can lose a goal, or give it up.
+  // As a person would if nothing happens: a planner that starts can lose a goal, or give it up.
   if (!has_arrived && now - robot.told_at >= repetition) send_goal(number, goal, body, now);
   if (!has_arrived && now - robot.sent_at < patience) return;
   host.intervene("goal " + outside::quoted_word(of.name) + (has_arrived ? " reached" : " given-up"), {place, 0});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The world as a ROS node: sensors of the scenario's robots that have nodes become topics, and what their nodes command
+// The world as a ROS node: sensors of the scenario's robots that have nodes become topics, and their nodes' commands
 // becomes interventions, which the run's journal repeats without them.
 #pragma once
 

@@ -34,8 +34,8 @@ class WorldTopics {
 
   /// After a step of the world.
   void publish(const world::World& world, Time now);
-  /// Hands what nodes have published to the robots, and what is shown to `shown`, which may be null. Returns a line for
-  /// each message that is damaged, which is left out.
+  /// Hands the nodes' messages to the robots, and those of shown topics to `shown`, which may be null. Returns a line
+  /// for each message that is damaged, which is left out.
   std::vector<std::string> take_in(ShownTopics* shown);
 
  private:

@@ -40,7 +40,7 @@ class Listener {
   Descriptor socket_;
 };
 
-/// A blocking connection. Throws BadInput at `where` if nobody listens there.
+/// A blocking connection. Throws BadInput at `where` if it is refused.
 Descriptor connect_to(const Endpoint& endpoint, const std::string& where);
 
 }  // namespace waitpoint::outside

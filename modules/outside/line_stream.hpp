@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Lines of text in both directions of a connection. The side of the run never blocks: a peer that does not read loses
-// what does not fit into the buffers, and a flood of lines waits in the system's, which holds up its sender.
+// the excess over the buffers, and a flood of lines waits in the system's, which holds up its sender.
 #pragma once
 
 #include <cstddef>
@@ -15,7 +15,7 @@ class LineStream {
  public:
   explicit LineStream(Descriptor connection) : connection_(std::move(connection)) {}
 
-  /// Receives what is there, of a flood a part; a blocking connection waits until there is something.
+  /// Receives the data at hand, of a flood a part; a blocking connection waits until there is something.
   void receive();
   /// Removes the next complete line, without its end. A line that is too long ends the connection.
   bool take(std::string& line);

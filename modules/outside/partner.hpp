@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A process outside that takes part in a run: what it sends becomes interventions, which the journal repeats without
+// A process outside that takes part in a run: its messages become interventions, which the journal repeats without
 // it.
 #pragma once
 
@@ -11,7 +11,7 @@
 
 namespace waitpoint::outside {
 
-/// What a partner needs of the run, which is between two windows.
+/// A partner's access to the run, which is between two windows.
 class Host {
  public:
   virtual run::Experiment& experiment() = 0;
@@ -42,7 +42,7 @@ class Partner {
   virtual void begin(Host& host) = 0;
   /// After a window of the run: shows its state to the outside.
   virtual void publish(Host&) {}
-  /// Before the next window: takes in what has come. Does not block.
+  /// Before the next window: takes in received messages. Does not block.
   virtual void take_in(Host& host) = 0;
   /// One line for the summary.
   virtual std::string account() const = 0;

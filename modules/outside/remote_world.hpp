@@ -65,7 +65,7 @@ class RemoteWorld final : public world::World {
   Attached& attached(world::BodyId id) const { return *robots_[index(id)]; }
   void attach(Attached& robot, const Endpoint& endpoint, const std::string& where);
   void switch_on(Attached& robot, std::size_t laser) const;
-  /// Reads what has come, waiting for something; false if the connection has ended.
+  /// Reads received data, waiting for some; false if the connection has ended.
   bool read(Attached& robot) const;
 
   world::WorldDescription description_;

@@ -15,7 +15,7 @@ namespace waitpoint::playback {
 /// The resolution of the base's reports, per metre and per radian.
 inline constexpr double units_per_metre = 1e7, units_per_radian = 1e7;
 
-/// Empty unless this setting of modules of that type follows from a log; else what can be said in its place: "the
+/// Empty unless this setting of modules of that type follows from a log; else the alternative: "the
 /// laser's mount is the log's, or `log: {mount: [x, y, degrees]}` of a scenario".
 std::string said_by_log(std::string_view module_type, std::string_view key);
 

@@ -161,7 +161,7 @@ bool Playback::has(PoseSource source) const {
          (source == PoseSource::segloc ? localisation_ != nullptr : position_ != nullptr);
 }
 
-// What the module does not correct, as it was known at the time.
+// The uncorrected value, as it was known at the time.
 std::vector<bridge::DatedPose> Playback::corrected() const {
   std::vector<bridge::DatedPose> poses;
   for (const auto& module : modules_)

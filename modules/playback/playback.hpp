@@ -4,7 +4,7 @@
 //   replay   starts the modules, gives them their pose, switches the laser on, starts the localisation, then the player
 //   player   at the dates of the log's records, in the world's phase (log_player.hpp)
 //
-// The modules begin at the pose (0, 0, 0), in whose frame all poses are; the first record of the log is at time 0. The
+// The modules begin at the pose (0, 0, 0), the frame of all poses; the first record of the log is at time 0. The
 // run ends a second after the last scan.
 #pragma once
 
@@ -28,7 +28,7 @@
 
 namespace waitpoint::playback {
 
-/// Whose poses.
+/// The module of the poses.
 enum class PoseSource : std::uint8_t { segloc, pom, odometry };
 
 /// A pose at the stamp that a scan has in the log.
@@ -40,7 +40,7 @@ struct StampedPose {
 
 class Playback {
  public:
-  /// Inconsistencies are BadInput, so are modules of which none reads what the log feeds. Settings that follow from the
+  /// Inconsistencies are BadInput, so are modules of which none reads the log's data. Settings that follow from the
   /// log replace those of the modules (log_settings.hpp). `log` and `robot`, whose modules run, must outlive the run.
   Playback(const logs::SensorLog& log, const scenario::RobotScenario& robot, std::span<const genom::ModuleType> types,
            const SimulationOptions& options);

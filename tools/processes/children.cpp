@@ -172,7 +172,7 @@ std::optional<Children::Ended> Children::wait(int timeout_ms) {
     bool at_end = false, errors_end = false;
     if (sockets[2 * i + 1].revents != 0) drain(running_[i].errors, running_[i].so_far.errors, errors_max, errors_end);
     if (sockets[2 * i].revents != 0) drain(running_[i].jobs, running_[i].so_far.bytes, std::string::npos, at_end);
-    // What it has written to its standard error before is there, too.
+    // Its earlier standard error is there, too.
     if (is_message(running_[i].so_far.bytes)) return take(i);
     if (at_end) return reap(i);
   }

@@ -41,7 +41,7 @@ class Interrupted {
   double begin_s_ = 0;
 };
 
-// A process that has ended may have sent what this wait is for.
+// An ended process may have sent the awaited message.
 constexpr double arrives_s = 0.15;
 
 /// Tells of one that has not answered for 5, 10, 20, ... seconds.

@@ -23,7 +23,7 @@ struct LeaderLost : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Heeds what happens during waits. The leader throws std::runtime_error after another rank's end, an interruption, or
+/// Reacts to events during waits. The leader throws std::runtime_error after another rank's end, an interruption, or
 /// `limit_s` (0: never), and tells of a rank that does not come; others throw after the leader's end, or an
 /// interruption that it does not heed.
 run::Ranks::Waiting watch_over(run::Transport& transport, const RankProcesses& processes, double limit_s);

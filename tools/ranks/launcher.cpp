@@ -27,8 +27,8 @@ namespace {
 constexpr const char* pipe_variable = "WAITPOINT_LAUNCHER";  // the pipe, as a file of the launcher's
 constexpr int not_yet = -1;
 
-// What Open MPI 4 and 5 have different options for, or none: a release passes over the parameters that it does not
-// know.
+// Settings for which Open MPI 4 and 5 have different options, or none: a release passes over the parameters that it
+// does not know.
 constexpr std::pair<const char*, const char*> mpi_parameters[] = {
     {"btl", "^tcp"},                              // within this host, whatever its network
     {"btl_vader_single_copy_mechanism", "none"},  // shared memory, without a right to read another process's

@@ -10,7 +10,7 @@
 
 namespace waitpoint::tools {
 
-/// What a user is told to do where ranks are missing.
+/// Advice to the user where ranks are missing.
 
 /// True in one of several processes that mpirun has started.
 bool is_rank();

@@ -2,7 +2,7 @@
 // The ranks of a run joined by MPI: a shared object of its own, loaded only in a process that mpirun has started, so
 // that the program needs no MPI otherwise.
 //
-// One allgather of blocks of fixed size, most often enough, and one more of what does not fit. Both are polled, since a
+// One allgather of blocks of fixed size, most often enough, and one more of the rest. Both are polled, since a
 // rank may be lost: MPI itself would wait for ever. A rank that waits for long tells the first one, which so knows the
 // ranks that have not come.
 #include <mpi.h>
@@ -80,7 +80,7 @@ class MpiTransport final : public run::Transport {
   }
 
  private:
-  // What does not fit into the blocks of fixed size.
+  // The rest, beyond the blocks of fixed size.
   void gather_rest(std::string_view own, const Waiting& waiting) {
     std::vector<int> sizes, places;
     std::size_t sum = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The processes of a run's ranks, as far as they are on this host: whether they have ended or are stopped, known within
+// The processes of a run's ranks, as far as they are on this host: ends and stops, known within
 // moments and whatever mpirun does.
 #pragma once
 

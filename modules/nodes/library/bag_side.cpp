@@ -28,7 +28,7 @@ const messages::Ros1Type& clock_type() { return messages::ros1_type<Clock>(); }
 
 constexpr std::uint32_t any_number = 0;  // of messages in a queue: none is lost on this side
 
-/// Opens the bag so that what follows does not depend on how long that took. The library looks through all packages of
+/// Opens the bag so that the run does not depend on the time that it takes. The library looks through all packages of
 /// the machine for ways to decrypt, with clocks and locks for each. So it is done by a thread of its own, whose events
 /// are not counted among those of others, and the run begins at a whole second.
 std::unique_ptr<PlayedBag> opened(const BagChoice& choice) {
@@ -138,7 +138,7 @@ class BagAndMaster final : public NodeWithMaster<BagSide> {
   bool hears_;
   std::unique_ptr<PlayedBag> bag_;
   ros::Publisher clock_;
-  ros::Time first_;  // the time of the bag where what is played begins
+  ros::Time first_;  // the time of the bag where the played part begins
   std::map<Key, ros::Publisher> publishers_;
   std::map<std::string, std::uint64_t> played_;
   std::optional<HeardTopics> heard_;

@@ -26,7 +26,7 @@ namespace {
 constexpr int looks = 100;
 constexpr std::chrono::milliseconds between_looks(100);
 
-/// One that nobody has now.
+/// A free one.
 int free_port() {
   const int descriptor = socket(AF_INET, SOCK_STREAM, 0);
   sockaddr_in name{};

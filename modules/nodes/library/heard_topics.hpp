@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What other nodes publish, of any type: subscriptions, and the messages that have come.
+// Topics of other nodes, of any type: subscriptions, and the messages that have come.
 #pragma once
 
 #include <ros/ros.h>

@@ -162,7 +162,7 @@ std::vector<std::string> Master::topics_not_only_of(const std::string& node) con
   return topics;
 }
 
-// A call that is answered ends the round of the loop, so that what follows from it goes out at once.
+// A call that is answered ends the round of the loop, so that its consequences go out at once.
 template <class Call>
 void Master::add_method(const char* name, int parameters, Call call) {
   methods_.push_back(std::make_unique<Method>(name, parameters, [this, call](const Value& given) {

@@ -49,7 +49,7 @@ class Master final : public UsedMaster {
   template <class Call>
   void add_method(const char* name, int parameters, Call call);
 
-  mutable std::mutex mutex_;  // of what follows
+  mutable std::mutex mutex_;  // of the members below
   Registrations registrations_;
   Parameters parameters_;
 

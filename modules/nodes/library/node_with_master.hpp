@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What both sides of nodes have, that of a world and that of a bag: the master, its parameters, and a node of the run.
+// The common part of both sides of nodes, that of a world and that of a bag: the master, its parameters, and a node of
+// the run.
 #pragma once
 
 #include <ros/ros.h>

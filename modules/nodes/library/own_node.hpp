@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The run's own node, and what it and the others find at the master.
+// The run's own node, and the topics and services that it and the others find at the master.
 #pragma once
 
 #include <nlohmann/json.hpp>

@@ -124,7 +124,7 @@ std::optional<ParameterChange> Parameters::take_change() {
   return first;
 }
 
-// Who subscribes what is above the change gets the change, who subscribes what is below it its own parameter.
+// A subscriber above the change gets the change, a subscriber below it its own parameter.
 void Parameters::tell_of(const std::string& key) {
   for (const auto& [subscribed, addresses] : subscribers_) {
     const bool above = key.starts_with(subscribed);

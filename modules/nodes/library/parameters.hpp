@@ -26,7 +26,7 @@ class Parameters {
  public:
   Parameters();
 
-  /// Replaces what was there. A structure is the tree of its members; the key "/" is the whole tree, which must be one:
+  /// Replaces the value. A structure is the tree of its members; the key "/" is the whole tree, which must be one:
   /// false otherwise.
   bool set(const std::string& key, const Value& value);
   std::optional<Value> get(const std::string& key) const;

@@ -15,7 +15,7 @@ namespace {
 /// The library's exceptions of many kinds become one of ours.
 template <class Read>
 auto readable(Read read) {
-  // What is wrong is in the exceptions.
+  // Errors are in the exceptions.
   console_bridge::setLogLevel(console_bridge::CONSOLE_BRIDGE_LOG_NONE);
   try {
     return read();

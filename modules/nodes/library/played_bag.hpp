@@ -27,11 +27,11 @@ class PlayedBag {
 
   /// The next message; nullptr after the last one. It lives until the next call of advance(). Throws as above.
   const rosbag::MessageInstance* next();
-  /// From the beginning of what is played.
+  /// From the beginning of the played part.
   std::int64_t time_ns(const rosbag::MessageInstance& message) const;
   void advance() { ++at_; }
 
-  /// Of each connection that latches, the last message before the beginning of what is played.
+  /// Of each connection that latches, the last message before the beginning of the played part.
   std::vector<rosbag::MessageInstance> latched_before();
   /// Those of the topics, of any time.
   const std::vector<const rosbag::ConnectionInfo*>& connections() const { return connections_; }

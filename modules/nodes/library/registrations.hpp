@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a ROS master knows of its nodes: who publishes, subscribes and serves what. Values only: calls come in and
+// The registrations at a ROS master: publishers, subscribers and servers by name. Values only: calls come in and
 // notifications go out through master.hpp.
 //
 // The rules are those of the ROS Master API (wiki.ros.org/ROS/Master_API): a node is known by its name and the address

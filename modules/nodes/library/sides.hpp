@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the library makes.
+// The objects that the library makes.
 #pragma once
 
 #include <memory>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Numbers in messages of nodes, compared with what the scenario expects.
+// Numbers in messages of nodes, compared with the scenario's expectations.
 #pragma once
 
 #include <ros/node_handle.h>
