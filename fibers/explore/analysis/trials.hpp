@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The runs of a part of an analysis, within its budget.
+// The runs of a part of an analysis, within its budget. A cheap target's has no limit of time, so that a failure always
+// gets the same report.
 #pragma once
 
+#include <algorithm>
+#include <chrono>
 #include <string>
 
-#include "fibers/explore/analysis/budget.hpp"
 #include "fibers/explore/target/progress_listener.hpp"
 #include "fibers/explore/target/target.hpp"
 
@@ -14,35 +16,44 @@ class Trials {
  public:
   /// `progress` may be null.
   Trials(Target& target, ProgressListener* progress, const Effort& effort)
-      : target_(target), traits_(target.traits()), progress_(progress), budget_(effort) {}
+      : target_(target), traits_(target.traits()), progress_(progress), left_(effort), start_(Clock::now()) {}
 
   const TargetTraits& traits() const { return traits_; }
   /// Runs so far.
-  std::uint64_t used() const { return budget_.used(); }
+  std::uint64_t used() const { return used_; }
   /// The budget is exhausted, or a signal has interrupted a run.
   bool is_over() const { return is_over_; }
 
   /// A run by the plan; nothing once it is over. `activity`, in words, is for the progress.
   template <class Words>
   std::optional<Finding> run(const Plan& plan, const WantedEvidence& wanted, const Words& activity) {
-    is_over_ = is_over_ || !budget_.take();
+    is_over_ = is_over_ || used_ == left_.runs || left_.events == 0 || is_late();
     if (is_over_) return std::nullopt;
+    ++used_;
     if (progress_ != nullptr) {
       std::string words = activity();
-      words.append(", run ").append(std::to_string(budget_.used()));
+      words.append(", run ").append(std::to_string(used_));
       progress_->update(words);
     }
     std::optional<Finding> finding = target_.repeat(plan, wanted);
     is_over_ = !finding;
-    if (finding) budget_.spend(*finding);
+    if (finding) left_.events -= std::min(left_.events, finding->events);
     return finding;
   }
 
  private:
+  using Clock = std::chrono::steady_clock;
+
+  bool is_late() const {
+    return left_.seconds > 0 && std::chrono::duration<double>(Clock::now() - start_).count() >= left_.seconds;
+  }
+
   Target& target_;
-  TargetTraits traits_;
+  const TargetTraits traits_;
   ProgressListener* progress_;
-  Budget budget_;
+  Effort left_;  // but for the runs
+  const Clock::time_point start_;
+  std::uint64_t used_ = 0;
   bool is_over_ = false;
 };
 

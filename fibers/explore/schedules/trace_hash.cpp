@@ -52,21 +52,21 @@ std::uint64_t& TraceHash::last_of(const kernel::Task& task) {
 void TraceHash::add(const kernel::Task& task, Time now) {
   if (task.operation == kernel::Operation::join && task.at != nullptr) return;
   const Action action = action_of(task);
-  const Effect effect = effect_of(action, memory_);
+  const SegmentFootprint footprint = footprint_of(action, memory_);
   std::uint64_t& last = last_of(task);
   std::uint64_t event =
       hash_of(last ^ places_[run_place].change,
               (static_cast<std::uint64_t>(now.since_start().ns()) << 8) + static_cast<std::uint64_t>(action.operation));
-  if ((effect.changes & place::run) != 0) {
+  if ((footprint.changes & place::run) != 0) {
     event = hash_of(event, sum_);
     places_[run_place].change = event;
   } else {
-    const SharedPlaces changes = effect.changes;
-    const SharedPlaces shared = (effect.reads | changes) & ~place::run;
-    State* const object = effect.has_object ? &objects_[action.object] : nullptr;
-    if (object != nullptr) event = object->seen_by(event, effect.changes_object);
+    const SharedPlaces changes = footprint.changes;
+    const SharedPlaces shared = (footprint.reads | changes) & ~place::run;
+    State* const object = footprint.has_object ? &objects_[footprint.object] : nullptr;
+    if (object != nullptr) event = object->seen_by(event, footprint.changes_object);
     for_each(shared, [&](int at) { event = places_[at].seen_by(event, (changes >> at & 1) != 0); });
-    if (object != nullptr) object->take(event, effect.changes_object);
+    if (object != nullptr) object->take(event, footprint.changes_object);
     for_each(shared, [&](int at) { places_[at].take(event, (changes >> at & 1) != 0); });
   }
   last = event;

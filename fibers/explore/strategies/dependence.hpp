@@ -2,8 +2,9 @@
 // Dependent events, i.e. those whose order may change the result. There is one relation: pos and rff redraw, dpor
 // reverses, and the trace hash tells apart what is dependent.
 //
-// An event reads or changes its object, and places that many objects have in common. Two events are dependent if one of
-// them changes what the other reads or changes.
+// A segment, as an event and what its task does up to the next one, has a footprint: what it reads and changes, its
+// object and places that many objects have in common. Two are dependent if one of them changes what the other reads or
+// changes.
 #pragma once
 
 #include <cstdint>
@@ -39,11 +40,18 @@ inline constexpr SharedPlaces memory = 32;  ///< weak memory, which fences order
 inline constexpr int count = 6;
 }  // namespace place
 
-struct Effect {
+/// What a segment reads and changes, as far as it is known.
+struct SegmentFootprint {
   SharedPlaces reads = 0, changes = 0;  ///< a place is in one of them at most
-  bool has_object = false;              ///< it acts on its object, or on something unknown, which is object 0
+  bool has_object = false;
   bool changes_object = false;
+  std::uint64_t object = 0;  ///< identity; 0: something unknown
 };
+
+inline bool are_dependent(const SegmentFootprint& a, const SegmentFootprint& b) {
+  if ((a.changes & (b.reads | b.changes)) != 0 || (b.changes & a.reads) != 0) return true;
+  return a.has_object && b.has_object && a.object == b.object && (a.changes_object || b.changes_object);
+}
 
 namespace operations {
 
@@ -71,30 +79,29 @@ inline constexpr Operations without_object(Operation::start, Operation::end, Ope
 /// True if it does not change its object.
 inline bool is_read_only(kernel::Operation operation) { return operations::reads.contain(operation); }
 
-/// In weak memory loads of one location are dependent: a seq_cst one has its place in the order of all.
-inline Effect effect_of(const Action& action, Memory memory) {
+/// Of an event before it happens. In weak memory loads of one location are dependent: a seq_cst one has its place in
+/// the order of all.
+inline SegmentFootprint footprint_of(const Action& action, Memory memory) {
   const kernel::Operation operation = action.operation;
-  Effect effect{.reads = place::run};
-  if (operations::acts_on_run.contain(operation)) effect = {.changes = place::run};
-  if (operations::of_channels.contain(operation)) effect.changes |= place::channels;
-  if (operations::of_timers.contain(operation)) effect.changes |= place::timers;
-  if (action.is_on_shared_processor) effect.changes |= place::processors;
-  if (operations::of_locks.contain(operation)) effect.reads |= place::locks;
-  if (operation == kernel::Operation::wait) effect.changes |= place::locks;
+  SegmentFootprint footprint{.reads = place::run, .object = action.object};
+  if (operations::acts_on_run.contain(operation)) footprint = {.changes = place::run, .object = action.object};
+  if (operations::of_channels.contain(operation)) footprint.changes |= place::channels;
+  if (operations::of_timers.contain(operation)) footprint.changes |= place::timers;
+  if (action.is_on_shared_processor) footprint.changes |= place::processors;
+  if (operations::of_locks.contain(operation)) footprint.reads |= place::locks;
+  if (operation == kernel::Operation::wait) footprint.changes |= place::locks;
   const bool is_weak = memory == Memory::weak;
-  if (is_weak && operations::of_memory.contain(operation)) effect.reads |= place::memory;
-  if (is_weak && operation == kernel::Operation::fence) effect.changes |= place::memory;
-  effect.has_object = action.object != 0 || !operations::without_object.contain(operation);
+  if (is_weak && operations::of_memory.contain(operation)) footprint.reads |= place::memory;
+  if (is_weak && operation == kernel::Operation::fence) footprint.changes |= place::memory;
+  footprint.has_object = action.object != 0 || !operations::without_object.contain(operation);
   const bool only_reads =
       action.object != 0 && is_read_only(operation) && !(is_weak && operations::of_memory.contain(operation));
-  effect.changes_object = effect.has_object && !only_reads;
-  return effect;
+  footprint.changes_object = footprint.has_object && !only_reads;
+  return footprint;
 }
 
 inline bool are_dependent(const Action& a, const Action& b, Memory memory) {
-  const Effect x = effect_of(a, memory), y = effect_of(b, memory);
-  if ((x.changes & (y.reads | y.changes)) != 0 || (y.changes & x.reads) != 0) return true;
-  return a.object == b.object && x.has_object && y.has_object && (x.changes_object || y.changes_object);
+  return are_dependent(footprint_of(a, memory), footprint_of(b, memory));
 }
 
 }  // namespace waitpoint::exploration
