@@ -112,12 +112,18 @@ void Settings::reject(const std::string& key, const std::string& expected) const
 
 void Settings::check_least(const std::string& key, double value, double least) const {
   if (SettingRow* const row = row_of(key)) row->least = std::max(row->least, least);
-  if (value < least) reject(key, number_text(least) + " or more");
+  if (rows_ == nullptr && value < least) reject(key, number_text(least) + " or more");
 }
 
 void Settings::check_most(const std::string& key, double value, double most) const {
   if (SettingRow* const row = row_of(key)) row->most = std::min(row->most, most);
-  if (value > most) reject(key, number_text(most) + " or less");
+  if (rows_ == nullptr && value > most) reject(key, number_text(most) + " or less");
+}
+
+void Settings::check_within(const std::string& key, double value, double least, double most) const {
+  if (rows_ == nullptr && !has(key)) return;
+  check_least(key, value, least);
+  check_most(key, value, most);
 }
 
 void Settings::read_one(const std::string& key, double& value) {

@@ -38,14 +38,22 @@ class Settings {
   static Settings describing();
   explicit Settings(std::vector<Setting> settings) : settings_(std::move(settings)), used_(settings_.size()) {}
 
-  /// Overwrites the fields of `values` that are set; a field's key is `prefix` + its name. A value that does not fit is
-  /// BadInput.
+  /// Overwrites the fields of `values` that are set; a field's key is `prefix` + its name. A value that does not fit,
+  /// or is beyond the field's declared range, is BadInput.
   template <HasFields T>
   void read(T& values, const std::string& prefix = "") {
     T::fields([&](std::string_view name, auto member, const auto&... facts) {
       const std::size_t before = rows_ == nullptr ? 0 : rows_->size();
-      read_one(prefix + std::string(name), values.*member);
-      if (rows_ != nullptr && rows_->size() > before) (*rows_)[before].description = facts_of(facts...).description;
+      const std::string key = prefix + std::string(name);
+      read_one(key, values.*member);
+      const FieldFacts known = facts_of(facts...);
+      if (rows_ != nullptr && rows_->size() > before) (*rows_)[before].description = known.description;
+      if constexpr (std::is_arithmetic_v<std::remove_reference_t<decltype(values.*member)>>) {
+        if (known.range) check_within(key, static_cast<double>(values.*member), known.range->low, known.range->high);
+        if (known.count)
+          check_within(key, static_cast<double>(values.*member), static_cast<double>(known.count->low),
+                       static_cast<double>(known.count->high));
+      }
     });
   }
 
@@ -74,6 +82,8 @@ class Settings {
   /// Throws BadInput at the setting `key` that made `value` less than `least`, or greater than `most`.
   void check_least(const std::string& key, double value, double least) const;
   void check_most(const std::string& key, double value, double most) const;
+  /// The same of both, for a setting that is given: the bounds of a declared field.
+  void check_within(const std::string& key, double value, double least, double most) const;
 
   /// Throws BadInput for the first unread setting.
   void check_all_used() const;

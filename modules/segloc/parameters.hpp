@@ -55,16 +55,17 @@ struct Parameters {
 
   static void fields(auto field) {
     using P = Parameters;
-    field("landmarks_max", &P::landmarks_max);
-    field("matches_max", &P::matches_max, "matches used by one update");
+    constexpr NumberRange positive{least_nonzero, 1e5, "a positive number"};
+    field("landmarks_max", &P::landmarks_max, CountRange{1, 1000}, "on the map");
+    field("matches_max", &P::matches_max, CountRange{1, 1000}, "matches used by one update");
     field("travel_noise_m_per_sqrt_m", &P::travel_noise_m_per_sqrt_m);
     field("drift_noise_rad_per_sqrt_m", &P::drift_noise_rad_per_sqrt_m);
     field("turn_noise_rad_per_sqrt_rad", &P::turn_noise_rad_per_sqrt_rad);
     field("travel_scale_deviation", &P::travel_scale_deviation);
     field("turn_scale_deviation", &P::turn_scale_deviation);
     field("drift_deviation_rad_per_m", &P::drift_deviation_rad_per_m);
-    field("angle_floor_rad", &P::angle_floor_rad);
-    field("offset_floor_m", &P::offset_floor_m);
+    field("angle_floor_rad", &P::angle_floor_rad, positive, "least standard deviation of an observation");
+    field("offset_floor_m", &P::offset_floor_m, positive, "least standard deviation of an observation");
     field("update_travel_m", &P::update_travel_m);
     field("update_turn_rad", &P::update_turn_rad);
     field("update_scans", &P::update_scans);
@@ -87,14 +88,5 @@ struct Parameters {
     field("candidates", &P::candidates);
   }
 };
-
-/// Throws BadInput for invalid values.
-inline void check(const Parameters& p) {
-  if (p.landmarks_max < 1 || p.landmarks_max > 1000) throw BadInput("landmarks_max", "expected 1 to 1000");
-  if (p.matches_max < 1 || p.matches_max > 1000) throw BadInput("matches_max", "expected 1 to 1000");
-  if (!(p.angle_floor_rad > 0 && p.offset_floor_m > 0)) {
-    throw BadInput("angle_floor_rad, offset_floor_m", "expected more than 0");
-  }
-}
 
 }  // namespace waitpoint::segloc

@@ -21,7 +21,6 @@ Parameters Segloc::read(genom::Settings& settings) {
   Parameters parameters;
   settings.read(parameters);
   settings.check_not_negative(parameters);
-  check(parameters);
   return parameters;
 }
 

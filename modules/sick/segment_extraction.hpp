@@ -43,7 +43,9 @@ struct SegmentExtractionParameters {
 
   static void fields(auto field) {
     using P = SegmentExtractionParameters;
-    field("range_noise_m", &P::range_noise_m, "standard deviation up to range_noise_near_m, then growing linearly");
+    constexpr NumberRange positive_length{least_nonzero, 1e5, "a positive length"};
+    field("range_noise_m", &P::range_noise_m, positive_length,
+          "standard deviation up to range_noise_near_m, then growing linearly");
     field("range_noise_near_m", &P::range_noise_near_m, "range up to which the noise is constant");
     field("range_noise_growth_m_per_m", &P::range_noise_growth_m_per_m, "growth beyond range_noise_near_m");
     field("range_resolution_m", &P::range_resolution_m, "quantisation, a uniform error");
@@ -58,17 +60,10 @@ struct SegmentExtractionParameters {
     field("chi2_split", &P::chi2_split, "squared Mahalanobis distance of the farthest echo of a straight run");
     field("merge_gap_m_max", &P::merge_gap_m_max, "between runs that are merged");
     field("bow_m_max", &P::bow_m_max, "height of the arc through the echoes; greater: a round object, not a wall");
-    field("points_min", &P::points_min);
-    field("length_m_min", &P::length_m_min);
+    field("points_min", &P::points_min, CountRange{3, UINT32_MAX}, "of a segment");
+    field("length_m_min", &P::length_m_min, positive_length, "of a segment");
   }
 };
-
-/// Throws BadInput for invalid values.
-inline void check(const SegmentExtractionParameters& p) {
-  if (p.points_min < 3) throw BadInput("points_min", "expected 3 or more");
-  if (!(p.length_m_min > 0)) throw BadInput("length_m_min", "expected more than 0");
-  if (!(p.range_noise_m > 0)) throw BadInput("range_noise_m", "expected more than 0");
-}
 
 class SegmentExtraction {
  public:

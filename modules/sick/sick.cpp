@@ -12,7 +12,6 @@ Parameters Sick::read(genom::Settings& settings) {
   Parameters parameters;
   settings.read(parameters);
   settings.check_not_negative(parameters.segments, "segments.");
-  check(parameters.segments);
   return parameters;
 }
 

@@ -10,7 +10,6 @@ using namespace std::chrono_literals;
 Parameters Wander::read(genom::Settings& settings) {
   Parameters parameters;
   settings.read(parameters);
-  if (!(parameters.slow_m > 0)) throw BadInput("slow_m", "expected more than 0");
   return parameters;
 }
 

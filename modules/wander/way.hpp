@@ -26,7 +26,8 @@ struct Parameters {
     field("v_m_s", &Parameters::v_m_s);
     field("w_rad_s", &Parameters::w_rad_s);
     field("clear_m", &Parameters::clear_m, "turns if an obstacle in the lane is closer than this to the range finder");
-    field("slow_m", &Parameters::slow_m, "full speed if the lane is clear this far beyond clear_m");
+    field("slow_m", &Parameters::slow_m, NumberRange{least_nonzero, 1e5, "a positive length"},
+          "full speed if the lane is clear this far beyond clear_m");
     field("half_width_m", &Parameters::half_width_m);
     field("back_off_ms", &Parameters::back_off_ms, "duration of driving backwards after a stall");
     field("on", &Parameters::on, "drives from the start; false: from the request Go");

@@ -108,7 +108,11 @@ Json parameters_of(const genom::ModuleType& type) {
   genom::NameSpace names;
   const auto map = std::make_shared<const OccupancyGrid>(1, 1, 1.0, Pose{});
   genom::ModuleSetup setup{names, type.name, genom::Settings::describing(), nullptr, map};
-  const std::unique_ptr<genom::Module> module = type.make(setup);
+  try {
+    (void)type.make(setup);
+  } catch (const BadInput&) {
+    // It needs more than settings, such as a network; those have been read.
+  }
   return properties_of(tree_of(setup.settings.rows()));
 }
 

@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "core/random.hpp"
+#include "modules/genom/settings.hpp"
 #include "tests/modules/segloc/tour.hpp"
 
 namespace waitpoint::segloc {
@@ -261,12 +262,10 @@ TEST(SegmentMapFilter, ARobotThatSlipsFindsItsPlaceAgain) {
 }
 
 TEST(SegmentMapFilter, ImpossibleParametersAreBadInput) {
-  EXPECT_NO_THROW(check(Parameters{}));
-  Parameters none, endless;
-  none.landmarks_max = 0;
-  endless.landmarks_max = 1000000;
-  EXPECT_THROW(check(none), BadInput);
-  EXPECT_THROW(check(endless), BadInput);
+  Parameters parameters;
+  EXPECT_NO_THROW(genom::Settings({{"landmarks_max", "1000", "s.yaml", 1}}).read(parameters));
+  EXPECT_THROW(genom::Settings({{"landmarks_max", "0", "s.yaml", 1}}).read(parameters), BadInput);
+  EXPECT_THROW(genom::Settings({{"angle_floor_rad", "0", "s.yaml", 1}}).read(parameters), BadInput);
 }
 
 TEST(SegmentMapFilter, TheCovarianceStaysPositiveOverManyUpdates) {

@@ -8,6 +8,7 @@
 #include <memory>
 #include <vector>
 
+#include "modules/genom/settings.hpp"
 #include "tests/modules/sick/synthetic_room.hpp"
 
 namespace waitpoint::sick {
@@ -199,10 +200,9 @@ TEST(SegmentExtraction, MoreThanThePosterHoldsGivesTheLongestFirst) {
 }
 
 TEST(SegmentExtraction, ImpossibleParametersAreBadInput) {
-  EXPECT_NO_THROW(check(SegmentExtractionParameters{}));
-  SegmentExtractionParameters two;
-  two.points_min = 2;
-  EXPECT_THROW(check(two), BadInput);
+  SegmentExtractionParameters parameters;
+  EXPECT_NO_THROW(genom::Settings({{"points_min", "3", "s.yaml", 1}}).read(parameters));
+  EXPECT_THROW(genom::Settings({{"points_min", "2", "s.yaml", 1}}).read(parameters), BadInput);
 }
 
 TEST(SegmentExtraction, CostOfOneScan) {
