@@ -256,7 +256,7 @@ const BadCase bad_cases[] = {
     {"yaml_that_does_not_parse", "until_s: 30", "until_s: [30", 5,
      "this is not valid YAML: end of sequence flow not found"},
     {"no_format", "format: 1\n", "\n", 2, "expected key 'format: 1'"},
-    {"another_format", "format: 1", "format: 2", 1, "expected format to be a whole number from 1 to 1, found '2'"},
+    {"another_format", "format: 1", "format: 2", 1, "expected format to be 1, found '2'"},
     {"a_key_twice", "until_s: 30", "name: x", 4, "key 'name' is given twice, first at FILE:2"},
     {"an_unknown_key", "until_s:", "untils_s:", 4, "unknown key 'untils_s' in the scenario, did you mean 'until_s'?"},
     {"a_key_like_no_other", "  step_ms: 5", "  colour: red", 6,
