@@ -20,6 +20,8 @@ class Names(WithATable):
         self.assertIn("tools/explore/search.cpp:2: Budget stands in fibers/explore only\n", output)
         self.assertEqual(self.check_with("names", "Budget fibers/explore tools/explore")[0], 0)
         self.assertIn("table: Effort: a name that stands nowhere\n", self.check_with("names", "Effort core")[1])
+        self.assertIn("tools/explore/search.cpp:2: Budget has given way to another name\n", self.check_with("names", "Budget -")[1])
+        self.assertEqual(self.check_with("names", "Effort -")[0], 0)
 
     def test_types_are_unique_apart_from_the_table(self):
         for folder in "core", "tools":

@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Checks that a concept has one home: names.py ROOT [TABLE].
 
-The table (names.table) has names with the only folders in which they may stand, and, as `type NAME NUMBER`, the names of
-types that are declared in several headers, with how many. Comments do not count.
+The table (names.table) has names with the only folders in which they may stand, or `-` for a name that has given way to
+another one, and, as `type NAME NUMBER`, the names of types that are declared in several headers, with how many. Comments
+do not count.
 """
 
 import collections
@@ -30,11 +31,12 @@ def main():
             if match := pattern.search(text):
                 named.add(name)
                 if not any(path.is_relative_to(folder) for folder in folders):
-                    violations.append(f"{path}:{text[:match.start()].count(chr(10)) + 1}: {name} stands in {' '.join(folders)} only")
+                    violations.append(f"{path}:{text[:match.start()].count(chr(10)) + 1}: " + (
+                        f"{name} has given way to another name" if folders == ["-"] else f"{name} stands in {' '.join(folders)} only"))
         if path.suffix == ".hpp":
             for name in set(TYPE.findall(text)):
                 types[name].append(str(path))
-    violations += [f"{table.name}: {name}: a name that stands nowhere" for name, _, _ in homes if name not in named]
+    violations += [f"{table.name}: {name}: a name that stands nowhere" for name, _, folders in homes if name not in named and folders != ["-"]]
     for name, headers in sorted(types.items()):
         if len(headers) > limits.get(name, 1):
             violations.append(f"{name} is declared in {len(headers)} headers, at most {limits.get(name, 1)}: {' '.join(headers)}")
