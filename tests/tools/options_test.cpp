@@ -133,7 +133,12 @@ TEST_F(CommandLine, ReportsBadArgumentsInOneLine) {
   EXPECT_EQ(message({"rnu", "a"}), "command line: unknown command 'rnu', did you mean 'run'?");
   EXPECT_EQ(message({"run"}), "command line: SCENARIO is required");
   EXPECT_EQ(message({"run", "a", "--sede", "4"}), "command line: unknown option '--sede', did you mean '--seed'?");
-  EXPECT_EQ(message({"run", "a", "b"}), "command line: unknown argument 'b'; --help lists them all");
+  EXPECT_EQ(message({"run", "a", "b"}), "run: expected no further argument, found 'b'");
+  EXPECT_EQ(message({"explore", "a", "b"}),
+            "explore: expected no further argument, found 'b'; a program stands behind '--'");
+  EXPECT_EQ(message({"explore", "/bin/true"}),
+            "explore: expected '--' before the program: waitpoint explore [OPTIONS] -- /bin/true");
+  EXPECT_EQ(message({"run", "ofice"}), "ofice: there is no such file, nor a shipped scenario, did you mean 'office'?");
   EXPECT_EQ(message({"run", "a", "--seed", "-1"}), "--seed: expected a whole number from 0 to 2^64 - 1, found '-1'");
   EXPECT_EQ(message({"run", "a", "--until", "0"}), "--until: expected a positive number of seconds, found '0'");
   EXPECT_EQ(message({"run", "a", "--until", "5s"}), "--until: expected a positive number of seconds, found '5s'");

@@ -51,8 +51,9 @@ BadInput unknown_option(const DeclaredProgram& program, const Command& command, 
 BadInput unexpected(const DeclaredProgram& program, const Command& command, const Words& words,
                     const Words& remaining) {
   if (remaining.front().starts_with('-')) return unknown_option(program, command, remaining.front());
-  if (!command.takes_program)
-    return BadInput(where, "unknown argument '" + remaining.front() + "'; --help lists them all");
+  if (!command.takes_program || !command.arguments.empty())
+    return BadInput(command.name, "expected no further argument, found '" + remaining.front() + "'" +
+                                      (command.takes_program ? "; a program stands behind '--'" : ""));
   const Words before(words.begin(), words.end() - static_cast<std::ptrdiff_t>(remaining.size()));
   return BadInput(command.name, "expected '--' before the program: " + program.name + " " + command.name +
                                     quoted(before) + " --" + quoted(remaining));

@@ -3,8 +3,13 @@
 
 #include <dlfcn.h>
 
+#include <algorithm>
+#include <string_view>
+#include <vector>
+
 #include "core/error.hpp"
 #include "core/missing_part.hpp"
+#include "core/nearest_name.hpp"
 #include "tools/command/data_folder.hpp"
 
 namespace waitpoint::tools {
@@ -17,6 +22,17 @@ std::filesystem::path own_folder() {
   Dl_info info{};
   if (dladdr(&here, &info) == 0 || info.dli_fname == nullptr) return {};
   return std::filesystem::path(info.dli_fname).parent_path();
+}
+
+/// Those that are there: beside the program, and at the place of installation.
+std::vector<std::filesystem::path> folders_of_scenarios() {
+  std::error_code error;
+  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error).parent_path();
+  std::vector<std::filesystem::path> folders;
+  for (const std::filesystem::path& data :
+       {program.parent_path() / "share/waitpoint", std::filesystem::path(data_folder)})
+    if (std::filesystem::exists(data / "scenarios", error)) folders.push_back(data / "scenarios");
+  return folders;
 }
 
 }  // namespace
@@ -34,24 +50,28 @@ std::filesystem::path find_part(const std::string& name) {
 }
 
 std::filesystem::path scenarios_folder() {
-  std::error_code error;
-  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error).parent_path();
-  for (const std::filesystem::path& data :
-       {program.parent_path() / "share/waitpoint", std::filesystem::path(data_folder)})
-    if (std::filesystem::exists(data / "scenarios", error)) return data / "scenarios";
-  throw BadInput("scenarios", "there are none beside this program, nor in " + std::string(data_folder));
+  const std::vector<std::filesystem::path> folders = folders_of_scenarios();
+  if (folders.empty())
+    throw BadInput("scenarios", "there are none beside this program, nor in " + std::string(data_folder));
+  return folders.front();
 }
 
 std::filesystem::path find_scenario(const std::string& name) {
   std::filesystem::path local = name;
   std::error_code error;
   if (local.empty() || local.has_parent_path() || std::filesystem::exists(local, error)) return local;
-  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error).parent_path();
-  for (const std::filesystem::path& data :
-       {program.parent_path() / "share/waitpoint", std::filesystem::path(data_folder)})
+  std::vector<std::string> names;
+  for (const std::filesystem::path& folder : folders_of_scenarios()) {
     for (const std::string& file : {name, name + ".yaml"})
-      if (std::filesystem::path shipped = data / "scenarios" / file; std::filesystem::is_regular_file(shipped, error))
-        return shipped;
+      if (std::filesystem::is_regular_file(folder / file, error)) return folder / file;
+    for (const auto& entry : std::filesystem::directory_iterator(folder, error))
+      if (entry.path().extension() == ".yaml")
+        names.push_back(local.has_extension() ? entry.path().filename() : entry.path().stem());
+  }
+  std::ranges::sort(names);
+  const std::vector<std::string_view> known(names.begin(), names.end());
+  if (const std::string near = did_you_mean(name, known); !near.empty())
+    throw BadInput(name, "there is no such file, nor a shipped scenario" + near);
   return local;
 }
 

@@ -15,7 +15,7 @@ std::filesystem::path find_part(const std::string& name);
 std::filesystem::path scenarios_folder();
 
 /// The scenario's file: a name without a folder that is not here is that of a shipped scenario, with or without
-/// ".yaml", if there is one.
+/// ".yaml", if there is one. BadInput, with the nearest name, for a misspelt one.
 std::filesystem::path find_scenario(const std::string& name);
 
 }  // namespace waitpoint::tools

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/explore/runs/explore_options.hpp"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <limits>
 #include <memory>
@@ -16,6 +18,7 @@
 #include "tools/command/option_values.hpp"
 #include "tools/command/options/schedule.hpp"
 #include "tools/command/options/time_limits.hpp"
+#include "tools/command/shell_words.hpp"
 
 namespace waitpoint::tools {
 namespace {
@@ -234,6 +237,10 @@ void finish(const Command& command, ExploreOptions& options, const std::optional
     throw BadInput("explore",
                    "expected a scenario or a program: waitpoint explore SCENARIO, or waitpoint explore -- "
                    "PROGRAM [ARGUMENTS ...]");
+  if (!options.scenario.empty() && options.scenario.extension() != ".yaml" &&
+      std::filesystem::is_regular_file(options.scenario) && access(options.scenario.c_str(), X_OK) == 0)
+    throw BadInput("explore", "expected '--' before the program: waitpoint explore [OPTIONS] -- " +
+                                  quoted(options.scenario.string()));
   options.sets = options.assignments.size();
   for (const std::string& property : options.properties)
     if (!property.starts_with(topic_mark)) options.assignments.push_back(assignment_of(property));
