@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a thread does outside of tasks, for the report of its death: "constructing module ndd of robot rackham".
+// Activities of a thread outside of tasks, for the report of its death: "constructing module ndd of robot rackham".
 #pragma once
 
 #include <cstdint>

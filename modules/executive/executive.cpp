@@ -96,7 +96,7 @@ void Executive::wait_for_position() {
   while (!looks_.have_begun() && !stopping_) threads::this_thread::sleep_for(50ms);
 }
 
-// What a turn shows decides in most places; among rooms that look alike it takes others.
+// The view of one turn decides in most places; among similar rooms it takes several.
 void Executive::find_robot() {
   const Time until = threads::now() + Duration::from_seconds(parameters_.find_s);
   client_.call("ndd", "Stop");
@@ -105,7 +105,7 @@ void Executive::find_robot() {
     if (lost()) drive_on();
   }
   looks_.clear();
-  if (surveyor_) surveyor_->forget();  // what was seen, was seen elsewhere
+  if (surveyor_) surveyor_->forget();  // it was seen elsewhere
 }
 
 void Executive::turn_on_the_spot(Time until) {
@@ -142,7 +142,7 @@ void Executive::look() {
     looks_.look();
 }
 
-// Where to plan from, with what has been seen until now.
+// Where to plan from, with the obstacles seen until now.
 Point Executive::place_of_planning() {
   if (surveyor_) {
     surveyor_->look();

@@ -93,7 +93,7 @@ class FreeSpace {
 
   /// The cost of entering a passable cell, per fifth of its length; `least_cell_cost` in the open.
   std::uint32_t cell_cost(CellIndex c) const;
-  /// The same by the known map alone, without marks and what has been seen: never more.
+  /// The same by the known map alone, without marks and seen obstacles: never more.
   bool known_passable(CellIndex c) const { return map().contains(c) && known_square(c) >= hard_square_; }
   std::uint32_t known_cell_cost(CellIndex c) const { return cost_[std::min(known_square(c), preferred_square_)]; }
   static constexpr std::uint32_t least_cell_cost = 16, greatest_cell_cost = 80, unseen_cell_cost = 8;
@@ -136,7 +136,7 @@ class FreeSpace {
   std::uint16_t hard_square_ = 0, keep_square_ = 0, preferred_square_ = 0, explained_square_ = 0;
   TiledGrid<std::uint16_t> marks_;  // squared clearances from marks; empty without marks
   std::vector<std::uint8_t> cost_;  // by squared clearance, up to preferred_square_
-  // What the robot has seen: squared clearances in a window about it; null: nothing.
+  // Of seen obstacles: squared clearances in a window about it; null: nothing.
   const SeenMap* seen_ = nullptr;
   CellIndex seen_low_;
   std::int32_t seen_width_ = 0, seen_height_ = 0;

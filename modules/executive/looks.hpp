@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the robot has seen near it in the last seconds: laser echoes in the map frame, to be marked on the map when the
+// Obstacles seen near the robot in the last seconds: laser echoes in the map frame, to be marked on the map when the
 // way is reported as blocked. The robot may then face away from the obstacle.
 #pragma once
 

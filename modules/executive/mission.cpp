@@ -81,7 +81,7 @@ const Order& Mission::make_for_goal(Time now, Point robot) {
       planner_.plan(robot, goals_[current_].goal, plan_);
     }
     if (plan_.outcome == PlanOutcome::found) return drive();
-    // What the robot has seen may move away, or turn out to be nothing.
+    // A seen obstacle may move away, or turn out to be none.
     if (planner_.space().has_seen() && !is_final(plan_.outcome) && goals_[current_].tries < parameters_.tries_max)
       return wait(now);
   }

@@ -85,7 +85,7 @@ class Mission {
   const Order& blocked(Time now, Point robot, std::span<const Point> echoes);
 
   /// In motion, on a map that changes: the order of a better route to the present goal, or null to keep the present
-  /// one. A route with a cell that can no longer be kept is given up for any other. What another one must be better by
+  /// one. A route with a cell that can no longer be kept is given up for any other. The required gain of another one
   /// doubles when it takes the place of such a substitute: a narrow gap may seem open in one scan and closed in the
   /// next.
   const Order* replanned(Point robot);

@@ -19,7 +19,7 @@ class RobotExecutive {
   /// From another task: run() stops the robot and returns soon, even with goals left.
   virtual void stop() = 0;
 
-  /// From another task: what it draws from now on is of this stream, its own of another seed. Without draws: nothing.
+  /// From another task: its draws from now on are of this stream, its own of another seed. Without draws: nothing.
   virtual void reseed(const RandomStream&) {}
 
   /// The state of each goal. While run() is active, only from tasks that cannot run concurrently with it.

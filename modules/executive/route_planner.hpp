@@ -39,7 +39,7 @@ class RoutePlanner {
   /// in sight; from one outside the map, to the map's nearest cell, or one in its sight. The plan's memory is reused.
   void plan(Point start, Point goal, Plan& plan);
 
-  /// The cost of what remains of a path of cells, from that nearest to `robot` on, as of now; unreachable if a cell of
+  /// The cost of the rest of a path of cells, from that nearest to `robot` on, as of now; unreachable if a cell of
   /// it can no longer be kept.
   std::uint32_t remaining_cost(std::span<const CellIndex> path, Point robot) const;
 

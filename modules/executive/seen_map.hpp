@@ -2,7 +2,7 @@
 // The map that a robot has seen: an occupancy grid on the cells of its known map, from laser scans by ray tracing.
 //
 // Each cell has an evidence, a small integer that a scan raises if an echo ends in the cell and lowers if a beam passes
-// through it; it is bounded, so that what has moved away is gone after some scans. Beams stop short of the cell of
+// through it; it is bounded, so that moved obstacles are gone after some scans. Beams stop short of the cell of
 // their echo, and no beam of a scan passes through a cell in which another one ends: thin obstacles are not worn away
 // by the beams beside them.
 #pragma once

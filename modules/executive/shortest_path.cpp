@@ -84,7 +84,7 @@ std::optional<ShortestPath::State> ShortestPath::take_least(std::uint32_t& prior
   return state;
 }
 
-// Backwards from the goal: a step costs what entering its end costs.
+// Backwards from the goal: a step has the cost of entering its end.
 void ShortestPath::find_costs_to(const FreeSpace& space, CellIndex goal) {
   costs_goal_ = goal;
   costs_to_ = {space.map().width(), space.map().height(), unreachable};

@@ -6,8 +6,8 @@
 // never decrease, and a step increases them by less than the ring's size. A search leaves no memory allocated: the
 // robots of a day's run would each come to hold that of their greatest search.
 //
-// A robot that plans again and again on what it sees goes to one goal meanwhile: its costs from all cells by the known
-// map alone are computed once, and kept. What is seen only raises them, so they are lower bounds, of which the search
+// A robot that plans again and again on its view goes to one goal meanwhile: its costs from all cells by the known
+// map alone are computed once, and kept. Seen obstacles only raise them, so they are lower bounds, of which the search
 // visits little more than the path.
 //
 // In tight cells (free_space.hpp) a state of the search is a cell with a heading, that of the step into it, and the

@@ -23,7 +23,7 @@ struct TrajectoryPoint {
 
 class Trajectory {
  public:
-  /// BadInput, at the line of `file`, for what is no trajectory of at least two poses within a day.
+  /// BadInput, at the line of `file`, unless it is a trajectory of at least two poses within a day.
   Trajectory(std::string_view text, const std::string& file);
 
   Duration duration() const { return poses_.back().time; }

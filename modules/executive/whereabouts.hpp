@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whether the robot's localisation knows where the robot is, and where a robot that does not know may look.
+// True if the robot's localisation knows its place, and the places where a lost robot may look.
 #pragma once
 
 #include <optional>

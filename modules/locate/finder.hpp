@@ -3,7 +3,7 @@
 //
 // Every new view starts a search (matching/correlative_search.hpp). A place is accepted if the map explains the
 // panorama there, no other place does nearly as well, and the search after the next view finds the robot at the same
-// place. So a building whose parts look alike gives no place until the robot has seen what tells them apart.
+// place. So a building whose parts look alike gives no place until the robot has seen a difference.
 #pragma once
 
 #include <optional>

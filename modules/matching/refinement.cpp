@@ -6,7 +6,7 @@
 namespace waitpoint::matching {
 namespace {
 
-/// Normal equations of the three variables, and what was seen on the way.
+/// Normal equations of the three variables, and the counts of their computation.
 struct Sums {
   std::array<double, 6> a{};  // (0,0) (0,1) (0,2) (1,1) (1,2) (2,2)
   std::array<double, 3> b{};

@@ -113,7 +113,7 @@ void Execution::started(std::size_t action, Duration now) {
 
 void Execution::ended(std::size_t action, Duration now, bool succeeded, const std::string& report) {
   if (!running_[action]) return;  // of a stopped one
-  // What its request began lasts until the request `stop`.
+  // The effect of its request lasts until the request `stop`.
   running_[action] = succeeded && !plan_.actions[action].contingent && plan_.actions[action].stop.has_value();
   if (!succeeded) return fail(action, now, report);
   if (plan_.actions[action].contingent) end(action, now);

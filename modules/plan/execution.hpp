@@ -6,7 +6,7 @@
 //          -> wait until a time, or for a report
 //          -> finish: all actions are done, or the plan is aborted
 //
-// What is not as planned is repaired in this order:
+// Deviations from the plan are repaired in this order:
 //   early   the end is before the least duration: its bounds are given up, and the times that follow propagated again
 //   late    the end is not within the greatest duration: likewise, up to the latest time that the other constraints
 //   allow failed  of an action with a bad report, too late, or with a condition that is violated: the next branch of

@@ -37,7 +37,7 @@ class Executor {
   /// Checks the plan (BadInput if it is not consistent). `start` is the robot's known pose.
   Executor(genom::NameSpace& names, Plan plan, const posters::KnownPose& start);
 
-  /// Looks up modules, requests and posters: what is missing is BadInput at its line.
+  /// Looks up modules, requests and posters: a missing one is BadInput at its line.
   void connect();
   /// The body of the task: the plan, to its end.
   void run();

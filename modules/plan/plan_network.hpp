@@ -21,7 +21,7 @@ struct Situation {
   std::vector<std::size_t> branch;             ///< by alternative; the number of branches: none is left
   std::vector<std::optional<Duration>> times;  ///< by point, of executed ones
   std::vector<bool> loosened;                  ///< by action: its bounds no longer hold
-  Duration now;                                ///< what is ahead is not before this
+  Duration now;                                ///< the lower bound of future points
 
   bool is_active(const Plan& plan, std::size_t action) const;
 };
@@ -52,7 +52,7 @@ class PlanNetwork {
   std::vector<Label> labels_;
 };
 
-/// What is known of a plan before its execution.
+/// The analysis of a plan before its execution.
 struct PlanCheck {
   std::size_t points = 0, constraints = 0;
   bool controllable = true;

@@ -43,7 +43,7 @@ class PoseGraph {
   }
   const std::vector<Measurement>& measurements() const { return measurements_; }
 
-  /// Half the weighted sum of squares of what the measurements miss.
+  /// Half the weighted sum of squares of the measurements' residuals.
   double cost() const;
   /// At most so many steps; ends before if the cost hardly falls.
   void optimise(unsigned steps_max);
@@ -53,7 +53,7 @@ class PoseGraph {
   std::vector<Measurement> measurements_;
 };
 
-/// What a measurement misses at two poses: (x, y, heading) of the pose seen, in the frame of the measured one.
+/// The residual of a measurement at two poses: (x, y, heading) of the pose seen, in the frame of the measured one.
 std::array<double, 3> missing(const Pose& from, const Pose& to, const Pose& seen);
 /// v' m v
 double squared_length(const std::array<double, 3>& v, const Matrix3& m);

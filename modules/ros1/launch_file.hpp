@@ -25,11 +25,11 @@ struct LaunchRequest {
   std::filesystem::path file;
   LaunchArguments arguments;
   std::string ns = "/";  ///< in which the file's names are
-  Location written;      ///< of the request, for what is wrong with its arguments
+  Location written;      ///< of the request, for errors of its arguments
 };
 
-/// Adds what the file says to `launch`. BadInput: "FILE:LINE: expected ..., found ...", with the places of the includes
-/// that lead to the file; `launch` is then of no use.
+/// Adds the file's contents to `launch`. BadInput: "FILE:LINE: expected ..., found ...", with the places of the
+/// includes that lead to the file; `launch` is then of no use.
 void read_launch_file(const LaunchRequest& request, LaunchSurroundings& surroundings, Launch& launch);
 
 }  // namespace waitpoint::ros1

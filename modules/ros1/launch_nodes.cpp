@@ -26,7 +26,7 @@ void refuse_what_is_not_simulated(const LaunchElement& element) {
     throw element.bad("expected no respawn: a node that ends is a result of the run, not started again");
 }
 
-// What <node> and <test> have in common. The name is read.
+// The common part of <node> and <test>. The name is read.
 void read_common(const LaunchElement& element, LaunchScope& scope, LaunchReading& reading, Node& node) {
   if (!is_base_name(node.name))
     throw element.bad("expected the name of a node to be of letters, digits and '_', found '" + node.name + "'" +

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What applies to the elements of a launch file at one place: a group, a node and an included file have a copy of the
-// scope around them, so that what they set ends with them.
+// The settings for the elements of a launch file at one place: a group, a node and an included file have a copy of the
+// scope around them, so that their settings end with them.
 #pragma once
 
 #include <map>

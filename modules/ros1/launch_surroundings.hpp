@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What launch files refer to, besides files: packages, variables of the environment; and the reader of their YAML.
+// The references of launch files besides files: packages, variables of the environment; and the reader of their YAML.
 #pragma once
 
 #include <functional>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a node waits for before its start: the conditions of core/hosting/start_condition.hpp, whose names are those of
+// The conditions for a node's start: those of core/hosting/start_condition.hpp, whose names are those of
 // nodes, and
 //
 //   topic:NAME    a publisher of the topic is registered with the master
@@ -13,7 +13,7 @@
 
 namespace waitpoint::ros1 {
 
-/// What parse() takes, for messages.
+/// The syntax of parse(), for messages.
 inline constexpr std::string_view node_conditions =
     "NODE, NODE.started, tcp:PORT, topic:NAME, service:NAME or a path with a '/'";
 

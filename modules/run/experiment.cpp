@@ -194,7 +194,7 @@ void Experiment::step_world() {
   ranked_->windows().add_world_time(processor_s() - begin_s);
 }
 
-// What the world's task touches of each robot after a step: a crowd does not fit into the cache.
+// The memory of each robot that the world's task touches after a step: a crowd does not fit into the cache.
 void Experiment::find_working_sets() {
   for (std::size_t i = 0; i < robots().size(); ++i) {
     if (bridges_[i] != nullptr) {

@@ -55,7 +55,7 @@ class Experiment {
   /// The number of events so far: with ranks, when the records were gathered.
   std::uint64_t events() const;
 
-  /// On ranks other than the leader: does what the leader does, up to the end of its experiment.
+  /// On ranks other than the leader: follows the leader, up to the end of its experiment.
   void follow() { ranked_->follow(); }
   /// The number of processes.
   int ranks() const { return options_.ranks != nullptr ? options_.ranks->count() : 1; }

@@ -39,7 +39,7 @@ struct ExternalSettings {
 
 class ExternalRobot {
  public:
-  /// Receives what a person should know, once each time that it begins or ends.
+  /// Receives notices for a person, once each time that a condition begins or ends.
   using Tell = std::function<void(Time now, const std::string& text)>;
 
   /// From now on the body is moved by reports alone. The world must outlive it.

@@ -110,7 +110,8 @@ struct Intervention {
       what;
 };
 
-/// True for what comes from outside many times a second: its result is told only if it is more than "done".
+/// True for interventions that come from outside many times a second: the result is told only if it is more than
+/// "done".
 bool is_frequent(const Intervention& intervention);
 
 /// The first words of all kinds of interventions: "request", "move", ...

@@ -15,7 +15,7 @@ class Extent {
  public:
   void hold(const world::Bounds& bounds) { bounds_ = bounds_ ? united(*bounds_, bounds) : bounds; }
   void hold(Point point, double margin_m) { hold(around(point, margin_m)); }
-  /// A start or goal outside what is held so far lies in the open, with a margin.
+  /// A start or goal outside the present bounds lies in the open, with a margin.
   void hold_if_outside(Point point, double margin_m) {
     if (!bounds_ || !bounds_->contains(around(point, 0))) outside_.push_back(around(point, margin_m));
   }

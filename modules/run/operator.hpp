@@ -5,7 +5,7 @@
 // and are part of the environment's digest. They make no earlier event: an intervention known long before its time
 // (from a journal) and one typed a moment ago (at a prompt) give the same run. A request is sent by a task of the
 // robot, a service called "operator", which starts at that instant and waits for the final reply; of a robot that is
-// elsewhere it is sent there. What external robots have to tell appears among the results.
+// elsewhere it is sent there. Notices of external robots appear among the results.
 #pragma once
 
 #include <deque>
@@ -49,7 +49,7 @@ class Operator {
   /// is BadInput.
   Time add(Intervention intervention, std::optional<Time> date);
 
-  /// Executes what is scheduled; called in the world's task before the step at `now`.
+  /// Executes the scheduled interventions; called in the world's task before the step at `now`.
   void act(Time now);
 
   /// So far, in the order of their dates.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a rank tells the others at the end of each window of virtual time.
+// A rank's message to the others at the end of each window of virtual time.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The windows of virtual time of one rank: it runs its own robots, then all ranks exchange what crosses.
+// The windows of virtual time of one rank: it runs its own robots, then all ranks exchange the crossing messages.
 #pragma once
 
 #include <cstdint>

@@ -60,7 +60,7 @@ class RankedRun {
   /// Completes a result by the robots that are elsewhere.
   void complete(bridge::RunResult& result);
 
-  /// On the other ranks: carries out what the leader does, up to its end.
+  /// On the other ranks: follows the leader, up to its end.
   void follow();
 
   /// Shipped after each run_before(). On all ranks in the same order, before the first one. It must outlive this.

@@ -8,7 +8,7 @@
 
 namespace waitpoint::run {
 
-/// A line for each task of the robot, in the order of their making: its name, state, local time, and what it does.
+/// A line for each task of the robot, in the order of their making: its name, state, local time, and activity.
 std::string list_tasks(const kernel::Scheduler& scheduler, const kernel::Robot& robot);
 
 }  // namespace waitpoint::run

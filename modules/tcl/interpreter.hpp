@@ -43,7 +43,7 @@ struct RequestShape {
   FieldShape input;
 };
 
-/// What a script can reach: its robot's modules, and virtual time.
+/// The surroundings of a script: its robot's modules, and virtual time.
 class RobotLink {
  public:
   virtual ~RobotLink() = default;
@@ -117,7 +117,7 @@ struct Library {
   std::optional<SyntaxError> (*check)(const std::string& script);
   /// The procedures of a script without syntax errors, by name, without executing it.
   std::vector<Procedure> (*procedures)(const std::string& script);
-  /// What is wrong with a call of a procedure with the words of `arguments`; empty: nothing.
+  /// The error of a call of a procedure with the words of `arguments`; empty: none.
   std::string (*check_call)(const Procedure& procedure, const std::string& arguments);
   /// False: the text continues on further lines.
   bool (*is_complete)(const std::string& text);

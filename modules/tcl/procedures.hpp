@@ -34,7 +34,7 @@ class Procedures : public genom::Module {
   /// A request for each procedure of the script whose name has letters, digits and _ alone. `library` is Tcl's, loaded.
   Procedures(genom::ModuleSetup& setup, const Library& library, const std::string& script);
 
-  /// What is wrong with a request, without sending it: "wrong # args: ..."; empty: nothing.
+  /// The error of a request, without sending it: "wrong # args: ..."; empty: none.
   std::string check(const std::string& procedure, const std::string& arguments) const;
 
   // The calls below are of the script's task.

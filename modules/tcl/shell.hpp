@@ -10,7 +10,7 @@ namespace waitpoint::tcl {
 
 class Shell {
  public:
-  /// Gets what a command writes line by line, and at its end its result.
+  /// Gets the output of a command line by line, and at its end its result.
   using Tell = std::function<void(Time date, const std::string& text, bool is_result)>;
 
   /// `names` and `library`, Tcl's, must outlive the shell.

@@ -33,7 +33,7 @@ struct Script {
   std::string file, text;
 };
 
-/// What a scenario says of a scripted mission.
+/// A scripted mission, as a scenario has it.
 struct MissionSetup {
   Script script;
   std::string robot;
@@ -60,7 +60,7 @@ class TclExecutive : public executive::RobotExecutive, private ModuleLink {
   /// The script's rand() goes on from the seed that it would have had with this stream.
   void reseed(const RandomStream& random) override;
   const std::vector<executive::GoalRecord>& goals() const override { return goals_; }
-  /// The first of which the script has not told what became of it.
+  /// The first without a result from the script.
   std::size_t current_goal() const override;
 
  private:

@@ -9,7 +9,7 @@
 
 namespace waitpoint::tools {
 
-/// What the run has met.
+/// The obstacles that the run has met.
 posix::AccessObstacle obstacle_of(const posix::Record& record);
 /// "the program handles SIGTRAP"; empty if there is nothing to say.
 std::string words_of(posix::AccessObstacle obstacle);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the processes of a run say of themselves when they are asked, whatever they do at that moment.
+// Reports of a run's processes about themselves on request, at any moment.
 #pragma once
 
 #include <string>
@@ -8,8 +8,8 @@
 
 namespace waitpoint::tools {
 
-/// What the threads of all processes do, a line each; below the one that computes the innermost places of its code,
-/// "      at function at file:line". Empty before main().
+/// The activities of the threads of all processes, a line each; below the one that computes the innermost places of its
+/// code, "      at function at file:line". Empty before main().
 std::string states_of(const posix::Record& record);
 
 /// The thread that computes in the process that has the turn.

@@ -72,7 +72,7 @@ bool EndRequests::look() {
       return true;
     }
     if (is_sent) kill(program_, signal);
-    // What a handler of these is for, is not said: an interactive program has one for the key, a server for its log.
+    // The purpose of a handler is unknown: an interactive program has one for the key, a server for its log.
     if (signal == SIGHUP || !is_sent) return false;
     asked_by_ = signal;
     asked_at_s_ = now_s;

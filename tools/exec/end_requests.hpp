@@ -13,7 +13,8 @@
 
 namespace waitpoint::tools {
 
-/// Ends the run of `program`, and says what its threads do: "waitpoint: REASON at 3.000000000 s of virtual time".
+/// Ends the run of `program`, and reports the activities of its threads: "waitpoint: REASON at 3.000000000 s of virtual
+/// time".
 void end_at_once(const posix::Record& record, pid_t program, const std::string& reason);
 
 class EndRequests {

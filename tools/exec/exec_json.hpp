@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What --json prints of a program's run, or of a series of them.
+// The output of --json for a program's run, or for a series of them.
 #pragma once
 
 #include <cstdint>

@@ -15,7 +15,7 @@
 
 namespace waitpoint::tools {
 
-/// What the processes share for a part of the layer; null if they have used none.
+/// The shared memory of a part of the layer; null if they have used none.
 const void* common_of(const posix::Record& record, posix::family::Part part);
 /// The events and choices of all processes; null if none were asked for.
 const posix::History* history_of(const posix::Record& record);

@@ -23,7 +23,7 @@ struct ProgramConditions {
   std::optional<Duration> call_cost;          ///< of a use of a primitive and of reading a clock
   bool isolate = false;                       ///< calls that would leave the machine fail
   bool trap_rdtsc = false;                    ///< the time-stamp counter shows virtual time
-  bool strict = false;                        ///< what does not repeat ends the run
+  bool strict = false;                        ///< unrepeatable calls end the run
   bool trap_library = false;                  ///< the C library's internal waits are simulated
   std::optional<double> speed;                ///< of virtual time by real time, with partners outside; 0: no limit
   std::optional<Duration> idle_limit;         ///< a run that is idle for so long ends; 0: none does

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whether processes are prepared for further runs, by copying their memory before the first one: by what that has
-// gained so far. Where it is in vain, it is tried again at intervals only.
+// Decides if processes are prepared for further runs, by copying their memory before the first one: by the time that it
+// has gained so far. Where it is in vain, it is tried again at intervals only.
 #pragma once
 
 namespace waitpoint::tools {

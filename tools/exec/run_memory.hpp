@@ -29,7 +29,7 @@ class RunMemory {
  private:
   void begin(const posix::Settings& settings);
   void discard() const;
-  /// Zeroes what the last run has used; false if that is much.
+  /// Zeroes the memory that the last run has used; false if that is much.
   bool clear() const;
 
   int descriptor_;

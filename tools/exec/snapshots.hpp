@@ -32,7 +32,7 @@ class Snapshot {
   std::uint32_t decision_;
 };
 
-/// What a run may make.
+/// The snapshots that a run may make.
 struct SnapshotsAsked {
   std::uint32_t most = 0;
   bool at_first_decision_only = false;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Two logs compared, quantity by quantity: what is sampled, the two-sample tests, and the table of both.
+// Two logs compared, quantity by quantity: the samples, the two-sample tests, and the table of both.
 #pragma once
 
 #include <optional>
@@ -18,7 +18,7 @@ struct Sample {
   std::vector<double> values;
 };
 
-/// What is compared, in the order of the table:
+/// The compared quantities, in the order of the table:
 ///   the error of the odometry over stretches of 2 m: along the way, and of the heading
 ///   the time between scans, and its jitter: the differences from their median, without missing scans
 ///   per scan: the number of segments, and their length

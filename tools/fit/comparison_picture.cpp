@@ -13,7 +13,7 @@ namespace {
 
 constexpr double plot_width = 360, plot_height = 170, gap = 60, left = 50, top = 84;
 constexpr std::size_t columns = 3, points_max = 300;
-constexpr double shown_quantile = 0.01;  // at either end, what lies beyond is cut off
+constexpr double shown_quantile = 0.01;  // at either end, values beyond are cut off
 constexpr const char* first_style = "fill=\"none\" stroke=\"#1c7ed6\" stroke-width=\"2\"";
 constexpr const char* second_style = "fill=\"none\" stroke=\"#e8590c\" stroke-width=\"2\"";
 constexpr const char* label_style = "font-size=\"12\" fill=\"#495057\"";
@@ -27,7 +27,7 @@ double quantile(const std::vector<double>& ordered, double part) {
   return ordered[static_cast<std::size_t>(part * static_cast<double>(ordered.size() - 1))];
 }
 
-/// What a frame shows of the quantity's axis.
+/// The visible part of the quantity's axis.
 struct Axis {
   double low = 0, high = 1;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What --json prints of a fit.
+// The output of --json for a fit.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace waitpoint::tools {
 
-/// What was fitted, with the robot type's text.
+/// The fitted parameters, with the robot type's text.
 std::string fit_json(const RobotFit& fit);
 
 }  // namespace waitpoint::tools

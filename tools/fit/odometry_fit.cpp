@@ -106,7 +106,7 @@ bool is_corrected(const Stretch& of) {
          std::fabs(of.measured_turn_rad - of.turn_rad) > least_rad;
 }
 
-/// What the turns of stretches tell of their scale, beside a drift that grows with the travel.
+/// The scale of turns from those of stretches, beside a drift that grows with the travel.
 double shown_turns(const std::vector<Stretch>& stretches) {
   double turns = 0, both = 0, travels = 0;
   for (const Stretch& of : stretches) {

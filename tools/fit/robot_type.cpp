@@ -14,11 +14,11 @@ namespace waitpoint::tools {
 namespace {
 
 constexpr double degree = exact::pi / 180;
-constexpr double hundredth = 0.01;   // the last digit of what scenarios require to be positive
+constexpr double hundredth = 0.01;   // the last digit of numbers that scenarios require to be positive
 constexpr double speed_least = 0.1;  // of a log in which the robot stands
 constexpr double speed_most = 1e4;   // of scenarios
 
-/// What limits the fit of the odometry.
+/// The limits of the odometry's fit.
 std::vector<std::string> odometry_notes(const OdometryFit& of) {
   std::vector<std::string> notes;
   if (of.uncorrected > 0)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A robot type of a scenario, as YAML, from what was fitted to a log.
+// A robot type of a scenario, as YAML, from the parameters fitted to a log.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What --json prints of a command: one object, which has standard output to itself. The text goes to standard error.
+// The output of --json of a command: one object, which has standard output to itself. The text goes to standard error.
 //
 //   {"format": 1, "command": "run", "status": 0, "result": {...}}
 //

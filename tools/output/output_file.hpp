@@ -39,9 +39,9 @@ class OutputFile {
   const std::filesystem::path& written_to() const { return temporary_.empty() ? target_ : temporary_; }
   /// Appends.
   void write(std::string_view text);
-  /// Hands over to the system what was written so far, as write() does with larger parts.
+  /// Hands over to the system the text written so far, as write() does with larger parts.
   void flush();
-  /// Renames the file already now, with what was written so far: others can read it while it grows, and it stays if
+  /// Renames the file already now, with the text written so far: others can read it while it grows, and it stays if
   /// this process is killed. Throws BadInput if it cannot be written.
   void show();
   /// Renames the file; nothing can be written afterwards. Throws BadInput if it could not be written, also earlier.

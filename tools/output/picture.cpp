@@ -171,7 +171,7 @@ constexpr std::string_view path_style = "fill=\"none\" stroke=\"#0ca678\" stroke
 constexpr std::string_view cloud_style = "fill=\"#e8590c\" fill-opacity=\"0.5\"";
 constexpr std::string_view grid_style = "fill=\"#7048e8\" fill-opacity=\"0.35\"";
 
-// What nodes have published: below the robots' paths.
+// Topics of nodes: below the robots' paths.
 void draw_shown(Svg& svg, const PictureFrame& frame, std::span<const nodes::ShownMessage> shown) {
   for (const nodes::ShownMessage& message : shown) {
     std::string cells;

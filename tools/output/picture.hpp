@@ -12,7 +12,7 @@
 namespace waitpoint::tools {
 
 /// An SVG document. `obstacles` are all obstacles on the floor, including a map's boxes: thousands are fine.
-/// `shown`: what nodes of ROS have published.
+/// `shown`: shown messages of ROS nodes.
 std::string picture_svg(std::span<const world::Obstacle> obstacles, const bridge::RunResult& result,
                         std::span<const nodes::ShownMessage> shown = {});
 

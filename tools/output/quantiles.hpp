@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What many runs of a scenario have in common: quantiles of their figures.
+// The figures of many runs of a scenario: their quantiles.
 #pragma once
 
 #include <span>

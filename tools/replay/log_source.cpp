@@ -64,7 +64,7 @@ std::vector<std::string> not_disabled(scenario::RobotScenario& robot, std::vecto
   return names;
 }
 
-/// Replaces what is chosen in `choice`.
+/// Replaces the values that `choice` has.
 void choose(logs::LogChoice& choice, const logs::LogChoice& other) {
   const auto replace = [](std::string& name, std::string& place, const std::string& by, const std::string& by_place) {
     if (by.empty()) return;

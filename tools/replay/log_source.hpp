@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A log, what is taken from it, and the robot whose modules it drives: by options, or by a scenario with a log.
+// A log, the choice of its records, and the robot whose modules it drives: by options, or by a scenario with a log.
 #pragma once
 
 #include <filesystem>

@@ -90,7 +90,7 @@ struct Content {
   std::string text;
 };
 
-/// BadInput for what cannot be drawn.
+/// BadInput for a log that cannot be drawn.
 std::vector<Content> contents(const PlayOptions& options, const logs::SensorLog& log,
                               const playback::Playback& playback, const ReplayResult& result, Files& files) {
   std::vector<Content> contents;

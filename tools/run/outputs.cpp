@@ -166,7 +166,7 @@ void Outputs::end_json(const bridge::RunResult& result, std::optional<int> statu
 }
 
 // In the forked copy of a process that dies, or after an exception. A file that cannot be completed must not cost the
-// others theirs; its destructor removes what there is of it.
+// others theirs; its destructor removes its unfinished file.
 void Outputs::cut_off(const std::string& reason, std::optional<int> status) {
   is_running_ = false;
   if (getpid() != process_ && getppid() != process_) return;  // a task's child is dying, not the run

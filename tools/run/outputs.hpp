@@ -2,8 +2,8 @@
 // The output files of one run: opened before it starts, written when it is over.
 //
 // If the process dies in a task, a forked copy of it completes them (kernel/fault_reports.hpp): they have their names,
-// what was known by then, and a mark that they are cut off: the outcome "crashed" in the summary, a last comment or log
-// message in the others. The journal is also kept if the run fails by an exception.
+// the contents up to then, and a mark that they are cut off: the outcome "crashed" in the summary, a last comment or
+// log message in the others. The journal is also kept if the run fails by an exception.
 #pragma once
 
 #include <sys/types.h>
@@ -40,7 +40,7 @@ class Outputs {
 
   /// The requested journal, or null. write() names it.
   JournalFile* journal() { return journal_ ? &*journal_ : nullptr; }
-  /// What nodes of ROS publish is in the picture and the recording; null: there are none. Before the run.
+  /// Shown topics of ROS nodes, for the picture and the recording; null: there are none. Before the run.
   void show(const std::shared_ptr<nodes::ShownTopics>& topics);
   /// Call before the run.
   void watch();
@@ -49,8 +49,8 @@ class Outputs {
   void check(const bridge::RunResult& result) const { durations_->check(result.outcome == bridge::Outcome::finished); }
   /// Writes and names all files. Throws BadInput if one cannot be written; those not yet named are as before.
   void write(const bridge::RunResult& result);
-  /// Completes all files with what is known, marked as cut off: the run failed. Nothing is thrown. Without a status a
-  /// signal ends the process.
+  /// Completes all files with the contents up to here, marked as cut off: the run failed. Nothing is thrown. Without a
+  /// status a signal ends the process.
   void cut_off(const std::string& reason, std::optional<int> status);
 
  private:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the output files of a run of several ranks take from each of them, while it runs: events, samples of paths, and
-// what a recording takes.
+// The data that output files of a run of several ranks take from each of them: events, samples of paths, and
+// the news for a recording.
 #pragma once
 
 #include <deque>
@@ -14,7 +14,7 @@
 
 namespace waitpoint::tools {
 
-/// What the files take. On the leader also where it goes: elsewhere the functions are null.
+/// The data for the files. On the leader also their destination: elsewhere the functions are null.
 struct RankOutputOptions {
   bool events = false, paths = false;  ///< of --events, of --trajectory
   bool picture = false;                ///< paths in the results

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a run says to its user besides its files: the text on standard output, unmet expectations, its failure.
+// The reports of a run besides its files: the text on standard output, unmet expectations, its failure.
 #pragma once
 
 #include <cstdio>
@@ -49,7 +49,7 @@ struct Verdict {
   int status = 0;
   std::vector<std::string> unmet;
 };
-/// What is not as expected is told on standard error, too.
+/// Unmet expectations are reported on standard error, too.
 Verdict verdict(const scenario::Scenario& scenario, const bridge::RunResult& result);
 
 /// Tells of the failure, with the line that repeats the run, and completes the outputs (null: none). Returns the exit

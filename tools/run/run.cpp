@@ -124,7 +124,7 @@ void tell_of_difference(const run::Journal& journal) {
                journal.end->digest.c_str(), static_cast<unsigned long long>(journal.end->events));
 }
 
-/// One run of a series; what it printed is in the table.
+/// One run of a series; its row is in the table.
 bridge::RunResult run_seed(const RunOptions& options, const scenario::Scenario& scenario,
                            std::span<const genom::ModuleType> types, std::uint64_t seed, const std::string& replay) {
   run::Experiment experiment(scenario, types, {seed, options.order, replay});
@@ -195,7 +195,7 @@ void check_for_nodes(const RunOptions& options) {
   check_none_given(options, others, "cannot be used for a scenario with nodes");
 }
 
-// Without a world there is nothing to write but what nodes do.
+// Without a world there is nothing to write but the nodes' results.
 void check_for_bag(const RunOptions& options) {
   constexpr const char* of_worlds[] = {"--json",    "--strategy", "--journal", "--replay-journal",
                                        "--summary", "--picture",  "--page",    "--trajectory",
@@ -253,7 +253,7 @@ int follow(const RunOptions& options, const scenario::Scenario& scenario, std::s
   return 0;
 }
 
-// One of several processes. What is bad on any of them is reported by the leader.
+// One of several processes. The leader reports bad input of any of them.
 int run_rank(const RunOptions& options, std::span<const genom::ModuleType> types) {
   std::optional<scenario::Scenario> scenario;
   std::exception_ptr bad;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // One run in short windows of virtual time. Between windows it shows progress, polls signals, waits for the wall clock
-// and accepts commands and what partners outside send. The windows do not affect the run.
+// and accepts commands and messages of partners outside. The windows do not affect the run.
 #pragma once
 
 #include <sys/types.h>
@@ -42,7 +42,7 @@ class Session : private outside::Host {
   /// Shows the run, from now on.
   void show(view::LiveRun& live);
 
-  /// Takes in what partners send, from now on, before each step of the world, whose state they get after it.
+  /// Takes in partners' messages, from now on, before each step of the world, whose state they get after it.
   /// `faults_end`: their first fault ends the run.
   void take_part(outside::Partners& partners, bool faults_end);
 

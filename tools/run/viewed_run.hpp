@@ -10,7 +10,7 @@
 
 namespace waitpoint::tools {
 
-/// What the page's head says of this run.
+/// The head of this run's page.
 view::SceneOptions scene_options(const RunOptions& options, const scenario::Scenario& scenario);
 
 /// The past of a run is seen in copies of its process: BadInput, naming --serve, for robots with programs, which have

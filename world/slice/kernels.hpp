@@ -117,8 +117,8 @@ const Kernels& kernels();
 /// All variants that it can execute, the widest last.
 std::vector<const Kernels*> all_kernels();
 
-// One variant per instruction set, whether or not the processor has it. A portable build has the first alone; AVX2 and
-// AVX-512 exist on x86-64 only.
+// One variant per instruction set, also of those that the processor lacks. A portable build has the first alone; AVX2
+// and AVX-512 exist on x86-64 only.
 extern const Kernels kernels_portable, kernels_baseline, kernels_avx2, kernels_avx512;
 
 }  // namespace waitpoint::world

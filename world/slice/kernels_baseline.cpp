@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What every processor of a kind has: SSE2 on x86-64, NEON on 64-bit ARM.
+// The instructions of every processor of a kind: SSE2 on x86-64, NEON on 64-bit ARM.
 #include "world/slice/kernels.hpp"
 #include "world/slice/vector_asking.hpp"
 #include "world/slice/vector_culling.hpp"

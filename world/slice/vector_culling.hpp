@@ -112,7 +112,7 @@ struct VectorCulling {
   }
 
   // Rounded down, clamped to -1 and the number of beams; -1 for no number, as for the direction of a corner at the
-  // origin. Clamped before the conversion, which depends on the processor for what does not fit.
+  // origin. Clamped before the conversion, which depends on the processor for values that do not fit.
   static Ints numbers(Floats at, const View& view) {
     const Floats within = V::least(V::greatest(V::all(-1.0f), at), V::all(static_cast<float>(view.beams)));
     return __builtin_convertvector(within + 2, Ints) - 2;

@@ -19,7 +19,7 @@
 
 namespace waitpoint::world {
 
-/// Those of the processor that the source is compiled for, or what the compiler makes of loops.
+/// Those of the processor that the source is compiled for, or the compiler's vectors of loops.
 enum class Instructions { own, portable };
 
 /// Vectors of `lanes` doubles or 64-bit integers, and of as many floats or 32-bit integers as fit, at most eight.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a scenario must not have for a run of several ranks.
+// Features that a scenario of several ranks must not have.
 #pragma once
 
 #include "modules/scenario/scenario.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What every rank produces while it runs and the first one writes to a file: events, samples of paths.
+// Data that every rank produces and the first one writes to a file: events, samples of paths.
 #pragma once
 
 #include <span>
@@ -11,9 +11,9 @@ namespace waitpoint::run {
 class Freight {
  public:
   virtual ~Freight() = default;
-  /// What this rank has produced since the last call.
+  /// This rank's data since the last call.
   virtual std::string load() = 0;
-  /// On the first rank: what each rank has, in the order of the ranks.
+  /// On the first rank: the data of each rank, in the order of the ranks.
   virtual void unload(std::span<const std::string> loads) = 0;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the first rank gathers from the others to report on the whole run.
+// Results that the first rank gathers from the others to report on the whole run.
 #pragma once
 
 #include <cstdint>

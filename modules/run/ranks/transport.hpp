@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the ranks of a run, its processes, are joined by. All calls are collective: every rank makes them in the same
+// The connection of a run's ranks, its processes. All calls are collective: every rank makes them in the same
 // order.
 #pragma once
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What an interpreter sees of the machine: virtual time in place of the clock, this project's mathematical functions
+// An interpreter's view of the machine: virtual time in place of the clock, this project's mathematical functions
 // in place of the C library's, rand() from the run's seed; no environment, processes, sockets or events of files.
 #pragma once
 

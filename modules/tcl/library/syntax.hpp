@@ -18,7 +18,7 @@ using ProceduresByName = std::map<std::string, Procedure>;
 /// The first syntax error; if `procedures` is not null, it gets the procedures.
 std::optional<SyntaxError> check_syntax(const std::string& script, ProceduresByName* procedures = nullptr);
 
-/// What is wrong with a call of a procedure with the words of `arguments`: its syntax, or their number; empty: nothing.
+/// The error of a call of a procedure with the words of `arguments`: its syntax, or their number; empty: none.
 std::string check_call(const Procedure& procedure, const std::string& arguments);
 
 /// The line of an error in a script by Tcl's trace of it (errorInfo), whose outermost command is at `line`.
