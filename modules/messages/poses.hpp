@@ -25,6 +25,7 @@ inline geometry_msgs::Pose pose_message(const Pose& pose, double z_m = 0) {
 
 /// The heading of a rotation in space: that of its x axis in the plane. The quaternion need not have the length 1.
 inline double heading_of(const geometry_msgs::Quaternion& q) {
+  if (q.x == 0 && q.y == 0) return exact::wrap_angle(2 * exact::atan2(q.z, q.w));  // as quaternion_of() has it
   return exact::atan2(2 * (q.w * q.z + q.x * q.y), q.w * q.w + q.x * q.x - q.y * q.y - q.z * q.z);
 }
 inline Pose pose_of(const geometry_msgs::Pose& message) {
