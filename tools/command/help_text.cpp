@@ -53,7 +53,8 @@ std::string option_rows(const Command& command, Extent extent) {
         continue;
       }
       const bool has_more = extent == Extent::all && !option->details.more.empty();
-      rows += row(option->label(), option->summary() + (has_more ? "\n" + option->details.more : ""));
+      rows += row(option->label(), (extent == Extent::all ? option->summary() : option->brief()) +
+                                       (has_more ? "\n" + option->details.more : ""));
     }
     const std::string title = section.front()->section.empty() ? "Options" : section.front()->section;
     if (!rows.empty()) text += "\n" + title + ":\n" + rows;

@@ -23,6 +23,10 @@ std::string Option::label() const {
   return name + (value.omitted.empty() ? " " + value.placeholder : " [" + value.placeholder + "]");
 }
 
+std::string Option::brief() const {
+  return details.usual.empty() ? description : description + " (default: " + details.usual + ")";
+}
+
 std::string Option::summary() const {
   std::string usual = details.environment == nullptr ? "" : "$" + std::string(details.environment);
   if (!details.usual.empty()) usual += (usual.empty() ? "" : ", or ") + details.usual;

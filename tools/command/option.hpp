@@ -48,7 +48,9 @@ struct Option {
   bool is_argument() const { return !name.starts_with('-'); }
   /// With its value: "--seed N", "--serve [ADDRESS:PORT]".
   std::string label() const;
-  /// With its default: "threads (default: $WAITPOINT_THREADS, or 1)".
+  /// With its default: "threads (default: 1)".
+  std::string brief() const;
+  /// The environment's variable, too: "threads (default: $WAITPOINT_THREADS, or 1)".
   std::string summary() const;
 };
 

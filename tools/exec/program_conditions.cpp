@@ -186,7 +186,6 @@ void declare_conditions(Command& command, ProgramConditions& conditions, Repetit
               "virtual time of a use of a primitive and of reading a clock, in nanoseconds",
               {.usual = "50", .more = "More lets loops that poll end after fewer rounds.", .is_rare = true});
   declare_speed(command, conditions.speed, repetition == Repetition::needed);
-  command.section("Time of a program");
   command.add("--idle-limit", idle_limit_value(conditions.idle_limit),
               "end after S seconds of virtual time in which only timers expire",
               {.usual = "3600", .more = "And no thread wakes another. 0: never.", .is_rare = true});

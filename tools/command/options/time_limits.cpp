@@ -28,7 +28,6 @@ void declare_until(Command& command, std::optional<Duration>& until, const char*
 }
 
 void declare_speed(Command& command, std::optional<double>& speed, bool is_rare) {
-  command.section("Time");
   command.add("--speed", pace(speed), "at most X simulated seconds per second",
               {.usual = "max",
                .more = "With processes outside the default is 1.",

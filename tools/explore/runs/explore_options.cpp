@@ -156,11 +156,11 @@ void declare_results(Command& command, ExploreOptions& options) {
               "run all schedules, and write number, digest and outcome of each", {.is_rare = true});
   command.add("--schedule", written_file(options.schedule, "FILE"),
               "write the failing schedule, minimised, for --replay");
-  command.add("--replay", replay_value(options.replay), "run only this schedule, of a finding or a file",
+  command.add("--replay", replay_value(options.replay), "run only this schedule, of a token or a file",
               {.environment = "WAITPOINT_REPLAY"});
   declare_trace(command, options.trace, "write the last seconds before the failure for Chrome and Perfetto");
   declare_page(command, options.page, "write the failing schedule beside the nearest passing one (docs/view.md)");
-  declare_serve(command, options.serve, "show the search and its finding in a browser, until Ctrl-C");
+  declare_serve(command, options.serve, "show the search and its finding in a browser");
   command.add("--finding", written_file(options.finding, "FILE.json"), "write the finding as data, for waitpoint view");
   command.add("--no-minimize", flag(options.keep_all), "report the failure as found", {.is_rare = true});
 }
@@ -170,7 +170,7 @@ void declare_program(Command& command, ExploreOptions& options) {
   command.section("Exploration of a program");
   command.add("--races",
               word<Races>(options.races, {{"report", Races::report}, {"fail", Races::fail}, {"ignore", Races::ignore}}),
-              "data races of a program compiled with -fsanitize=thread",
+              "data races, of programs compiled with -fsanitize=thread",
               {.usual = "report",
                .environment = "WAITPOINT_RACES",
                .more = "Failures, each reported once, that do not end the search; failures like any other, the first "
@@ -183,7 +183,8 @@ void declare_program(Command& command, ExploreOptions& options) {
       {.usual = "auto",
        .environment = "WAITPOINT_SWITCH_AT",
        .more = "Accesses are switch points in any case with -fsanitize=thread. auto: after twenty schedules at "
-               "calls, ten of each in turn, where that is possible."});
+               "calls, ten of each in turn, where that is possible.",
+       .is_rare = true});
   command.add("--memory", word<Memory>(options.memory, {{"sc", Memory::sc}, {"weak", Memory::weak}}),
               "memory of a program compiled with -fsanitize=thread",
               {.usual = "sc",
@@ -266,8 +267,7 @@ void declare(Command& command, ExploreOptions& options) {
   command.former_flags = {"--exec"};
   command.notes =
       "Failures of a program: a nonzero exit status, a signal, a deadlock, a lack of progress.\n"
-      "Exit status: 0 no failure found, 1 failure found, 2 bad input, 130 stopped by a signal, after a report. See "
-      "docs/exploring-scenarios.md and docs/exec.md.";
+      "Exit status: 0 no failure found, 1 failure found, 2 bad input, 130 stopped by a signal.";
   declare_scenario(command, options, ScenarioArgument::optional);
   declare_search(command, options);
   const auto until = std::make_shared<std::optional<Duration>>();
