@@ -13,7 +13,7 @@
 #include "core/pose.hpp"
 #include "core/time.hpp"
 #include "world/convex_polygon.hpp"
-#include "world/sensor_description.hpp"
+#include "world/sensors/types/sensors.hpp"
 #include "world/triangle_mesh.hpp"
 
 namespace waitpoint::world {
@@ -157,21 +157,6 @@ struct BaseDescription {
   }
 };
 
-/// A battery pack and its loads, see vehicles/battery.hpp.
-struct BatteryDescription {
-  double volts_full = 26, volts_empty = 22;  ///< without load
-  double resistance_ohm = 0.05;
-  double resolution_v = 0;  ///< of the reported voltage; 0: continuous
-  double capacity_ah = 40;  ///< when discharged in rated_h
-  double rated_h = 20;
-  double peukert = 1.15;                                                  ///< 1: the same capacity at every current
-  double charge = 1;                                                      ///< at the start, of capacity_ah
-  double off_v = 0;                                                       ///< cut-off: below this the loads are off
-  double idle_a = 4;                                                      ///< always drawn
-  double drive_a_per_m_s = 6, turn_a_per_rad_s = 2, climb_a_per_m_s = 0;  ///< drawn by motion; descending: nothing
-  double stalled_a = 0;                                                   ///< drawn by motors stalled at a contact
-};
-
 /// A robot's body with its sensors.
 struct BodyDescription {
   std::string name;
@@ -179,13 +164,17 @@ struct BodyDescription {
   Pose start;
   double start_height_m = 0;  ///< of an aerial body above the floor
   BaseDescription base;
-  std::vector<LaserDescription> lasers;
-  std::vector<SonarRingDescription> sonars;
-  std::optional<BumperDescription> bumpers;
-  std::optional<InfraredRingDescription> infrareds;
-  std::optional<ImuDescription> imu;
-  std::optional<PositionReceiverDescription> gps;
-  std::optional<BatteryDescription> battery;  ///< none: the base's figures, and unlimited power
+  Equipment equipment;  ///< without a battery: the base's figures, and unlimited power
+
+  /// The descriptions of its sensors of type S: a list, or one that is optional.
+  template <class S>
+  const DescriptionsOf<S>& sensors() const {
+    return equipment.of<S>();
+  }
+  template <class S>
+  DescriptionsOf<S>& sensors() {
+    return equipment.of<S>();
+  }
 };
 
 /// The engine that finds hits of planar beams and obstacles near a body. `fcl` (FCL's trees) and `slice` (trees over

@@ -98,21 +98,6 @@ struct BatteryState {
   std::optional<Duration> empty_at = {};  ///< since the start; from then on its loads are off
 };
 
-/// Means over the time since the previous sample, in the body's frame.
-struct ImuSample {
-  std::uint64_t number = 0;                           ///< of samples so far; 0: none yet
-  double turn_rad_s = 0;                              ///< of the gyro
-  double ahead_m_s2 = 0, left_m_s2 = 0, up_m_s2 = 0;  ///< at rest, up is gravity
-  double turned_rad = 0;                              ///< integral of the gyro's samples since the start
-};
-
-/// A receiver's estimate of the position of its antenna, in the world's frame.
-struct PositionFix {
-  std::uint64_t number = 0;  ///< of fixes so far; 0: none yet
-  Point position;
-  double height_m = 0;
-};
-
 /// One scan of a laser, counter-clockwise, in the device's frame. Reused between scans, it allocates only once.
 struct LaserScan {
   double first_angle_rad = 0, angle_step_rad = 0;
@@ -171,10 +156,13 @@ class World {
   virtual std::span<const LooseState> loose() const = 0;
   virtual const OdometerReading& odometer(BodyId id) const = 0;
   virtual BatteryState battery(BodyId id) const = 0;
-  /// The last sample of the body's inertial measurement unit; a body without one is a bug.
-  virtual const ImuSample& imu(BodyId id) const = 0;
-  /// The last fix of the body's receiver; a body without one is a bug.
-  virtual const PositionFix& position_fix(BodyId id) const = 0;
+  /// Reads a sensor that a body has one of at most. On demand: its readings of now, with the noise drawn at `number`.
+  /// Otherwise the last reading, unless `out` is that one (Reading::number): false, and `out` stays. A body without the
+  /// sensor is a bug. The date stays as it is.
+  template <ReadAlone S>
+  bool read(BodyId id, std::uint64_t number, typename S::Reading& out) const {
+    return read_any(id, number, ReadingOut<S>{&out});
+  }
 
   /// Scans with the body's laser number `laser`. The noise of beam i is drawn at (scan_number, i): repeating a scan
   /// gives the same readings.
@@ -186,12 +174,6 @@ class World {
   /// firing order. Sets their ranges (m; without echo the ring's greatest range) and keeps the others'. A `range_m`
   /// of another size than the ring is reset to no echo first. Noise as for scan().
   virtual void sonar(BodyId id, std::size_t ring, std::uint64_t firing_number, std::vector<double>& range_m) const = 0;
-  /// The pressed panels of the body's bumper, panel i in bit i; 0 without a bumper. Other bodies as published at the
-  /// last step but one.
-  virtual std::uint32_t bumpers(BodyId id) const = 0;
-  /// Reads the voltages of the body's infrared range finders; a body without any is a bug. `volts` is resized. Noise as
-  /// for scan().
-  virtual void infrareds(BodyId id, std::uint64_t reading_number, std::vector<double>& volts) const = 0;
   /// Adds the memory that queries of the body's state, its commands and its announced scans touch, without memory that
   /// is shared by all bodies.
   virtual void add_to(WorkingSet& set, BodyId id) const = 0;
@@ -200,6 +182,9 @@ class World {
   /// The distance along the beam to the first obstacle or body as seen by a sensor of the body `own` (the other bodies
   /// as published at the last step but one), without noise; range_max_m if nothing is nearer.
   virtual double cast(const Beam& beam, double range_max_m, std::optional<BodyId> own = std::nullopt) const = 0;
+
+ private:
+  virtual bool read_any(BodyId id, std::uint64_t number, const AnyReadingOut& out) const = 0;
 };
 
 }  // namespace waitpoint::world

@@ -18,7 +18,7 @@ void derive_mount(const scenario::RobotScenario& robot, const std::string& modul
   const auto& names = robot.laser_names;
   const auto laser = std::find(names.begin(), names.end(), row->device.substr(0, row->device.find('.')));
   if (laser == names.end()) return;
-  const Pose& mount = robot.body.lasers[static_cast<std::size_t>(laser - names.begin())].mount;
+  const Pose& mount = robot.body.sensors<world::Lasers>()[static_cast<std::size_t>(laser - names.begin())].mount;
   const std::string from = "the mount of '" + *laser + "'";
   settings.derive("mount_x_m", mount.x, from);
   settings.derive("mount_y_m", mount.y, from);

@@ -326,7 +326,7 @@ RobotResult Robot::result() const {
   result.present.motion =
       scenario_.nodes.has_value() || std::any_of(scenario_.bridge.begin(), scenario_.bridge.end(),
                                                  [](const auto& row) { return row.device.starts_with("base."); });
-  if (scenario_.body.battery) {
+  if (scenario_.body.sensors<world::Battery>()) {
     const world::BatteryState battery = world_.battery(body_);
     result.battery = {.charge = battery.charge, .volts = battery.volts};
     if (battery.empty_at) result.battery->empty_at = Time() + *battery.empty_at;

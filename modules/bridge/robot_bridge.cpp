@@ -19,10 +19,15 @@ RobotBridge::Laser::Laser(std::size_t n, const world::LaserDescription& d)
 
 RobotBridge::RobotBridge(const scenario::RobotScenario& robot, world::World& world, world::BodyId body,
                          genom::NameSpace& names)
-    : world_(world), body_(body), has_battery_(robot.body.battery.has_value()), robot_(robot), names_(names) {
-  lasers_.reserve(robot.body.lasers.size());  // rows hold references
-  for (const world::LaserDescription& laser : robot.body.lasers) lasers_.emplace_back(lasers_.size(), laser);
-  sonar_rings_.resize(robot.body.sonars.size());
+    : world_(world),
+      body_(body),
+      has_battery_(robot.body.sensors<world::Battery>().has_value()),
+      robot_(robot),
+      names_(names) {
+  lasers_.reserve(robot.body.sensors<world::Lasers>().size());  // rows hold references
+  for (const world::LaserDescription& laser : robot.body.sensors<world::Lasers>())
+    lasers_.emplace_back(lasers_.size(), laser);
+  sonar_rings_.resize(robot.body.sensors<world::Sonars>().size());
   find_device_values();
   rows_.reserve(robot.bridge.size());
   for (const scenario::BridgeRow& row : robot.bridge) add_row(row);
@@ -49,11 +54,10 @@ void RobotBridge::add_row(const scenario::BridgeRow& scenario) {
 void RobotBridge::find_device_values() {
   device_values_ = {{"base.command", [this](Row& row) { add_base_command(row); }},
                     {"base.reading", [this](Row& row) { add_base_reading(row); }}};
-  if (robot_.body.bumpers) device_values_.push_back({"bumpers.reading", [this](Row& row) { add_bumper_reading(row); }});
-  if (robot_.body.infrareds)
-    device_values_.push_back({"infrareds.reading", [this](Row& row) { add_infrared_reading(row); }});
-  if (robot_.body.imu) device_values_.push_back({"imu.reading", [this](Row& row) { add_imu_reading(row); }});
-  if (robot_.body.gps) device_values_.push_back({"gps.reading", [this](Row& row) { add_gps_reading(row); }});
+  world::SensorsReadAlone::for_each([&]<class S>() {
+    if (robot_.body.sensors<S>())
+      device_values_.push_back({world::device_value<S>(), [this](Row& row) { add_reading<S>(row); }});
+  });
   if (robot_.nodes)
     device_values_.push_back({std::string(scenario::pose_topic_device), [this](Row& row) { add_pose_of_topic(row); }});
   for (std::size_t i = 0; i < lasers_.size(); ++i) {
@@ -113,7 +117,7 @@ void RobotBridge::add_base_reading(Row& row) {
     reading.w_rad_s = odometer.velocity.w_rad_s;
     const world::BatteryState battery = world_.battery(body_);
     reading.battery_volts = battery.volts;
-    if (robot_.body.battery) {
+    if (robot_.body.sensors<world::Battery>()) {
       reading.battery_charge = battery.charge;
       reading.battery_a = battery.current_a;
     }
@@ -131,7 +135,7 @@ void RobotBridge::add_base_reading(Row& row) {
 // A ring fires when it is switched on and then at its own period, whatever the period of the reports.
 void RobotBridge::fire_sonars() {
   for (std::size_t i = 0; i < sonar_rings_.size(); ++i) {
-    const world::SonarRingDescription& description = robot_.body.sonars[i];
+    const world::SonarRingDescription& description = robot_.body.sensors<world::Sonars>()[i];
     SonarRing& ring = sonar_rings_[i];
     const Duration slot = description.period / static_cast<std::int64_t>(world::slots(description));
     const std::int64_t firings = ring.range_m.empty() ? 1 : times_due(slot);
@@ -139,40 +143,15 @@ void RobotBridge::fire_sonars() {
   }
 }
 
-void RobotBridge::add_bumper_reading(Row& row) {
-  row.exchange = [this, &poster = create_poster<posters::Bumpers>(row)](Time date) {
-    if (due(base_report_period)) poster.write({date, world_.bumpers(body_)});
-  };
-}
-
-void RobotBridge::add_infrared_reading(Row& row) {
-  row.exchange = [this, &poster = create_poster<posters::InfraredReading>(row)](Time date) {
-    if (!due(robot_.body.infrareds->period)) return;
-    world_.infrareds(body_, step_, infrared_v_);
-    posters::InfraredReading reading;
+template <world::ReadAlone S>
+void RobotBridge::add_reading(Row& row) {
+  row.exchange = [this, &poster = create_poster<typename S::Reading>(row),
+                  reading = typename S::Reading()](Time date) mutable {
+    if constexpr (world::ReadOnDemand<S>)
+      if (!due(S::period(*robot_.body.sensors<S>()))) return;
+    if (!world_.read<S>(body_, step_, reading)) return;
     reading.date = date;
-    for (const double volts : infrared_v_) reading.volts.push_back(volts);
     poster.write(reading);
-  };
-}
-
-void RobotBridge::add_imu_reading(Row& row) {
-  row.exchange = [this, &poster = create_poster<posters::Inertial>(row), given = std::uint64_t(0)](Time date) mutable {
-    const world::ImuSample& sample = world_.imu(body_);
-    if (sample.number == given) return;
-    given = sample.number;
-    poster.write({date, sample.number, sample.turn_rad_s, sample.ahead_m_s2, sample.left_m_s2, sample.up_m_s2,
-                  sample.turned_rad});
-  };
-}
-
-void RobotBridge::add_gps_reading(Row& row) {
-  row.exchange = [this, &poster = create_poster<posters::PositionFix>(row),
-                  given = std::uint64_t(0)](Time date) mutable {
-    const world::PositionFix& fix = world_.position_fix(body_);
-    if (fix.number == given) return;
-    given = fix.number;
-    poster.write({date, fix.number, fix.position, fix.height_m});
   };
 }
 

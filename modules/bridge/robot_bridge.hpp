@@ -4,15 +4,13 @@
 //   device value            poster type       direction
 //   base.command            BaseCommand       poster -> world
 //   base.reading            BaseReading       world -> poster
-//   bumpers.reading         Bumpers           world -> poster
-//   infrareds.reading       InfraredReading   world -> poster
-//   imu.reading             Inertial          world -> poster
-//   gps.reading             PositionFix       world -> poster
 //   topic.pose              Localisation      nodes of ROS -> poster
+//   KEY.reading             S::Reading        world -> poster, for every sensor type S that is read alone
+//                                                             (world/sensors/types/sensors.hpp)
 //   <laser's name>.command  LaserCommand      poster -> world
 //   <laser's name>.reading  LaserReading      world -> poster
 //
-// A new device is a new row here; modules are not concerned. After each step of the world the bridge records the body's
+// After each step of the world the bridge records the body's
 // state, publishes the readings that are due, and reads the commands for the next step. In simulation it is a task of
 // its robot in the world's phase; on real threads the world's thread executes it. Each new write of a command counts,
 // also with the same value: a base's watchdog expects commands to be repeated.
@@ -33,7 +31,6 @@
 #include "modules/genom/name_space.hpp"
 #include "modules/posters/base.hpp"
 #include "modules/posters/from_topics.hpp"
-#include "modules/posters/inertial.hpp"
 #include "modules/posters/laser.hpp"
 #include "modules/scenario/scenario.hpp"
 #include "world/world.hpp"
@@ -108,10 +105,8 @@ class RobotBridge {
   void add_row(const scenario::BridgeRow& row);
   void add_base_command(Row& row);
   void add_base_reading(Row& row);
-  void add_bumper_reading(Row& row);
-  void add_infrared_reading(Row& row);
-  void add_imu_reading(Row& row);
-  void add_gps_reading(Row& row);
+  template <world::ReadAlone S>
+  void add_reading(Row& row);
   void add_pose_of_topic(Row& row);
   void add_laser_command(Row& row, Laser& laser);
   void add_laser_reading(Row& row, Laser& laser);
@@ -137,7 +132,6 @@ class RobotBridge {
   std::vector<Laser> lasers_;
   std::vector<Row> rows_;
   std::vector<SonarRing> sonar_rings_;
-  std::vector<double> infrared_v_;
   std::uint64_t step_ = 0;  // number of exchanges
   std::vector<BodyCommand>* command_log_ = nullptr;
   threads::counting_semaphore<> stepped_{0, "world step"};

@@ -50,7 +50,7 @@ sensor_msgs::LaserScan message_of(const posters::LaserReading& scan, const std::
   return message;
 }
 
-sensor_msgs::Imu message_of(const posters::Inertial& inertial, const std::string& frame) {
+sensor_msgs::Imu message_of(const world::Imu::Reading& inertial, const std::string& frame) {
   sensor_msgs::Imu message;
   message.header = header_of(inertial.date, frame);
   message.orientation_covariance[0] = -1;  // none is measured
@@ -59,7 +59,7 @@ sensor_msgs::Imu message_of(const posters::Inertial& inertial, const std::string
   return message;
 }
 
-geometry_msgs::PointStamped message_of(const posters::PositionFix& fix, const std::string& frame) {
+geometry_msgs::PointStamped message_of(const world::Gps::Reading& fix, const std::string& frame) {
   return {header_of(fix.date, frame), {fix.position.x, fix.position.y, fix.height_m}};
 }
 

@@ -10,9 +10,10 @@
 #include "modules/messages/geometry_msgs.hpp"
 #include "modules/messages/nav_msgs.hpp"
 #include "modules/messages/sensor_msgs.hpp"
-#include "modules/posters/inertial.hpp"
 #include "modules/posters/laser.hpp"
 #include "modules/posters/position.hpp"
+#include "world/sensors/types/gps.hpp"
+#include "world/sensors/types/imu.hpp"
 
 namespace waitpoint::messages {
 
@@ -34,9 +35,9 @@ inline float range_or_infinity(double range_m, double range_max_m) {
 sensor_msgs::LaserScan message_of(const posters::LaserReading& scan, const std::string& frame);
 
 /// Rates and accelerations: no orientation is measured.
-sensor_msgs::Imu message_of(const posters::Inertial& inertial, const std::string& frame);
+sensor_msgs::Imu message_of(const world::Imu::Reading& inertial, const std::string& frame);
 /// Of the antenna.
-geometry_msgs::PointStamped message_of(const posters::PositionFix& fix, const std::string& frame);
+geometry_msgs::PointStamped message_of(const world::Gps::Reading& fix, const std::string& frame);
 
 nav_msgs::OccupancyGrid message_of(const OccupancyGrid& grid, Time date, const std::string& frame);
 

@@ -5,9 +5,10 @@
 #include "modules/messages/readings.hpp"
 #include "modules/messages/wire.hpp"
 #include "modules/posters/base.hpp"
-#include "modules/posters/inertial.hpp"
 #include "modules/posters/laser.hpp"
 #include "modules/posters/position.hpp"
+#include "world/sensors/types/gps.hpp"
+#include "world/sensors/types/imu.hpp"
 
 namespace waitpoint::nodes {
 namespace {
@@ -20,8 +21,8 @@ std::optional<Time> date_of(const posters::Localisation& found) {
 std::optional<Time> date_of(const posters::Odometry& odometry) { return odometry.position.date; }
 std::optional<Time> date_of(const posters::Echoes& echoes) { return echoes.scan.date; }
 std::optional<Time> date_of(const posters::SpeedReference& speed) { return speed.date; }
-std::optional<Time> date_of(const posters::Inertial& inertial) { return inertial.date; }
-std::optional<Time> date_of(const posters::PositionFix& fix) {
+std::optional<Time> date_of(const world::Imu::Reading& inertial) { return inertial.date; }
+std::optional<Time> date_of(const world::Gps::Reading& fix) {
   return fix.number == 0 ? std::nullopt : std::optional(fix.date);
 }
 
@@ -42,10 +43,10 @@ auto message_of(const posters::Echoes& echoes, const PosterFrames& frames) {
 auto message_of(const posters::SpeedReference& speed, const PosterFrames&) {
   return messages::geometry_msgs::Twist{{speed.v_m_s, speed.side_m_s, speed.climb_m_s}, {0, 0, speed.w_rad_s}};
 }
-auto message_of(const posters::Inertial& inertial, const PosterFrames& frames) {
+auto message_of(const world::Imu::Reading& inertial, const PosterFrames& frames) {
   return messages::message_of(inertial, frames.prefix + "base_link");
 }
-auto message_of(const posters::PositionFix& fix, const PosterFrames&) { return messages::message_of(fix, "map"); }
+auto message_of(const world::Gps::Reading& fix, const PosterFrames&) { return messages::message_of(fix, "map"); }
 
 }  // namespace
 
@@ -82,7 +83,7 @@ PosterTopics::PosterTopics(const scenario::NodesScenario& nodes, const genom::Na
     }
     Row& row = rows_.emplace_back(Row{entry.topic, nullptr});
     if (!find_look<posters::FusedPosition, posters::Localisation, posters::Odometry, posters::Echoes,
-                   posters::SpeedReference, posters::Inertial, posters::PositionFix>(*poster, row))
+                   posters::SpeedReference, world::Imu::Reading, world::Gps::Reading>(*poster, row))
       throw entry.written.bad("poster '" + entry.poster +
                               "' cannot be a topic: expected a position, odometry, echoes, a speed, inertial "
                               "readings or position fixes");

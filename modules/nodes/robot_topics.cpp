@@ -50,8 +50,9 @@ RobotTopics::RobotTopics(NodeSide& nodes, const scenario::Scenario& scenario, st
       sonars_(advertised_sonars()),
       odometry_(nodes, global("odom"), queue),
       truth_(nodes, global("base_pose_ground_truth"), queue),
-      imu_(robot_.body.imu ? std::optional<TypedTopic<messages::sensor_msgs::Imu>>({nodes, global("imu"), queue})
-                           : std::nullopt),
+      imu_(robot_.body.sensors<world::Imu>()
+               ? std::optional<TypedTopic<messages::sensor_msgs::Imu>>({nodes, global("imu"), queue})
+               : std::nullopt),
       battery_(nodes, global("battery"), queue, latched),
       goal_(nodes, global("move_base_simple/goal"), queue, latched),
       start_(nodes, global("initialpose"), 1, latched) {
@@ -74,7 +75,7 @@ std::string RobotTopics::global(const std::string& topic) const {
 
 std::vector<RobotTopics::Laser> RobotTopics::advertised_lasers() const {
   std::vector<Laser> lasers;
-  const bool is_single = robot_.body.lasers.size() == 1;
+  const bool is_single = robot_.body.sensors<world::Lasers>().size() == 1;
   for (const std::string& name : robot_.laser_names)
     lasers.push_back({{nodes_, global(is_single ? "scan" : name), queue}, prefix_ + name});
   return lasers;
@@ -82,7 +83,7 @@ std::vector<RobotTopics::Laser> RobotTopics::advertised_lasers() const {
 
 std::vector<RobotTopics::SonarRing> RobotTopics::advertised_sonars() const {
   std::vector<SonarRing> rings;
-  for (const world::SonarRingDescription& ring : robot_.body.sonars) {
+  for (const world::SonarRingDescription& ring : robot_.body.sensors<world::Sonars>()) {
     const std::string name = sonar_name(rings.size());
     SonarRing& added = rings.emplace_back(SonarRing{{nodes_, global(name), queue * ring.count}, {}});
     for (std::uint32_t i = 0; i < ring.count; ++i) added.frames.push_back(prefix_ + name + "_" + std::to_string(i));
@@ -94,7 +95,7 @@ void RobotTopics::begin(const genom::NameSpace& names) {
   const bool has_laser = !lasers_.empty();
   posters_.emplace(*robot_.nodes, names,
                    PosterFrames{prefix_, has_laser ? lasers_.front().frame : base_,
-                                has_laser ? robot_.body.lasers.front().period.seconds() : 0, begin_});
+                                has_laser ? robot_.body.sensors<world::Lasers>().front().period.seconds() : 0, begin_});
 }
 
 bool RobotTopics::is_due(Duration period, const world::World& world) const {
@@ -134,7 +135,7 @@ void RobotTopics::publish_odometry(const world::World& world, messages::tf2_msgs
 
 void RobotTopics::publish_scans(const world::World& world) {
   for (std::size_t i = 0; i < lasers_.size(); ++i) {
-    const world::LaserDescription& laser = robot_.body.lasers[i];
+    const world::LaserDescription& laser = robot_.body.sensors<world::Lasers>()[i];
     if (!is_due(laser.period, world)) continue;
     world::LaserScan scan;
     world.scan(id_, i, ++lasers_[i].scans, scan);
@@ -151,7 +152,7 @@ void RobotTopics::publish_scans(const world::World& world) {
 void RobotTopics::publish_sonars(const world::World& world) {
   using messages::sensor_msgs::Range;
   for (std::size_t ring = 0; ring < sonars_.size(); ++ring) {
-    const world::SonarRingDescription& sonars = robot_.body.sonars[ring];
+    const world::SonarRingDescription& sonars = robot_.body.sensors<world::Sonars>()[ring];
     if (!is_due(sonars.period, world)) continue;
     std::vector<double> ranges;
     const std::size_t turns = std::max<std::size_t>(sonars.firing_order.size(), 1);
@@ -170,13 +171,9 @@ void RobotTopics::publish_sonars(const world::World& world) {
 }
 
 void RobotTopics::publish_body(const world::World& world) {
-  if (imu_ && world.imu(id_).number != imu_samples_) {
-    const world::ImuSample& sample = world.imu(id_);
-    imu_samples_ = sample.number;
-    messages::sensor_msgs::Imu message =
-        messages::message_of(posters::Inertial{now_, sample.number, sample.turn_rad_s, sample.ahead_m_s2,
-                                               sample.left_m_s2, sample.up_m_s2, sample.turned_rad},
-                             base_);
+  if (imu_ && world.read<world::Imu>(id_, 0, imu_sample_)) {
+    imu_sample_.date = now_;
+    messages::sensor_msgs::Imu message = messages::message_of(imu_sample_, base_);
     message.header.stamp = stamp(now_);
     imu_->publish(message);
   }
@@ -200,9 +197,10 @@ void RobotTopics::add_fixed(messages::tf2_msgs::TFMessage& tf) const {
     added.header.stamp = stamp(Time());
   };
   for (std::size_t i = 0; i < lasers_.size(); ++i)
-    add(lasers_[i].frame, robot_.body.lasers[i].mount, robot_.body.lasers[i].height_m);
+    add(lasers_[i].frame, robot_.body.sensors<world::Lasers>()[i].mount,
+        robot_.body.sensors<world::Lasers>()[i].height_m);
   for (std::size_t ring = 0; ring < sonars_.size(); ++ring) {
-    const world::SonarRingDescription& sonars = robot_.body.sonars[ring];
+    const world::SonarRingDescription& sonars = robot_.body.sensors<world::Sonars>()[ring];
     for (std::uint32_t i = 0; i < sonars.count; ++i) {
       const double heading = exact::wrap_angle(2 * exact::pi * i / sonars.count);
       const Pose mount{sonars.ring_radius_m * exact::cos(heading), sonars.ring_radius_m * exact::sin(heading), heading};

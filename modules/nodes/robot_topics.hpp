@@ -94,7 +94,7 @@ class RobotTopics {
   std::vector<SonarRing> sonars_;
   TypedTopic<messages::nav_msgs::Odometry> odometry_, truth_;
   std::optional<TypedTopic<messages::sensor_msgs::Imu>> imu_;
-  std::uint64_t imu_samples_ = 0;
+  world::Imu::Reading imu_sample_;  // the last one
   TypedTopic<messages::sensor_msgs::BatteryState> battery_;
   TypedTopic<messages::geometry_msgs::PoseStamped> goal_;
   TypedTopic<messages::geometry_msgs::PoseWithCovarianceStamped> start_;

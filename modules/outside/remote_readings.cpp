@@ -86,7 +86,7 @@ void RemoteReadings::take(std::string_view line, const scenario::RobotScenario& 
     values.read("range_max_m", scan.range_max_m);
     scan.range_m = values.list("range_m");
     const auto index = static_cast<std::size_t>(laser - lasers.begin());
-    if (const std::size_t beams = robot.body.lasers[index].beams; scan.range_m.size() != beams)
+    if (const std::size_t beams = robot.body.sensors<world::Lasers>()[index].beams; scan.range_m.size() != beams)
       throw written.bad("expected range_m with the " + std::to_string(beams) + " ranges of laser '" + *laser +
                         "', found " + std::to_string(scan.range_m.size()));
     scans[index] = std::move(scan);

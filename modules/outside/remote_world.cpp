@@ -22,9 +22,10 @@ constexpr const char* elsewhere = "the world is in another process";
 // Of a robot with these devices the software would wait for readings for ever.
 void check_devices(const scenario::RobotScenario& robot) {
   for (const scenario::BridgeRow& row : robot.bridge)
-    for (const char* device : {"bumpers.reading", "infrareds.reading", "imu.reading", "gps.reading"})
-      if (row.device == device)
+    world::SensorsReadAlone::for_each([&]<class S>() {
+      if (row.device == world::device_value<S>())
         throw row.written.bad("expected only base and lasers: '" + row.device + "' is not served by another process");
+    });
 }
 
 std::string require_line(LineStream& lines, const std::string& where) {
@@ -42,8 +43,8 @@ std::string require_line(LineStream& lines, const std::string& where) {
 struct RemoteWorld::Attached {
   explicit Attached(const scenario::RobotScenario& robot) : scenario(robot) {
     readings.body.pose = robot.body.start;
-    readings.scans.resize(robot.body.lasers.size());
-    on.resize(robot.body.lasers.size());
+    readings.scans.resize(robot.body.sensors<world::Lasers>().size());
+    on.resize(robot.body.sensors<world::Lasers>().size());
   }
 
   const scenario::RobotScenario& scenario;
@@ -131,7 +132,7 @@ void RemoteWorld::scan(world::BodyId id, std::size_t laser, std::uint64_t, world
 }
 
 void RemoteWorld::sonar(world::BodyId id, std::size_t ring, std::uint64_t, std::vector<double>& range_m) const {
-  const world::SonarRingDescription& sonars = attached(id).scenario.body.sonars[ring];
+  const world::SonarRingDescription& sonars = attached(id).scenario.body.sensors<world::Sonars>()[ring];
   range_m.assign(sonars.count, sonars.range_max_m);
 }
 
@@ -144,15 +145,7 @@ world::BatteryState RemoteWorld::battery(world::BodyId id) const { return attach
 void RemoteWorld::reset(std::uint64_t) { WAITPOINT_CHECK(false, "a world of another process is reset"); }
 void RemoteWorld::reseed(std::uint64_t) { WAITPOINT_CHECK(false, "a world of another process is given a seed"); }
 
-const world::ImuSample& RemoteWorld::imu(world::BodyId) const {
-  static const world::ImuSample none;
-  return none;
-}
-const world::PositionFix& RemoteWorld::position_fix(world::BodyId) const {
-  static const world::PositionFix none;
-  return none;
-}
-void RemoteWorld::infrareds(world::BodyId, std::uint64_t, std::vector<double>& volts) const { volts.clear(); }
+bool RemoteWorld::read_any(world::BodyId, std::uint64_t, const world::AnyReadingOut&) const { return false; }
 
 std::optional<std::string> RemoteWorld::move_body(world::BodyId, const Pose&) { return elsewhere; }
 std::optional<std::string> RemoteWorld::guide_body(world::BodyId, const std::optional<Pose>&, const world::Velocity&) {

@@ -43,16 +43,12 @@ class RemoteWorld final : public world::World {
   std::span<const world::LooseState> loose() const override { return {}; }
   const world::OdometerReading& odometer(world::BodyId id) const override;
   world::BatteryState battery(world::BodyId id) const override;
-  const world::ImuSample& imu(world::BodyId id) const override;
-  const world::PositionFix& position_fix(world::BodyId id) const override;
 
   /// The last scan that came; waits for the first one.
   void scan(world::BodyId id, std::size_t laser, std::uint64_t scan_number, world::LaserScan& out) const override;
   void expect_scan(world::BodyId id, std::size_t laser, std::uint64_t scan_number) override;
   void sonar(world::BodyId id, std::size_t ring, std::uint64_t firing_number,
              std::vector<double>& range_m) const override;
-  std::uint32_t bumpers(world::BodyId) const override { return 0; }
-  void infrareds(world::BodyId id, std::uint64_t reading_number, std::vector<double>& volts) const override;
   void add_to(WorkingSet&, world::BodyId) const override {}
   void add_scan_to(WorkingSet&, world::BodyId) const override {}
   double cast(const world::Beam&, double range_max_m, std::optional<world::BodyId>) const override {
@@ -62,6 +58,7 @@ class RemoteWorld final : public world::World {
  private:
   struct Attached;
 
+  bool read_any(world::BodyId id, std::uint64_t number, const world::AnyReadingOut& out) const override;
   Attached& attached(world::BodyId id) const { return *robots_[index(id)]; }
   void attach(Attached& robot, const Endpoint& endpoint, const std::string& where);
   void switch_on(Attached& robot, std::size_t laser) const;

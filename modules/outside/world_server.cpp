@@ -141,7 +141,7 @@ std::string WorldServer::readings(Client& client, const world::World& world) con
   std::string lines = base(world, id) + truth(world.body(id));
   for (std::size_t i = 0; i < client.lasers.size(); ++i)
     if (client.lasers[i].on &&
-        is_due(scenario_.robots[*client.robot].body.lasers[i].period, scenario_.step, world.steps()))
+        is_due(scenario_.robots[*client.robot].body.sensors<world::Lasers>()[i].period, scenario_.step, world.steps()))
       lines += scan(client, i, world);
   const Time now = Time() + scenario_.step * static_cast<std::int64_t>(world.steps());
   return lines + "step " + to_string(now) + "\n";

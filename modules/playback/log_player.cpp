@@ -87,7 +87,7 @@ void LogPlayer::write_report(const logs::Played& record) {
 void LogPlayer::write_scan(const logs::Played& record) {
   const logs::LoggedScan& scan = log_.scans[*record.scan];
   // Of more beams than the poster holds, every n-th.
-  const std::size_t every = (scan.range_m.size() + posters::beam_count_max - 1) / posters::beam_count_max;
+  const std::size_t every = (scan.range_m.size() + world::Lasers::count_max - 1) / world::Lasers::count_max;
   ++scan_.number;
   scan_.date = record.date;
   scan_.first_angle_rad = scan.first_angle_rad;

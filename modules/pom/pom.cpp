@@ -24,7 +24,7 @@ Pom::Pom(genom::ModuleSetup& setup)
       odometry_(read_poster<posters::Odometry>("rflex.odometry")),
       localisations_{{{segloc, read_poster<posters::Localisation>("segloc.localisation", false), {}},
                       {locate, read_poster<posters::Localisation>("locate.localisation", false), {}}}},
-      gps_(fix_parameters_.gps ? &read_poster<posters::PositionFix>("rflex.gps") : nullptr),
+      gps_(fix_parameters_.gps ? &read_poster<world::Gps::Reading>("rflex.gps") : nullptr),
       position_(add_poster<posters::FusedPosition>("position", fusing_)) {
   fusing_.set_permanent([this] { fuse(); });
   add_control<posters::KnownPose>("SetPos",
@@ -72,7 +72,7 @@ void Pom::fuse() {
       fusion_->reset(source.date, {localisation.position.pose, localisation.position.covariance});
     }
   }
-  posters::PositionFix fix;
+  world::Gps::Reading fix;
   if (gps_ != nullptr && gps_->read(fix) == PosterStatus::ok && fix.number != fix_number_) {
     fix_number_ = fix.number;
     fusion_->add_fix(receiver, fix.date, fix_at(fix.position, fix_parameters_), fix_parameters_.gps_gate);

@@ -13,9 +13,9 @@
 
 #include "modules/genom/module.hpp"
 #include "modules/pom/position_fusion.hpp"
-#include "modules/posters/inertial.hpp"
 #include "modules/posters/navigation.hpp"
 #include "modules/posters/position.hpp"
+#include "world/sensors/types/gps.hpp"
 
 namespace waitpoint::pom {
 
@@ -51,7 +51,7 @@ class Pom : public genom::Module {
   genom::ExecutionTask& fusing_;
   genom::PosterLink<posters::Odometry>& odometry_;
   std::array<Source, 2> localisations_;
-  genom::PosterLink<posters::PositionFix>* gps_;  // null without a receiver
+  genom::PosterLink<world::Gps::Reading>* gps_;  // null without a receiver
   genom::OutputPoster<posters::FusedPosition>& position_;
   std::optional<PositionFusion> fusion_;  // since the first SetPos
   std::uint64_t fix_number_ = 0;          // number of the last fix used

@@ -4,12 +4,10 @@
 
 #include "core/fields.hpp"
 #include "modules/posters/position.hpp"
+#include "world/sensors/types/infrareds.hpp"
+#include "world/sensors/types/sonars.hpp"
 
 namespace waitpoint::posters {
-
-inline constexpr std::size_t sonar_count_max = 48;
-inline constexpr std::size_t infrared_count_max = 48;
-inline constexpr std::size_t bumper_count_max = 32;
 
 /// To the controller: speeds to hold until the next command. Bases without sideways motion (to the left) or climbing
 /// ignore these.
@@ -35,10 +33,10 @@ struct BaseReading {
   double v_m_s = 0, w_rad_s = 0;
   double battery_volts = 0;
   bool stalled = false;
-  Bounded<double, sonar_count_max> sonar_m;  ///< ring by ring; no echo: the greatest range; empty while off
-  std::int64_t side_units = 0;               ///< as travel, to the left; bases with sideways motion
-  double height_m = 0;                       ///< flying bases
-  double battery_charge = 0, battery_a = 0;  ///< remaining fraction; current; if the battery is simulated
+  Bounded<double, world::Sonars::count_max> sonar_m;  ///< ring by ring; no echo: the greatest range; empty while off
+  std::int64_t side_units = 0;                        ///< as travel, to the left; bases with sideways motion
+  double height_m = 0;                                ///< flying bases
+  double battery_charge = 0, battery_a = 0;           ///< remaining fraction; current; if the battery is simulated
 
   static void fields(auto field) {
     field("date", &BaseReading::date);
@@ -53,28 +51,6 @@ struct BaseReading {
     field("height_m", &BaseReading::height_m, added);
     field("battery_charge", &BaseReading::battery_charge, added);
     field("battery_a", &BaseReading::battery_a, added);
-  }
-};
-
-/// From the controller, and published by `rflex`: the pressed panels of the bumper, panel i in bit i.
-struct Bumpers {
-  Time date;
-  std::uint32_t pressed = 0;
-
-  static void fields(auto field) {
-    field("date", &Bumpers::date);
-    field("pressed", &Bumpers::pressed);
-  }
-};
-
-/// From the controller: the voltages of the infrared range finders.
-struct InfraredReading {
-  Time date;
-  Bounded<double, infrared_count_max> volts;
-
-  static void fields(auto field) {
-    field("date", &InfraredReading::date);
-    field("volts", &InfraredReading::volts);
   }
 };
 
@@ -124,7 +100,7 @@ struct SonarEcho {
 
 struct Sonars {
   Time date;
-  Bounded<SonarEcho, sonar_count_max> echoes;
+  Bounded<SonarEcho, world::Sonars::count_max> echoes;
 
   static void fields(auto field) {
     field("date", &Sonars::date);
@@ -134,7 +110,7 @@ struct Sonars {
 
 struct Infrareds {
   Time date;
-  Bounded<SonarEcho, infrared_count_max> echoes;
+  Bounded<SonarEcho, world::Infrareds::count_max> echoes;
 
   static void fields(auto field) {
     field("date", &Infrareds::date);

@@ -3,10 +3,10 @@
 #pragma once
 
 #include "core/fields.hpp"
+#include "world/sensors/types/lasers.hpp"
 
 namespace waitpoint::posters {
 
-inline constexpr std::size_t beam_count_max = 721;
 inline constexpr std::size_t segment_count_max = 64;
 
 /// To the device.
@@ -16,23 +16,8 @@ struct LaserCommand {
   static void fields(auto field) { field("on", &LaserCommand::on); }
 };
 
-/// From the device: one scan, counter-clockwise, in the device's own frame.
-struct LaserReading {
-  Time date;                 ///< of the scan's last beam
-  std::uint32_t number = 0;  ///< counts the scans, from 1
-  double first_angle_rad = 0, angle_step_rad = 0;
-  double range_max_m = 0;                  ///< the reading of a beam without echo
-  Bounded<float, beam_count_max> range_m;  ///< quantised by the device
-
-  static void fields(auto field) {
-    field("date", &LaserReading::date);
-    field("number", &LaserReading::number);
-    field("first_angle_rad", &LaserReading::first_angle_rad);
-    field("angle_step_rad", &LaserReading::angle_step_rad);
-    field("range_max_m", &LaserReading::range_max_m);
-    field("range_m", &LaserReading::range_m);
-  }
-};
+/// From the device: one scan.
+using LaserReading = world::Lasers::Reading;
 
 /// From `sick`: the last scan and the device's pose on the robot.
 struct Echoes {

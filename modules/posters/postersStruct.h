@@ -43,7 +43,7 @@ typedef struct SONARS {
   struct { uint32_t size; SONAR_ECHO items[48]; } echoes;
 } SONARS;
 
-/* inertial.hpp */
+/* world/sensors/types/imu.hpp, gps.hpp */
 typedef struct INERTIAL {
   DATE_NS date;
   uint64_t number;

@@ -27,7 +27,7 @@ posters::Sonars sonar_echoes(const posters::BaseReading& report, std::span<const
   return sonars;
 }
 
-posters::Infrareds infrared_echoes(const posters::InfraredReading& reading, const InfraredCalibration& of) {
+posters::Infrareds infrared_echoes(const world::Infrareds::Reading& reading, const InfraredCalibration& of) {
   posters::Infrareds infrareds;
   infrareds.date = reading.date;
   const std::uint32_t count = static_cast<std::uint32_t>(reading.volts.size());

@@ -36,6 +36,6 @@ struct InfraredCalibration {
 
 /// Echoes of sonars, ring by ring; readings beyond the rings' count are ignored.
 posters::Sonars sonar_echoes(const posters::BaseReading& report, std::span<const SonarRing> rings);
-posters::Infrareds infrared_echoes(const posters::InfraredReading& reading, const InfraredCalibration& calibration);
+posters::Infrareds infrared_echoes(const world::Infrareds::Reading& reading, const InfraredCalibration& calibration);
 
 }  // namespace waitpoint::rflex

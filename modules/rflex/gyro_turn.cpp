@@ -3,7 +3,7 @@
 
 namespace waitpoint::rflex {
 
-void GyroTurn::add(const posters::Inertial& sample) {
+void GyroTurn::add(const world::Imu::Reading& sample) {
   double turned_rad = corrected_.turned_rad;
   if (last_.number > 0)
     turned_rad += sample.turned_rad - last_.turned_rad - bias_rad_s_ * (sample.date - last_.date).seconds();

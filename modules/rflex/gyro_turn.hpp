@@ -5,16 +5,16 @@
 // density N determines the bias to N / sqrt(T).
 #pragma once
 
-#include "modules/posters/inertial.hpp"
+#include "world/sensors/types/imu.hpp"
 
 namespace waitpoint::rflex {
 
 class GyroTurn {
  public:
   /// Adds a sample; the first only initialises the gyro's angle.
-  void add(const posters::Inertial& sample);
+  void add(const world::Imu::Reading& sample);
   /// The last sample with the bias removed; `number` 0 before the first.
-  const posters::Inertial& corrected() const { return corrected_; }
+  const world::Imu::Reading& corrected() const { return corrected_; }
 
   /// The robot is at rest from now on, until end_calibration().
   void begin_calibration() { begun_ = corrected_; }
@@ -24,7 +24,7 @@ class GyroTurn {
 
  private:
   double bias_rad_s_ = 0;
-  posters::Inertial last_, corrected_, begun_;
+  world::Imu::Reading last_, corrected_, begun_;
 };
 
 }  // namespace waitpoint::rflex

@@ -39,18 +39,18 @@ Rflex::Rflex(genom::ModuleSetup& setup)
       motion_(add_task("motion", {.period_ms = 20ms, .delay_ms = {}, .cost_us = 100us})),
       reading_(read_poster<posters::BaseReading>("reading")),
       reference_(read_poster<posters::SpeedReference>(parameters_.speed_poster, false)),
-      bumper_reading_(read_poster<posters::Bumpers>("bumper_reading", false)),
-      infrared_reading_(read_poster<posters::InfraredReading>("infrared_reading", false)),
-      imu_reading_(read_poster<posters::Inertial>("imu_reading", parameters_.gyro_turns)),
-      gps_reading_(read_poster<posters::PositionFix>("gps_reading", false)),
+      bumper_reading_(read_poster<world::Bumpers::Reading>("bumper_reading", false)),
+      infrared_reading_(read_poster<world::Infrareds::Reading>("infrared_reading", false)),
+      imu_reading_(read_poster<world::Imu::Reading>("imu_reading", parameters_.gyro_turns)),
+      gps_reading_(read_poster<world::Gps::Reading>("gps_reading", false)),
       command_poster_(add_poster<posters::BaseCommand>("command", motion_, &command_)),
       odometry_(add_poster<posters::Odometry>("odometry", motion_)),
       battery_poster_(add_poster<posters::Battery>("battery", motion_)),
       sonars_(add_poster<posters::Sonars>("sonars", motion_)),
-      bumpers_poster_(add_poster<posters::Bumpers>("bumpers", motion_)),
+      bumpers_poster_(add_poster<world::Bumpers::Reading>("bumpers", motion_)),
       infrareds_poster_(add_poster<posters::Infrareds>("infrareds", motion_)),
-      imu_poster_(add_poster<posters::Inertial>("imu", motion_)),
-      gps_poster_(add_poster<posters::PositionFix>("gps", motion_)) {
+      imu_poster_(add_poster<world::Imu::Reading>("imu", motion_)),
+      gps_poster_(add_poster<world::Gps::Reading>("gps", motion_)) {
   motion_.set_permanent([this] {
     take_motion_sensors();
     take_report();
@@ -67,10 +67,10 @@ Rflex::Rflex(genom::ModuleSetup& setup)
     return genom::ok;
   });
   add_switches();
-  add_activity<Nothing, posters::Bumpers>("MonitorBumpers", motion_, {.exec = [this](auto& activity) {
-                                            activity.output = bumpers_;
-                                            return bumpers_.pressed != 0 ? State::ether : State::exec;
-                                          }});
+  add_activity<Nothing, world::Bumpers::Reading>("MonitorBumpers", motion_, {.exec = [this](auto& activity) {
+                                                   activity.output = bumpers_;
+                                                   return bumpers_.pressed != 0 ? State::ether : State::exec;
+                                                 }});
   add_calibration();
 }
 
@@ -183,25 +183,25 @@ void Rflex::show_sonars(const posters::BaseReading& report) {
 }
 
 void Rflex::take_bumpers() {
-  posters::Bumpers reading;
+  world::Bumpers::Reading reading;
   if (bumper_reading_.read(reading) == genom::PosterStatus::empty) return;
   bumpers_ = reading;
   bumpers_poster_.write(bumpers_);
 }
 
 void Rflex::take_infrareds() {
-  posters::InfraredReading reading;
+  world::Infrareds::Reading reading;
   if (!infrared_on_ || infrared_reading_.read(reading) == genom::PosterStatus::empty) return;
   infrareds_poster_.write(infrared_echoes(reading, parameters_.infrared));
 }
 
 void Rflex::take_motion_sensors() {
-  posters::Inertial sample;
+  world::Imu::Reading sample;
   if (imu_reading_.read(sample) != genom::PosterStatus::empty && sample.number != gyro_.corrected().number) {
     gyro_.add(sample);
     imu_poster_.write(gyro_.corrected());
   }
-  posters::PositionFix fix;
+  world::Gps::Reading fix;
   if (gps_reading_.read(fix) != genom::PosterStatus::empty && fix.number != fix_number_) {
     fix_number_ = fix.number;
     gps_poster_.write(fix);

@@ -18,11 +18,12 @@
 
 #include "modules/genom/module.hpp"
 #include "modules/posters/base.hpp"
-#include "modules/posters/inertial.hpp"
 #include "modules/posters/navigation.hpp"
 #include "modules/rflex/dead_reckoning.hpp"
 #include "modules/rflex/echoes.hpp"
 #include "modules/rflex/gyro_turn.hpp"
+#include "world/sensors/types/bumpers.hpp"
+#include "world/sensors/types/gps.hpp"
 
 namespace waitpoint::rflex {
 
@@ -94,22 +95,22 @@ class Rflex : public genom::Module {
   genom::ExecutionTask& motion_;
   genom::PosterLink<posters::BaseReading>& reading_;
   genom::PosterLink<posters::SpeedReference>& reference_;
-  genom::PosterLink<posters::Bumpers>& bumper_reading_;
-  genom::PosterLink<posters::InfraredReading>& infrared_reading_;
-  genom::PosterLink<posters::Inertial>& imu_reading_;
-  genom::PosterLink<posters::PositionFix>& gps_reading_;
+  genom::PosterLink<world::Bumpers::Reading>& bumper_reading_;
+  genom::PosterLink<world::Infrareds::Reading>& infrared_reading_;
+  genom::PosterLink<world::Imu::Reading>& imu_reading_;
+  genom::PosterLink<world::Gps::Reading>& gps_reading_;
   posters::BaseCommand command_;
   genom::OutputPoster<posters::BaseCommand>& command_poster_;
   genom::OutputPoster<posters::Odometry>& odometry_;
   genom::OutputPoster<posters::Battery>& battery_poster_;
   genom::OutputPoster<posters::Sonars>& sonars_;
-  genom::OutputPoster<posters::Bumpers>& bumpers_poster_;
+  genom::OutputPoster<world::Bumpers::Reading>& bumpers_poster_;
   genom::OutputPoster<posters::Infrareds>& infrareds_poster_;
-  genom::OutputPoster<posters::Inertial>& imu_poster_;
-  genom::OutputPoster<posters::PositionFix>& gps_poster_;
+  genom::OutputPoster<world::Imu::Reading>& imu_poster_;
+  genom::OutputPoster<world::Gps::Reading>& gps_poster_;
   std::optional<posters::Odometry> shown_;  // value of the odometry poster
   posters::Battery battery_;
-  posters::Bumpers bumpers_;
+  world::Bumpers::Reading bumpers_;
   bool infrared_on_ = false;
   GyroTurn gyro_;
   std::uint64_t fix_number_ = 0;

@@ -10,7 +10,8 @@ namespace waitpoint::run {
 
 double plan_height_m(const world::WorldDescription& world) {
   for (const world::BodyDescription& body : world.bodies)
-    if (!body.lasers.empty()) return body.lasers.front().height_m + body.start_height_m;
+    if (!body.sensors<world::Lasers>().empty())
+      return body.sensors<world::Lasers>().front().height_m + body.start_height_m;
   if (world.bodies.empty()) return 0.5;
   const world::BodyDescription& first = world.bodies.front();
   return 0.5 * (first.shape.z_low_m + first.shape.z_high_m) + first.start_height_m;

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 
-#include "modules/posters/base.hpp"
 #include "modules/scenario/keys.hpp"
 #include "modules/scenario/robot_model.hpp"
 #include "modules/scenario/sensor_reader.hpp"
@@ -15,10 +14,6 @@ namespace {
 using namespace std::chrono_literals;
 
 using Kind = world::BaseDescription::Kind;
-
-constexpr NumberRange volts{0, 1e5, "a number of volts from 0 to 100000"};
-constexpr NumberRange electrical{0, 1e6, "a number from 0 to 1000000"};
-constexpr NumberRange battery_number{1e-6, 1e6, "a number from 0.000001 to 1000000"};
 
 bool has_two_sides(Kind kind) { return kind == Kind::differential || kind == Kind::skid_steer; }
 
@@ -88,48 +83,61 @@ void refuse_battery_of_base(const YamlMap& robot) {
       throw node->written.bad("expected either battery or the base's " + std::string(key));
 }
 
-world::BatteryDescription read_battery(const YamlNode& node) {
-  const YamlMap map(
-      node, "the battery",
-      {"volts_full", "volts_empty", "resistance_ohm", "resolution_v", "capacity_ah", "rated_h", "peukert", "charge",
-       "off_v", "idle_a", "drive_a_per_m_s", "turn_a_per_rad_s", "climb_a_per_m_s", "stalled_a"});
-  world::BatteryDescription battery;
-  map.read("volts_full", battery.volts_full, volts);
-  map.read("volts_empty", battery.volts_empty, volts);
-  if (battery.volts_empty > battery.volts_full) throw node.written.bad("expected volts_empty to be at most volts_full");
-  map.read("resistance_ohm", battery.resistance_ohm, electrical);
-  map.read("resolution_v", battery.resolution_v, ranges::resolution);
-  map.read("capacity_ah", battery.capacity_ah, battery_number);
-  map.read("rated_h", battery.rated_h, battery_number);
-  constexpr NumberRange exponent{1, 2, "a number from 1 to 2"};
-  map.read("peukert", battery.peukert, exponent);
-  constexpr NumberRange part{least_nonzero, 1, "a part above 0, at most 1"};
-  map.read("charge", battery.charge, part);
-  map.read("off_v", battery.off_v, volts);
-  map.read("idle_a", battery.idle_a, electrical);
-  map.read("drive_a_per_m_s", battery.drive_a_per_m_s, electrical);
-  map.read("turn_a_per_rad_s", battery.turn_a_per_rad_s, electrical);
-  map.read("climb_a_per_m_s", battery.climb_a_per_m_s, electrical);
-  map.read("stalled_a", battery.stalled_a, electrical);
-  return battery;
+template <class S>
+void read_sensors(const YamlNode& node, const YamlMap& robot, const std::optional<RobotModel>&, BodyReading& reading) {
+  static_assert(!world::HasSeveral<S>, "the reading of several sensors of a type needs a rule of its own");
+  if constexpr (std::is_same_v<S, world::Battery>) refuse_battery_of_base(robot);
+  reading.body.sensors<S>() = read_sensor<S>(node);
 }
 
-Json device_schema(SchemaDefinitions&) { return {{"type", "object"}}; }
-Json devices_schema(SchemaDefinitions&) { return list_schema({{"type", "object"}}); }
+template <>
+void read_sensors<world::Lasers>(const YamlNode& node, const YamlMap&, const std::optional<RobotModel>& model,
+                                 BodyReading& reading) {
+  reading.body.sensors<world::Lasers>().clear();
+  reading.laser_names.clear();
+  for (const YamlNode& item : read_list(node, "lasers")) {
+    LaserReading laser = read_laser(item);
+    if (std::count(reading.laser_names.begin(), reading.laser_names.end(), laser.name) > 0)
+      throw item.written.bad("there are two lasers called '" + laser.name + "'");
+    mount_at_frame(item, model, laser.laser);
+    reading.laser_names.push_back(std::move(laser.name));
+    reading.body.sensors<world::Lasers>().push_back(laser.laser);
+  }
+}
+
+template <>
+void read_sensors<world::Sonars>(const YamlNode& node, const YamlMap&, const std::optional<RobotModel>&,
+                                 BodyReading& reading) {
+  std::size_t count = 0;
+  for (const YamlNode& item : read_list(node, "sonars")) {
+    reading.body.sensors<world::Sonars>().push_back(read_sensor<world::Sonars>(item));
+    count += reading.body.sensors<world::Sonars>().back().count;
+  }
+  if (count > world::Sonars::count_max)
+    throw node.written.bad("expected " + std::to_string(world::Sonars::count_max) + " sonars at most, found " +
+                           std::to_string(count));
+}
+
+/// The row of a sensor in the table of a robot's keys.
+template <class S>
+KeyTable::Row sensor_row() {
+  const SchemaMaker one = map_of(sensor_keys<S>().table());
+  const auto several = [one](SchemaDefinitions& definitions) { return list_schema(one(definitions)); };
+  const std::string noun(S::noun);
+  if (world::HasSeveral<S>)
+    return {std::string(S::key), "a list, each element " + noun, Need::optional, several, nullptr};
+  return {std::string(S::key), noun, Need::optional, one, nullptr};
+}
 
 }  // namespace
 
 const KeyTable& device_keys() {
-  static const KeyTable keys =
-      KeyTable("devices")
-          .add("base", map_of(base_keys().table()), "motion, limits, battery, and the errors of its odometry")
-          .add("lasers", devices_schema, "a list of lasers")
-          .add("sonars", devices_schema, "a list of rings of sonars")
-          .add("bumpers", device_schema, "a ring of bumpers")
-          .add("infrareds", device_schema, "a ring of infrared range finders")
-          .add("imu", device_schema, "gyro and accelerometers")
-          .add("gps", device_schema, "a receiver of positions")
-          .add("battery", device_schema, "a battery pack and its loads");
+  static const KeyTable keys = [] {
+    KeyTable all = KeyTable("devices").add("base", map_of(base_keys().table()),
+                                           "motion, limits, battery, and the errors of its odometry");
+    world::Sensors::for_each([&]<class S>() { all.add_row(sensor_row<S>()); });
+    return all;
+  }();
   return keys;
 }
 
@@ -146,37 +154,9 @@ BodyReading read_body(const YamlMap& robot, const BodyReading* given) {
     reading.body.shape = read_body_shape(robot.require("shape"));
   if (model) reading.warnings = model->warnings;
   if (const YamlNode* base = robot.find("base")) reading.body.base = read_base(*base, reading.body.base);
-  if (const YamlNode* lasers = robot.find("lasers")) {
-    reading.body.lasers.clear();
-    reading.laser_names.clear();
-    for (const YamlNode& item : read_list(*lasers, "lasers")) {
-      LaserReading laser = read_laser(item);
-      if (std::count(reading.laser_names.begin(), reading.laser_names.end(), laser.name) > 0) {
-        throw item.written.bad("there are two lasers called '" + laser.name + "'");
-      }
-      mount_at_frame(item, model, laser.laser);
-      reading.laser_names.push_back(std::move(laser.name));
-      reading.body.lasers.push_back(laser.laser);
-    }
-  }
-  if (const YamlNode* sonars = robot.find("sonars")) {
-    std::size_t count = 0;
-    for (const YamlNode& item : read_list(*sonars, "sonars")) {
-      reading.body.sonars.push_back(read_sonar_ring(item));
-      count += reading.body.sonars.back().count;
-    }
-    if (count > posters::sonar_count_max)
-      throw sonars->written.bad("expected " + std::to_string(posters::sonar_count_max) + " sonars at most, found " +
-                                std::to_string(count));
-  }
-  if (const YamlNode* bumpers = robot.find("bumpers")) reading.body.bumpers = read_bumpers(*bumpers);
-  if (const YamlNode* infrareds = robot.find("infrareds")) reading.body.infrareds = read_infrareds(*infrareds);
-  if (const YamlNode* imu = robot.find("imu")) reading.body.imu = read_imu(*imu);
-  if (const YamlNode* gps = robot.find("gps")) reading.body.gps = read_gps(*gps);
-  if (const YamlNode* battery = robot.find("battery")) {
-    refuse_battery_of_base(robot);
-    reading.body.battery = read_battery(*battery);
-  }
+  world::Sensors::for_each([&]<class S>() {
+    if (const YamlNode* node = robot.find(S::key)) read_sensors<S>(*node, robot, model, reading);
+  });
   return reading;
 }
 

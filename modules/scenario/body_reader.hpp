@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A robot's body in a scenario: `shape` or `urdf`, `base` with its odometry errors, `battery`, `lasers`, `sonars`,
-// `bumpers`, `infrareds`, `imu`, `gps`. Keys are the field names of world/description.hpp, in degrees if the key says
-// so; defaults are those of the fields.
+// A robot's body in a scenario: `shape` or `urdf`, `base` with its odometry errors, and all sensors. Keys are the field
+// names of world/description.hpp, in degrees if the key says so; defaults are those of the fields.
 #pragma once
 
 #include <string>
@@ -17,7 +16,7 @@ const KeyTable& device_keys();
 
 struct BodyReading {
   world::BodyDescription body;           ///< without name and start
-  std::vector<std::string> laser_names;  ///< in the order of body.lasers; default "laser"
+  std::vector<std::string> laser_names;  ///< in the order of body.sensors<world::Lasers>(); default "laser"
   std::vector<std::string> warnings;     ///< of its URDF
 };
 

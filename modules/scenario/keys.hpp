@@ -11,7 +11,7 @@
 //   io::Medium medium;
 //   read_object(node, "the medium", medium_keys(), medium);
 //
-// A type with declared fields (core/fields.hpp) has its keys by them: keys_of<world::ImuDescription>().
+// A type with declared fields (core/fields.hpp) has its keys by them: keys_of<world::Imu::Description>().
 #pragma once
 
 #include <algorithm>

@@ -62,11 +62,11 @@ void check_used(const std::vector<Row>& rows, const MapFile& map) {
 
 /// Limits lasers to the number of beams that the posters hold.
 BodyReading as_devices(world::BodyDescription body, const world::RobotOrigin& origin, world::LeftOut& left_out) {
-  for (world::LaserDescription& laser : body.lasers) {
-    if (laser.beams <= posters::beam_count_max) continue;
-    const std::string most = std::to_string(posters::beam_count_max);
+  for (world::LaserDescription& laser : body.sensors<world::Lasers>()) {
+    if (laser.beams <= world::Lasers::count_max) continue;
+    const std::string most = std::to_string(world::Lasers::count_max);
     left_out.add(origin.file, origin.line, "a laser of more than " + most + " beams", "is taken with " + most);
-    laser.beams = posters::beam_count_max;
+    laser.beams = world::Lasers::count_max;
   }
   return {std::move(body), origin.laser_names, {}};
 }

@@ -286,7 +286,7 @@ RobotScenario read_robot_without_body(const YamlNode& node, const YamlNode* type
   const YamlMap own = map_of_robot(node);
   const YamlNode whole = own.has("type") ? laid_over(type_of(own, types), node) : node;
   BodyReading given;
-  given.body.lasers.emplace_back();
+  given.body.sensors<world::Lasers>().emplace_back();
   given.laser_names = {"laser"};
   RobotScenario robot = read_equipment(map_of_robot(whole), &given);
   robot.name = robot.body.name = read_name(own.require("name"), "the name of a robot");

@@ -182,7 +182,7 @@ struct PlayScenario {
 struct RobotScenario {
   std::string name;
   world::BodyDescription body;           ///< including the robot's name
-  std::vector<std::string> laser_names;  ///< in the order of body.lasers
+  std::vector<std::string> laser_names;  ///< in the order of body.sensors<world::Lasers>()
   std::vector<std::string> warnings;     ///< from its input files
   std::vector<Goal> goals;               ///< in the order of the round
   std::vector<ModuleScenario> modules;   ///< in starting order, including disabled ones

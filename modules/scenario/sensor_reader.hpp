@@ -1,14 +1,34 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A robot's sensors in a scenario. Keys are the field names of world/sensor_description.hpp, in degrees if the key says
-// so; defaults are those of the fields or of the `model`.
+// A robot's sensors in a scenario, by their declarations (world/sensors/types): keys are the declared fields, defaults
+// those of a description, or of the `model` of a laser.
 #pragma once
 
 #include <string>
 
-#include "modules/scenario/yaml_reader.hpp"
-#include "world/sensor_description.hpp"
+#include "modules/scenario/keys.hpp"
+#include "world/description.hpp"
 
 namespace waitpoint::scenario {
+
+/// The keys of a sensor of type S; of lasers and sonars with those that are not fields.
+template <class S>
+const Keys<typename S::Description>& sensor_keys() {
+  static const Keys<typename S::Description> keys = Keys<typename S::Description>(std::string(S::key)).add_fields();
+  return keys;
+}
+template <>
+const Keys<world::LaserDescription>& sensor_keys<world::Lasers>();
+template <>
+const Keys<world::SonarRingDescription>& sensor_keys<world::Sonars>();
+
+template <class S>
+typename S::Description read_sensor(const YamlNode& node) {
+  typename S::Description description;
+  read_object(node, std::string(S::noun), sensor_keys<S>(), description);
+  if constexpr (requires { S::contradiction(description); })
+    if (const auto contradiction = S::contradiction(description)) throw node.written.bad(*contradiction);
+  return description;
+}
 
 struct LaserReading {
   world::LaserDescription laser;
@@ -16,10 +36,5 @@ struct LaserReading {
 };
 
 LaserReading read_laser(const YamlNode& node);
-world::SonarRingDescription read_sonar_ring(const YamlNode& node);
-world::BumperDescription read_bumpers(const YamlNode& node);
-world::InfraredRingDescription read_infrareds(const YamlNode& node);
-world::ImuDescription read_imu(const YamlNode& node);
-world::PositionReceiverDescription read_gps(const YamlNode& node);
 
 }  // namespace waitpoint::scenario

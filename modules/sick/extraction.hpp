@@ -43,21 +43,21 @@ class Extraction {
   // Directions of the beams, kept while the device's settings do not change: robots of one type share them.
   std::uint32_t beams_ = 0;
   double first_angle_rad_ = 0, angle_step_rad_ = 0;
-  std::array<Point, posters::beam_count_max> direction_{};
+  std::array<Point, world::Lasers::count_max> direction_{};
 
   // The echoes of the present scan, in the device's frame.
   std::uint32_t echoes_ = 0;
-  std::array<Point, posters::beam_count_max> point_{};
-  std::array<double, posters::beam_count_max> range_m_{}, range_variance_{}, per_square_range_{};
-  std::array<std::uint32_t, posters::beam_count_max> beam_{};
+  std::array<Point, world::Lasers::count_max> point_{};
+  std::array<double, world::Lasers::count_max> range_m_{}, range_variance_{}, per_square_range_{};
+  std::array<std::uint32_t, world::Lasers::count_max> beam_{};
   /// Sums over the first i echoes: the line through any run has constant cost.
   struct Moments {
     double x = 0, y = 0, xx = 0, xy = 0, yy = 0;
   };
-  std::array<Moments, posters::beam_count_max + 1> sum_{};
+  std::array<Moments, world::Lasers::count_max + 1> sum_{};
 
   std::uint32_t runs_ = 0;
-  std::array<Run, posters::beam_count_max> run_{}, stack_{};
+  std::array<Run, world::Lasers::count_max> run_{}, stack_{};
 };
 
 }  // namespace waitpoint::sick

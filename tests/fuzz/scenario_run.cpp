@@ -64,7 +64,7 @@ bool is_small(const scenario::Scenario& scenario) {
   std::size_t beams = 0;
   for (const scenario::RobotScenario& robot : scenario.robots) {
     if (!robot.programs.empty()) return false;
-    for (const world::LaserDescription& laser : robot.body.lasers) beams += laser.beams;
+    for (const world::LaserDescription& laser : robot.body.sensors<world::Lasers>()) beams += laser.beams;
   }
   return has_small_floor(scenario) && scenario.robots.size() <= robots_max && beams <= beams_max;
 }

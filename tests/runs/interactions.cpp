@@ -37,7 +37,7 @@ Interactions::Interactions(run::Experiment& experiment) : experiment_(experiment
   for (const world::BodyDescription& description : experiment.world().description().bodies) {
     WAITPOINT_CHECK(description.shape.kind == world::Shape::Kind::cylinder, "a robot that is no cylinder");
     Body body{description.name, description.shape.radius_m, {}, {}, description.start.position()};
-    for (const world::LaserDescription& device : description.lasers) {
+    for (const world::LaserDescription& device : description.sensors<world::Lasers>()) {
       Eye eye{device, {}};
       for (std::uint32_t i = 0; i < device.beams; ++i) {
         const auto [s, c] = exact::sincos(device.field_of_view_rad * (i / (device.beams - 1.0) - 0.5));
@@ -120,13 +120,13 @@ bool Interactions::hides(const Obstacle& obstacle, Point origin, Point direction
 
 bool Interactions::hears(const Body& body, std::size_t number, const Body& other) const {
   const world::BodyDescription& description = experiment_.world().description().bodies[number];
-  if (description.sonars.empty()) return false;
+  if (description.sensors<world::Sonars>().empty()) return false;
   const auto* poster = dynamic_cast<const genom::Poster<posters::BaseCommand>*>(
       experiment_.robots().at(number)->names().find_poster("rflex.command"));
   const auto command = poster != nullptr ? poster->look() : std::nullopt;
   if (!command || !command->sonars_on) return false;
   double reach_m = 0;
-  for (const world::SonarRingDescription& ring : description.sonars)
+  for (const world::SonarRingDescription& ring : description.sensors<world::Sonars>())
     reach_m = std::max(reach_m, ring.ring_radius_m + ring.range_max_m);
   return length(body.now - other.now) < reach_m + other.radius_m + wider_m;
 }

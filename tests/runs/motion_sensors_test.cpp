@@ -83,12 +83,12 @@ TEST(MotionSensors, AreDescriptionsAndLinesOfTheTable) {
   const CirclingRun run(circling(both_rows, {"robot_types.rackham.imu={period_ms: 20}",
                                              "robot_types.rackham.gps={antenna_m: [-0.1, 0], bias_x_m: 1.5}"}),
                         10);
-  const posters::Inertial imu = run.shown<posters::Inertial>("rflex.imu");
+  const world::Imu::Reading imu = run.shown<world::Imu::Reading>("rflex.imu");
   EXPECT_NEAR(imu.turn_rad_s, turn_rad_s, 1e-9);
   EXPECT_NEAR(imu.left_m_s2, speed_m_s * turn_rad_s, 1e-9);
   EXPECT_GT(imu.number, 490u);
   EXPECT_GT(imu.date, Time() + Duration(std::chrono::milliseconds(9900)));
-  const posters::PositionFix fix = run.shown<posters::PositionFix>("rflex.gps");
+  const world::Gps::Reading fix = run.shown<world::Gps::Reading>("rflex.gps");
   EXPECT_GE(fix.number, 8u);
   EXPECT_GE(fix.date, Time() + Duration(std::chrono::seconds(8)));
   const double since_s = (Time() + Duration(std::chrono::seconds(10)) - fix.date).seconds();

@@ -75,7 +75,7 @@ TEST(Sonars, RingsInfraredAndBumperAreDescriptionsAndLinesOfTheTable) {
   run::Experiment experiment(scenario, types, {1, kernel::Order::fifo, ""});
   experiment.run_before(Time() + Duration(std::chrono::milliseconds(250)));
   const double to_the_wall_m = experiment.world().body(world::BodyId(0)).pose.y - 0.15;
-  EXPECT_EQ(shown<posters::Bumpers>(experiment, "rflex.bumpers").pressed, 0u);
+  EXPECT_EQ(shown<world::Bumpers::Reading>(experiment, "rflex.bumpers").pressed, 0u);
   const posters::Sonars sonars = shown<posters::Sonars>(experiment, "rflex.sonars");
   ASSERT_EQ(sonars.echoes.size(), 48u);
   EXPECT_NEAR(sonars.echoes[0].range_m, to_the_wall_m - 0.25, 0.05);
@@ -86,7 +86,7 @@ TEST(Sonars, RingsInfraredAndBumperAreDescriptionsAndLinesOfTheTable) {
   EXPECT_NEAR(infrareds.echoes[0].range_m, to_the_wall_m - 0.25, 0.05);
   EXPECT_GT(infrareds.echoes[12].range_m, 0.7) << "nothing behind";
   experiment.run_before(Time() + Duration(std::chrono::seconds(2)));
-  EXPECT_EQ(shown<posters::Bumpers>(experiment, "rflex.bumpers").pressed, 1u) << "it drove into the wall";
+  EXPECT_EQ(shown<world::Bumpers::Reading>(experiment, "rflex.bumpers").pressed, 1u) << "it drove into the wall";
 }
 
 }  // namespace

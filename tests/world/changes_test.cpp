@@ -16,7 +16,7 @@ WorldDescription two_and_a_wall() {
   description.obstacles.push_back({"wall", box({5, 0, 0}, 0.2, 10), true});
   description.bodies.push_back(nimble_body("robot", disc, {0, 0, 0}));
   description.bodies.push_back(nimble_body("other", disc, {0, 3, 0}));
-  description.bodies[0].lasers.push_back(perfect_laser(0.4));
+  description.bodies[0].sensors<Lasers>().push_back(perfect_laser(0.4));
   return description;
 }
 
@@ -91,7 +91,7 @@ TEST(WorldChanges, AResetBringsTheFirstObstaclesBack) {
 
 TEST(WorldChanges, SonarsHearTheCornerOfANewObstacle) {
   WorldDescription description = two_and_a_wall();
-  description.bodies[0].sonars.emplace_back();
+  description.bodies[0].sensors<Sonars>().emplace_back();
   const auto world = make_kinematic_world(description, 1);
   std::vector<double> range_m;
   world->sonar(robot, 0, 1, range_m);

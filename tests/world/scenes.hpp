@@ -114,6 +114,14 @@ inline std::vector<Shape> random_shapes(std::uint64_t seed, int count, double ha
   return shapes;
 }
 
+/// The sensor's last reading, or that of now.
+template <ReadAlone S>
+typename S::Reading reading(const World& world, BodyId id = BodyId(0), std::uint64_t number = 0) {
+  typename S::Reading reading;
+  world.read<S>(id, number, reading);
+  return reading;
+}
+
 /// A direction from `origin` that only just touches the outline: to a corner, or along a tangent.
 inline Point grazing_direction(const Outline& outline, Point origin, Draws& draw) {
   if (outline.is_box || outline.polygon != nullptr) {

@@ -173,7 +173,7 @@ TEST(World, ThreeAtOnce) {
 TEST(World, ABodyFarAwayChangesNothing) {
   const auto run = [](bool with_stranger) {
     WorldDescription description = wall_ahead();
-    description.bodies[0].lasers.push_back({});
+    description.bodies[0].sensors<Lasers>().push_back({});
     description.bodies[0].base.odometry.travel_noise_m_per_sqrt_m = 0.01;
     if (with_stranger) {
       description.bodies.insert(description.bodies.begin(), nimble_body("stranger", disc, {500, 0, 0}));
@@ -200,7 +200,7 @@ TEST(World, NeighboursAreSeenWhereTheyWereAStepAgo) {
   WorldDescription description;
   description.bodies.push_back(nimble_body("seer", disc, {0, 0, 0}));
   description.bodies.push_back(nimble_body("seen", box({0, 0, 0}, 1, 1), {3, 0, 0}));
-  description.bodies[0].lasers.push_back(perfect_laser(0.4));
+  description.bodies[0].sensors<Lasers>().push_back(perfect_laser(0.4));
   const auto world = make_kinematic_world(description, 1);
   LaserScan scan;
   const auto ahead = [&] {
@@ -227,8 +227,8 @@ TEST(World, NeighboursAreSeenWhereTheyWereAStepAgo) {
 
 TEST(World, ResetRunsTheSameAgainAndAnotherSeedDrawsOtherNoise) {
   WorldDescription description = wall_ahead();
-  description.bodies[0].lasers.push_back({});
-  description.bodies[0].sonars.push_back({});
+  description.bodies[0].sensors<Lasers>().push_back({});
+  description.bodies[0].sensors<Sonars>().push_back({});
   description.bodies[0].base.odometry.turn_noise_rad_per_sqrt_m = 0.02;
   const auto world = make_kinematic_world(description, 1);
   const auto run = [&] {
@@ -261,38 +261,32 @@ TEST(World, ResetRunsTheSameAgainAndAnotherSeedDrawsOtherNoise) {
 Digest noisy_readings(std::uint64_t seed, std::optional<std::uint64_t> other) {
   WorldDescription description = wall_ahead();
   BodyDescription& body = description.bodies[0];
-  body.lasers.emplace_back();
-  body.lasers[0].angle_noise_rad = 0.001;
-  body.lasers[0].dropout = 0.1;
-  body.sonars.push_back({});
-  body.infrareds.emplace();
-  body.imu.emplace();
-  for (InertialErrors* errors : {&body.imu->gyro, &body.imu->accelerometer})
+  body.sensors<Lasers>().emplace_back();
+  body.sensors<Lasers>()[0].angle_noise_rad = 0.001;
+  body.sensors<Lasers>()[0].dropout = 0.1;
+  body.sensors<Sonars>().push_back({});
+  SensorsReadAlone::for_each([&]<class S>() { body.sensors<S>().emplace(); });
+  for (InertialErrors* errors : {&body.sensors<Imu>()->gyro, &body.sensors<Imu>()->accelerometer})
     errors->noise_per_sqrt_hz = errors->walk_per_sqrt_s = 0.01;
-  body.gps.emplace();
-  body.gps->noise_m = 0.3;
-  body.gps->dropout = 0.2;
-  body.gps->period = std::chrono::milliseconds(50);
+  body.sensors<Gps>()->noise_m = 0.3;
+  body.sensors<Gps>()->dropout = 0.2;
+  body.sensors<Gps>()->period = std::chrono::milliseconds(50);
   body.base.odometry.turn_noise_rad_per_sqrt_m = body.base.odometry.wheel_noise_m_per_sqrt_m = 0.02;
   body.base.odometry.slips_per_m = 5;
   const auto world = make_kinematic_world(description, seed);
   if (other) world->reseed(*other);
   Digest digest;
   LaserScan scan;
-  std::vector<double> ranges, volts;
+  std::vector<double> ranges;
   for (std::uint64_t i = 0; i < 60; ++i) {
     world->command(BodyId(0), {2, 0.3});
     world->step();
     world->scan(BodyId(0), 0, i, scan);
     world->sonar(BodyId(0), 0, i, ranges);
-    world->infrareds(BodyId(0), i, volts);
-    for (const std::vector<double>* values : {&scan.range_m, &ranges, &volts})
+    for (const std::vector<double>* values : {&scan.range_m, &ranges})
       for (const double value : *values) digest.add(value);
+    SensorsReadAlone::for_each([&]<class S>() { add_value(digest, reading<S>(*world, BodyId(0), i)); });
     add_value(digest, world->odometer(BodyId(0)));
-    const ImuSample& imu = world->imu(BodyId(0));
-    for (const double value : {imu.turn_rad_s, imu.ahead_m_s2, imu.left_m_s2, imu.up_m_s2}) digest.add(value);
-    digest.add(world->position_fix(BodyId(0)).position.x);
-    digest.add(world->position_fix(BodyId(0)).number);
   }
   return digest;
 }

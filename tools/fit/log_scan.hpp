@@ -11,7 +11,7 @@ namespace waitpoint::tools {
 
 /// Which beams of a scan are used: every n-th.
 inline std::size_t beam_stride(std::size_t beams) {
-  return beams == 0 ? 1 : (beams + posters::beam_count_max - 1) / posters::beam_count_max;
+  return beams == 0 ? 1 : (beams + world::Lasers::count_max - 1) / world::Lasers::count_max;
 }
 
 /// Overwrites all but date and number.

@@ -8,6 +8,7 @@
 #include "modules/messages/poses.hpp"
 #include "tools/output/occupied_shapes.hpp"
 #include "tools/record/foxglove_messages.hpp"
+#include "tools/record/reading_message.hpp"
 
 namespace waitpoint::tools {
 using messages::stamp_of;
@@ -75,6 +76,18 @@ void FoxgloveRecording::write_position(const OfRobot& robot, const posters::Posi
 void FoxgloveRecording::write_scan(const OfRobot& robot, std::size_t laser, const std::string& frame,
                                    const posters::LaserReading& scan) {
   write(topics_[robot.number].scans[laser], now_, scan_of(scan, frame));
+}
+
+void FoxgloveRecording::write_readings(const OfRobot& robot, const NewReadings& readings) {
+  world::SensorsReadAlone::for_each([&]<class S>() {
+    const auto& reading = readings.of<S>();
+    if (!reading) return;
+    const auto [topic, is_new] = readings_.try_emplace("/" + robot.name + "/" + std::string(S::key));
+    if (is_new)
+      topic->second =
+          file_.add("waitpoint." + std::string(S::key), reading_schema<typename S::Reading>().dump(), topic->first);
+    file_.write(topic->second, now_, reading_json(*reading).dump());
+  });
 }
 
 void FoxgloveRecording::write_shown(const nodes::ShownMessage& message, const std::string& frame) {

@@ -6,6 +6,7 @@
 //   /world            the obstacles, again on every change
 //   /clock            the virtual time, after each step of the world, ten times a second
 //   /ROBOT/LASER      its scans, in the frame ROBOT/LASER
+//   /ROBOT/KEY        the readings of its sensor KEY (world/sensors/types), by their declared fields
 //   /ROBOT/odometry, /ROBOT/position, /ROBOT/truth    its poses
 //   /ROBOT/modules    requests to its modules and their outcomes, in words
 //   topics of nodes   paths and clouds as poses, grids as boxes
@@ -54,6 +55,7 @@ class FoxgloveRecording final : public ViewerRecording {
   void write_position(const OfRobot& robot, const posters::PositionEstimate& position) override;
   void write_scan(const OfRobot& robot, std::size_t laser, const std::string& frame,
                   const posters::LaserReading& scan) override;
+  void write_readings(const OfRobot& robot, const NewReadings& readings) override;
   void write_shown(const nodes::ShownMessage& message, const std::string& frame) override;
   void write_log(const OfRobot& robot, const ModuleLog::Line& line) override;
   void close(const bridge::RunResult& result) override;
@@ -67,6 +69,7 @@ class FoxgloveRecording final : public ViewerRecording {
   std::vector<Topics> topics_;  // by robot
   std::map<std::string, Channel<foxglove::SceneUpdate>> grids_;
   std::map<std::string, Channel<foxglove::PosesInFrame>> poses_;
+  std::map<std::string, McapFile::Topic> readings_;
   Time now_;
 };
 

@@ -9,29 +9,9 @@
 #include "modules/bridge/robot.hpp"
 #include "modules/posters/laser.hpp"
 #include "modules/posters/position.hpp"
+#include "tools/record/recorded_readings.hpp"
 
 namespace waitpoint::tools {
-
-/// One poster; if the robot does not have it, there are never new values.
-template <class Value>
-class NewValues {
- public:
-  NewValues(const genom::NameSpace& names, const std::string& poster)
-      : poster_(dynamic_cast<const genom::Poster<Value>*>(names.find_poster(poster))) {}
-
-  /// The value, if its date differs from that of the last one taken.
-  template <class DateOf>
-  std::optional<Value> take(DateOf date_of) {
-    std::optional<Value> value = poster_ != nullptr ? poster_->look() : std::nullopt;
-    if (!value || (taken_ && *taken_ == date_of(*value))) return std::nullopt;
-    taken_ = date_of(*value);
-    return value;
-  }
-
- private:
-  const genom::Poster<Value>* poster_;
-  std::optional<Time> taken_;
-};
 
 /// A laser that a module reads.
 struct RecordedLaser {
@@ -44,14 +24,16 @@ inline std::vector<RecordedLaser> recorded_lasers(const scenario::RobotScenario&
   for (const scenario::BridgeRow& row : robot.bridge)
     for (std::size_t i = 0; i < robot.laser_names.size(); ++i)
       if (row.device == robot.laser_names[i] + std::string(".reading"))
-        lasers.push_back({robot.laser_names[i], row.poster, robot.body.lasers[i]});
+        lasers.push_back({robot.laser_names[i], row.poster, robot.body.sensors<world::Lasers>()[i]});
   return lasers;
 }
 
 class RobotPosters {
  public:
   RobotPosters(const scenario::RobotScenario& scenario, const bridge::Robot& robot)
-      : odometry_(robot.names(), "rflex.odometry"), position_(robot.names(), "pom.position") {
+      : odometry_(robot.names(), "rflex.odometry"),
+        position_(robot.names(), "pom.position"),
+        readings_(scenario, robot.names()) {
     for (const RecordedLaser& laser : recorded_lasers(scenario)) lasers_.emplace_back(robot.names(), laser.poster);
   }
 
@@ -62,6 +44,7 @@ class RobotPosters {
       scans.push_back(laser.take([](const posters::LaserReading& reading) { return reading.date; }));
     return scans;
   }
+  NewReadings readings() { return readings_.take(); }
   std::optional<posters::Odometry> odometry() {
     return odometry_.take([](const posters::Odometry& odometry) { return odometry.position.date; });
   }
@@ -72,6 +55,7 @@ class RobotPosters {
  private:
   NewValues<posters::Odometry> odometry_;
   NewValues<posters::FusedPosition> position_;
+  ReadingPosters readings_;
   std::vector<NewValues<posters::LaserReading>> lasers_;
 };
 

@@ -10,6 +10,7 @@
 #include "modules/messages/tf2_msgs.hpp"
 #include "modules/messages/visualization_msgs.hpp"
 #include "modules/messages/wire.hpp"
+#include "tools/record/reading_message.hpp"
 
 namespace waitpoint::tools {
 namespace {
@@ -84,6 +85,18 @@ void RosBagRecording::write_position(const OfRobot& robot, const posters::Positi
 void RosBagRecording::write_scan(const OfRobot&, std::size_t, const std::string& frame,
                                  const posters::LaserReading& scan) {
   write("/" + frame, messages::message_of(scan, frame));
+}
+
+void RosBagRecording::write_readings(const OfRobot& robot, const NewReadings& readings) {
+  world::SensorsReadAlone::for_each([&]<class S>() {
+    const auto& reading = readings.of<S>();
+    if (!reading) return;
+    const std::string topic = "/" + robot.name + "/" + std::string(S::key);
+    if constexpr (requires { messages::message_of(*reading, robot.name); })
+      write(topic, messages::message_of(*reading, robot.name));
+    else
+      write(topic, reading_message(*reading, robot.name));
+  });
 }
 
 void RosBagRecording::write_shown(const nodes::ShownMessage& message, const std::string& frame) {

@@ -35,6 +35,7 @@ class RosBagRecording final : public ViewerRecording {
   void write_position(const OfRobot& robot, const posters::PositionEstimate& position) override;
   void write_scan(const OfRobot& robot, std::size_t laser, const std::string& frame,
                   const posters::LaserReading& scan) override;
+  void write_readings(const OfRobot& robot, const NewReadings& readings) override;
   void write_shown(const nodes::ShownMessage& message, const std::string& frame) override;
   void write_log(const OfRobot& robot, const ModuleLog::Line& line) override;
   void close(const bridge::RunResult& result) override;

@@ -14,6 +14,7 @@
 #include "modules/posters/laser.hpp"
 #include "modules/posters/position.hpp"
 #include "tools/record/module_log.hpp"
+#include "tools/record/recorded_readings.hpp"
 
 namespace waitpoint::tools {
 
@@ -25,6 +26,7 @@ struct RobotNews {
   std::optional<posters::Odometry> odometry{};
   std::optional<posters::PositionEstimate> position{};
   std::vector<std::optional<posters::LaserReading>> scans{};  ///< by laser, those that a module reads
+  NewReadings readings{};                                     ///< of the other sensors that a module reads
   std::vector<ModuleLog::Line> lines{};
 };
 
@@ -45,7 +47,7 @@ struct RobotLines {
 // Between the processes of a run (modules/run/ranks/archive.hpp).
 void carry(auto& archive, ModuleLog::Line& line) { archive(line.date, line.module, line.text, line.is_bad); }
 void carry(auto& archive, RobotNews& news) {
-  archive(news.robot, news.pose, news.height_m, news.odometry, news.position, news.scans, news.lines);
+  archive(news.robot, news.pose, news.height_m, news.odometry, news.position, news.scans, news.readings, news.lines);
 }
 void carry(auto& archive, RobotLines& lines) { archive(lines.robot, lines.lines); }
 

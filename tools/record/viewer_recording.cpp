@@ -42,6 +42,7 @@ void ViewerRecording::record_news(const OfRobot& robot, const RobotNews& news) {
     write_transform(news.scans[k]->date, believed, frame, laser.description.mount, laser.description.height_m);
     write_scan(robot, k, frame, *news.scans[k]);
   }
+  write_readings(robot, news.readings);
 }
 
 void ViewerRecording::record_lines(const OfRobot& robot, const RobotNews& news) {

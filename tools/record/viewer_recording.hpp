@@ -3,8 +3,9 @@
 //
 //   ten times a second  the virtual time; the obstacles, if changed; each robot's true pose (world -> ROBOT)
 //   at each new value   a robot's odometry, its estimated pose (world -> ROBOT/position), its laser scans
-//                       (in ROBOT/position -> ROBOT/LASER), requests to its modules and their outcomes; the topics of
-//                       its nodes of ROS that are shown, by their names, with `map` for the root frame
+//                       (in ROBOT/position -> ROBOT/LASER), the readings of its other sensors that a module reads,
+//                       requests to its modules and their outcomes; the topics of its nodes of ROS that are shown, by
+//                       their names, with `map` for the root frame
 #pragma once
 
 #include "tools/record/recording.hpp"
@@ -50,6 +51,8 @@ class ViewerRecording : public Recording {
   /// Of the robot's laser number `laser`, in that frame.
   virtual void write_scan(const OfRobot& robot, std::size_t laser, const std::string& frame,
                           const posters::LaserReading& scan) = 0;
+  /// The new readings of its other sensors.
+  virtual void write_readings(const OfRobot& robot, const NewReadings& readings) = 0;
   virtual void write_shown(const nodes::ShownMessage& message, const std::string& frame) = 0;
   virtual void write_log(const OfRobot& robot, const ModuleLog::Line& line) = 0;
   /// Called last.

@@ -45,8 +45,8 @@ class Bounds {
 
 Json lasers(const scenario::RobotScenario& robot) {
   Json list = Json::array();
-  for (std::size_t i = 0; i < robot.body.lasers.size(); ++i) {
-    const Pose& mount = robot.body.lasers[i].mount;
+  for (std::size_t i = 0; i < robot.body.sensors<world::Lasers>().size(); ++i) {
+    const Pose& mount = robot.body.sensors<world::Lasers>()[i].mount;
     list.push_back({{"name", i < robot.laser_names.size() ? robot.laser_names[i] : "laser"},
                     {"x", rounded(mount.x)},
                     {"y", rounded(mount.y)},
@@ -57,7 +57,7 @@ Json lasers(const scenario::RobotScenario& robot) {
 
 Json sonars(const scenario::RobotScenario& robot) {
   Json list = Json::array();
-  for (const world::SonarRingDescription& ring : robot.body.sonars)
+  for (const world::SonarRingDescription& ring : robot.body.sensors<world::Sonars>())
     for (std::uint32_t i = 0; i < ring.count; ++i) {
       const double heading = 2 * std::numbers::pi * i / ring.count;
       list.push_back({{"x", rounded(ring.ring_radius_m * std::cos(heading))},

@@ -15,9 +15,9 @@ std::vector<double> sliced_heights(const WorldDescription& description) {
   for (const BodyDescription& body : description.bodies) {
     // Aerial bodies would need a slice at every height.
     if (body.base.kind == BaseDescription::Kind::aerial) continue;
-    for (const LaserDescription& laser : body.lasers) heights.push_back(laser.height_m);
-    for (const SonarRingDescription& ring : body.sonars) heights.push_back(ring.height_m);
-    if (body.infrareds) heights.push_back(body.infrareds->height_m);
+    for (const LaserDescription& laser : body.sensors<Lasers>()) heights.push_back(laser.height_m);
+    for (const SonarRingDescription& ring : body.sensors<Sonars>()) heights.push_back(ring.height_m);
+    if (body.sensors<Infrareds>()) heights.push_back(body.sensors<Infrareds>()->height_m);
   }
   std::sort(heights.begin(), heights.end());
   heights.erase(std::unique(heights.begin(), heights.end()), heights.end());

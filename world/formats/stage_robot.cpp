@@ -110,7 +110,7 @@ void StageRobotReader::read_ranger(const StageThing& ranger, const StageFrame& f
   if (ranger.find(StageKey::size) != nullptr)
     body.shape.z_high_m = std::max(body.shape.z_high_m, frame.z_m + stage_size(ranger).z_m);
   const std::vector<LaserDescription> lasers = read_stage_ranger(ranger, frame, left_out_, thing_count_);
-  body.lasers.insert(body.lasers.end(), lasers.begin(), lasers.end());
+  body.sensors<Lasers>().insert(body.sensors<Lasers>().end(), lasers.begin(), lasers.end());
   name_lasers(ranger, lasers.size(), robot.origin);
 }
 

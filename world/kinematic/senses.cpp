@@ -5,8 +5,6 @@
 
 #include "core/error.hpp"
 #include "world/planar/separation.hpp"
-#include "world/sensors/bumper.hpp"
-#include "world/sensors/infrared.hpp"
 #include "world/sensors/laser_timing.hpp"
 
 namespace waitpoint::world {
@@ -17,11 +15,11 @@ constexpr double roam_m = 0.4;
 
 double longest_scan_s(const BodyDescription& body) {
   double longest_s = 0;
-  for (const LaserDescription& laser : body.lasers) longest_s = std::max(longest_s, scan_span_s(laser));
+  for (const LaserDescription& laser : body.sensors<Lasers>()) longest_s = std::max(longest_s, scan_span_s(laser));
   return longest_s;
 }
 
-bool has_sonars(const BodyDescription& body) { return !body.sonars.empty(); }
+bool has_sonars(const BodyDescription& body) { return !body.sensors<Sonars>().empty(); }
 
 /// The rays of one sensor of a body.
 class SensorRays final : public RayCaster {
@@ -58,22 +56,25 @@ std::vector<Shape> shapes_of(std::span<const BodyDescription> bodies) {
 }
 
 Senses::Devices::Devices(const BodyDescription& body, double step_s, std::uint64_t seed, LaserKinds& kinds)
-    : trail(longest_scan_s(body), step_s, body.start), infrared_noise(world::infrared_noise(seed, body.name)) {
-  lasers.reserve(body.lasers.size());
-  for (std::size_t i = 0; i < body.lasers.size(); ++i)
-    lasers.emplace_back(kinds.of(body.lasers[i]), seed, body.name, i);
+    : trail(longest_scan_s(body), step_s, body.start) {
+  lasers.reserve(body.sensors<Lasers>().size());
+  for (std::size_t i = 0; i < body.sensors<Lasers>().size(); ++i)
+    lasers.emplace_back(kinds.of(body.sensors<Lasers>()[i]), seed, body.name, i);
   looks_back = !std::all_of(lasers.begin(), lasers.end(), [](const Laser& laser) { return laser.plain(); });
-  for (std::size_t i = 0; i < body.sonars.size(); ++i) sonar_noise.push_back(world::sonar_noise(seed, body.name, i));
-  if (body.imu) imu = std::make_unique<Imu>(*body.imu, seed, body.name);
-  if (body.gps) gps = std::make_unique<PositionReceiver>(*body.gps, seed, body.name);
+  for (std::size_t i = 0; i < body.sensors<Sonars>().size(); ++i)
+    sonar_noise.push_back(world::sonar_noise(seed, body.name, i));
+  SensorsReadAlone::for_each([&]<class S>() {
+    if (const auto& description = body.sensors<S>())
+      std::get<OwnedModel<S>>(models) = std::make_unique<typename S::Model>(*description, seed, body.name);
+  });
 }
 
 void Senses::Devices::reseed(std::uint64_t seed, const std::string& body) {
   for (std::size_t i = 0; i < lasers.size(); ++i) lasers[i].reseed(seed, body, i);
   for (std::size_t i = 0; i < sonar_noise.size(); ++i) sonar_noise[i] = world::sonar_noise(seed, body, i);
-  infrared_noise = world::infrared_noise(seed, body);
-  if (imu) imu->reseed(seed, body);
-  if (gps) gps->reseed(seed, body);
+  SensorsReadAlone::for_each([&]<class S>() {
+    if (const auto& model = this->model<S>()) model->reseed(seed, body);
+  });
 }
 
 Senses::Senses(const WorldDescription& description, std::span<const Shape> standing, std::span<const Shape> movers)
@@ -104,25 +105,17 @@ void Senses::moved(std::uint32_t body, const Vehicle& vehicle, std::uint64_t ste
   Devices& devices = devices_[body];
   const BodyState& state = vehicle.state();
   if (devices.looks_back) devices.trail.add(state.arc);
-  const Duration now = description_.step * static_cast<std::int64_t>(step);
-  if (devices.imu) devices.imu->add(now, description_.step, state.arc, state.velocity);
-  if (devices.gps) devices.gps->add(now, description_.step, state.pose, state.height_m);
+  const StepDone done{description_.step * static_cast<std::int64_t>(step), description_.step};
+  SensorsReadAlone::for_each([&]<class S>() {
+    if constexpr (!ReadOnDemand<S>)
+      if (const auto& model = devices.model<S>()) model->moved(done, state);
+  });
 }
 
 void Senses::add_scan_to(WorkingSet& set, std::uint32_t body) const {
   const Devices& devices = devices_.at(body);
   set.add_between(&devices, &devices.trail);
   set.add(devices.lasers.data(), devices.lasers.size() * sizeof(Laser));
-}
-
-const ImuSample& Senses::imu(std::uint32_t own) const {
-  WAITPOINT_CHECK(devices_.at(own).imu != nullptr, "a body without an inertial measurement unit is asked for it");
-  return devices_[own].imu->sample();
-}
-
-const PositionFix& Senses::position_fix(std::uint32_t own) const {
-  WAITPOINT_CHECK(devices_.at(own).gps != nullptr, "a body without a receiver of positions is asked for it");
-  return devices_[own].gps->fix();
 }
 
 void Senses::put(std::uint32_t body, const Pose& pose) {
@@ -212,7 +205,7 @@ double Senses::cast(const Beam& beam, double range_max_m, std::optional<BodyId> 
 
 void Senses::sonar(const Vehicle& vehicle, std::uint32_t own, std::size_t ring_number, std::uint64_t firing_number,
                    std::vector<double>& range_m) const {
-  const SonarRingDescription& ring = vehicle.description().sonars.at(ring_number);
+  const SonarRingDescription& ring = vehicle.description().sensors<Sonars>().at(ring_number);
   if (range_m.size() != ring.count) range_m.assign(ring.count, ring.range_max_m);
   distances_.resize(ring.count);
   sonar_echoes_.fire(vehicle, own, ring_number, firing_number, distances_);
@@ -223,41 +216,63 @@ void Senses::sonar(const Vehicle& vehicle, std::uint32_t own, std::size_t ring_n
   }
 }
 
-std::uint32_t Senses::bumpers(const Vehicle& vehicle, std::uint32_t own) const {
-  if (!vehicle.description().bumpers) return 0;
-  const BumperDescription& bumper = *vehicle.description().bumpers;
-  const Shape shape = vehicle.shape();
-  const Bounds reach = bounds_of(vehicle.outline()).grown(bumper.travel_m);
-  std::uint32_t pressed = 0;
-  const auto touch = [&](const Scene& scene) {
-    scene.near(reach, shape.z_low_m, shape.z_high_m, near_);
-    for (const std::uint32_t other : near_) {
-      if (&scene == &movers_ && other == own) continue;
-      pressed |=
-          pressed_panel(bumper, vehicle.state().pose.heading, separation(vehicle.outline(), scene.outline(other)));
+/// What the sensors of one body see.
+class Senses::OfBody final : public Surroundings {
+ public:
+  OfBody(const Senses& senses, const Vehicle& vehicle, std::uint32_t own)
+      : senses_(senses), vehicle_(vehicle), own_(own) {}
+
+  const BodyState& body() const override { return vehicle_.state(); }
+  double cast(const Beam& beam, double range_max_m) const override {
+    return senses_.cast(beam, range_max_m, BodyId(own_));
+  }
+  std::span<const Separation> near(double reach_m) const override;
+
+ private:
+  const Senses& senses_;
+  const Vehicle& vehicle_;
+  std::uint32_t own_;
+};
+
+std::span<const Separation> Senses::OfBody::near(double reach_m) const {
+  const Shape shape = vehicle_.shape();
+  const Bounds reach = bounds_of(vehicle_.outline()).grown(reach_m);
+  std::vector<std::uint32_t>& found = senses_.near_;
+  std::vector<Separation>& separations = senses_.separations_;
+  separations.clear();
+  const auto add = [&](const Scene& scene) {
+    scene.near(reach, shape.z_low_m, shape.z_high_m, found);
+    for (const std::uint32_t other : found) {
+      if (&scene == &senses_.movers_ && other == own_) continue;
+      separations.push_back(separation(vehicle_.outline(), scene.outline(other)));
     }
   };
-  touch(standing_);
-  touch(movers());
-  surfaces_.near(reach, shape.z_low_m, shape.z_high_m, near_);
-  for (const std::uint32_t number : near_)
-    pressed |= pressed_panel(bumper, vehicle.state().pose.heading,
-                             surfaces_.separation(vehicle.outline(), shape.z_low_m, shape.z_high_m, number));
-  return pressed;
+  add(senses_.standing_);
+  add(senses_.movers());
+  senses_.surfaces_.near(reach, shape.z_low_m, shape.z_high_m, found);
+  for (const std::uint32_t number : found)
+    separations.push_back(senses_.surfaces_.separation(vehicle_.outline(), shape.z_low_m, shape.z_high_m, number));
+  return separations;
 }
 
-void Senses::infrareds(const Vehicle& vehicle, std::uint32_t own, std::uint64_t reading_number,
-                       std::vector<double>& volts) const {
-  WAITPOINT_CHECK(vehicle.description().infrareds.has_value(),
-                  "a body without infrared range finders is asked for them");
-  const InfraredRingDescription& ring = *vehicle.description().infrareds;
-  volts.resize(ring.count);
-  for (std::uint32_t i = 0; i < ring.count; ++i) {
-    const Pose finder = compose(vehicle.state().pose, infrared_mount(ring, i));
-    const double height_m = ring.height_m + vehicle.state().height_m;
-    const double range_m = cast({finder.position(), finder.heading, height_m}, ring.range_max_m, BodyId(own));
-    volts[i] = infrared_v(ring, range_m, devices_[own].infrared_noise.normal(reading_number, i));
-  }
+bool Senses::read(const Vehicle& vehicle, std::uint32_t own, std::uint64_t number, const AnyReadingOut& out) const {
+  return std::visit(
+      [&]<class S>(const ReadingOut<S>& of) {
+        const auto& model = devices_.at(own).model<S>();
+        WAITPOINT_CHECK(model != nullptr, "a body is asked for a sensor that it does not have");
+        typename S::Reading& reading = *of.reading;
+        if constexpr (ReadOnDemand<S>) {
+          model->read(OfBody(*this, vehicle, own), number, reading);
+          return true;
+        } else {
+          if (model->reading().number == reading.number) return false;
+          const Time date = reading.date;
+          reading = model->reading();
+          reading.date = date;
+          return true;
+        }
+      },
+      out);
 }
 
 }  // namespace waitpoint::world

@@ -17,9 +17,8 @@
 #include "world/kinematic/expected_scans.hpp"
 #include "world/kinematic/sonar_echoes.hpp"
 #include "world/sensors/arc_trail.hpp"
-#include "world/sensors/imu.hpp"
 #include "world/sensors/laser.hpp"
-#include "world/sensors/position_receiver.hpp"
+#include "world/sensors/models.hpp"
 #include "world/world.hpp"
 
 namespace waitpoint::world {
@@ -75,29 +74,32 @@ class Senses {
             LaserScan& out) const;
   void sonar(const Vehicle& vehicle, std::uint32_t own, std::size_t ring, std::uint64_t firing_number,
              std::vector<double>& range_m) const;
-  std::uint32_t bumpers(const Vehicle& vehicle, std::uint32_t own) const;
-  void infrareds(const Vehicle& vehicle, std::uint32_t own, std::uint64_t reading_number,
-                 std::vector<double>& volts) const;
+  bool read(const Vehicle& vehicle, std::uint32_t own, std::uint64_t number, const AnyReadingOut& out) const;
   double cast(const Beam& beam, double range_max_m, std::optional<BodyId> own) const;
-  const ImuSample& imu(std::uint32_t own) const;
-  const PositionFix& position_fix(std::uint32_t own) const;
 
  private:
   void make_scan(const Vehicle& vehicle, std::uint32_t own, std::size_t laser, std::uint64_t scan_number, double time_s,
                  LaserScan& out) const;
 
-  /// The devices of a body that have state.
+  class OfBody;
+
+  template <class S>
+  using OwnedModel = std::unique_ptr<typename S::Model>;
+
+  /// The models of a body's sensors.
   struct Devices {
     std::vector<Laser> lasers;
-    bool looks_back;                        // a laser measures beams at different times
-    std::unique_ptr<Imu> imu;               // null for a body without one
-    std::unique_ptr<PositionReceiver> gps;  // likewise
-    ArcTrail trail;                         // of the longest scan; kept only if looks_back
+    bool looks_back;                             // a laser measures beams at different times
+    SensorsReadAlone::Tuple<OwnedModel> models;  // null for a body without one
+    ArcTrail trail;                              // of the longest scan; kept only if looks_back
     std::vector<RandomStream> sonar_noise;
-    RandomStream infrared_noise;
 
     Devices(const BodyDescription& body, double step_s, std::uint64_t seed, LaserKinds& kinds);
     void reseed(std::uint64_t seed, const std::string& body);
+    template <class S>
+    const OwnedModel<S>& model() const {
+      return std::get<OwnedModel<S>>(models);
+    }
   };
 
   const WorldDescription& description_;
@@ -110,6 +112,7 @@ class Senses {
 
   // Scratch space of one call, kept so that readings allocate nothing.
   mutable std::vector<std::uint32_t> near_;
+  mutable std::vector<Separation> separations_;
   mutable std::vector<double> distances_;
   std::vector<std::uint32_t> in_turn_;
 };

@@ -53,7 +53,7 @@ void SonarEchoes::collect_surroundings(Point at, double height_m, std::uint32_t 
 
 void SonarEchoes::fire(const Vehicle& body, std::uint32_t own, std::size_t ring_number, std::uint64_t firing,
                        std::span<double> distances_m) const {
-  const std::vector<SonarRingDescription>& rings = body.description().sonars;
+  const std::vector<SonarRingDescription>& rings = body.description().sensors<Sonars>();
   const SonarRingDescription& ring = rings.at(ring_number);
   const Pose& pose = body.state().pose;
   const double height_m = ring.height_m + body.state().height_m;

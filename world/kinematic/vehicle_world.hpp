@@ -23,8 +23,6 @@ class VehicleWorld : public World {
   const BodyState& body(BodyId id) const final { return vehicles_.at(index(id)).state(); }
   const OdometerReading& odometer(BodyId id) const final { return vehicles_.at(index(id)).odometer(); }
   BatteryState battery(BodyId id) const final { return vehicles_.at(index(id)).battery(elapsed_s()); }
-  const ImuSample& imu(BodyId id) const final { return senses_.imu(number(id)); }
-  const PositionFix& position_fix(BodyId id) const final { return senses_.position_fix(number(id)); }
 
   void scan(BodyId id, std::size_t laser, std::uint64_t scan_number, LaserScan& out) const final {
     senses_.scan(vehicles_.at(index(id)), number(id), laser, scan_number, elapsed_s(), out);
@@ -34,10 +32,6 @@ class VehicleWorld : public World {
   }
   void sonar(BodyId id, std::size_t ring, std::uint64_t firing_number, std::vector<double>& range_m) const final {
     senses_.sonar(vehicles_.at(index(id)), number(id), ring, firing_number, range_m);
-  }
-  std::uint32_t bumpers(BodyId id) const final { return senses_.bumpers(vehicles_.at(index(id)), number(id)); }
-  void infrareds(BodyId id, std::uint64_t reading_number, std::vector<double>& volts) const final {
-    senses_.infrareds(vehicles_.at(index(id)), number(id), reading_number, volts);
   }
   void add_to(WorkingSet& set, BodyId id) const final { vehicles_.at(index(id)).add_to(set); }
   void add_scan_to(WorkingSet& set, BodyId id) const final { senses_.add_scan_to(set, number(id)); }
@@ -62,6 +56,11 @@ class VehicleWorld : public World {
   std::uint64_t steps_ = 0;
   std::vector<Vehicle> vehicles_;
   Senses senses_;  // with the bodies as published at the last step but one, at the beginning of the last step
+
+ private:
+  bool read_any(BodyId id, std::uint64_t reading_number, const AnyReadingOut& out) const final {
+    return senses_.read(vehicles_.at(index(id)), number(id), reading_number, out);
+  }
 };
 
 }  // namespace waitpoint::world

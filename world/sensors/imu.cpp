@@ -8,17 +8,18 @@
 
 namespace waitpoint::world {
 
-Imu::Axis::Draws::Draws(std::uint64_t seed, std::string_view robot, const std::string& name)
+Imu::Model::Axis::Draws::Draws(std::uint64_t seed, std::string_view robot, const std::string& name)
     : noise(seed, robot, name + ".noise"), walk(seed, robot, name + ".walk"), drift(seed, robot, name + ".drift") {}
 
-Imu::Axis::Axis(const InertialErrors& errors, std::uint64_t seed, std::string_view robot, const std::string& name)
+Imu::Model::Axis::Axis(const InertialErrors& errors, std::uint64_t seed, std::string_view robot,
+                       const std::string& name)
     : errors_(errors),
       name_(name),
       draws_(seed, robot, name),
       bias_(errors.bias * RandomStream(seed, robot, name + ".bias").normal(0)),
       wandered_(errors.drift * draws_.drift.normal(0)) {}
 
-double Imu::Axis::take(std::uint64_t number, double elapsed_s) {
+double Imu::Model::Axis::take(std::uint64_t number, double elapsed_s) {
   WAITPOINT_FAST_CHECK(elapsed_s > 0, "a sample is a mean over no time");
   const InertialErrors& e = errors_;
   const double root_s = std::sqrt(elapsed_s);
@@ -34,7 +35,7 @@ double Imu::Axis::take(std::uint64_t number, double elapsed_s) {
   return e.resolution > 0 ? std::nearbyint(reading / e.resolution) * e.resolution : reading;
 }
 
-Imu::Imu(const ImuDescription& description, std::uint64_t seed, std::string_view robot)
+Imu::Model::Model(const Description& description, std::uint64_t seed, std::string_view robot)
     : period_(description.period),
       gyro_(description.gyro, seed, robot, "imu.gyro"),
       ahead_(description.accelerometer, seed, robot, "imu.ahead"),
@@ -45,13 +46,16 @@ Imu::Imu(const ImuDescription& description, std::uint64_t seed, std::string_view
     WAITPOINT_CHECK(!(errors.drift > 0) || errors.drift_s > 0, "a drift has no positive correlation time");
 }
 
-void Imu::reseed(std::uint64_t seed, std::string_view robot) {
+void Imu::Model::reseed(std::uint64_t seed, std::string_view robot) {
   for (Axis* axis : {&gyro_, &ahead_, &left_, &up_}) axis->reseed(seed, robot);
 }
 
-void Imu::add(Duration now, Duration step, const Arc& arc, const Velocity& velocity) {
-  WAITPOINT_FAST_CHECK(step > Duration() && now >= step, "a step of an inertial unit begins before time 0");
-  const double step_s = step.seconds();
+void Imu::Model::moved(const StepDone& step, const BodyState& body) {
+  WAITPOINT_FAST_CHECK(step.length > Duration() && step.now >= step.length,
+                       "a step of an inertial unit begins before time 0");
+  const Arc& arc = body.arc;
+  const Velocity& velocity = body.velocity;
+  const double step_s = step.length.seconds();
   const double turn_rad_s = arc.turn_rad / step_s;
   gyro_.add(arc.turn_rad);
   // Velocities are in the body's frame, which rotates.
@@ -59,8 +63,8 @@ void Imu::add(Duration now, Duration step, const Arc& arc, const Velocity& veloc
   left_.add(velocity.side_m_s - velocity_.side_m_s + arc.distance_m * turn_rad_s);
   up_.add(velocity.climb_m_s - velocity_.climb_m_s + gravity_m_s2 * step_s);
   velocity_ = velocity;
-  summed_ += step;
-  if (now / period_ == (now - step) / period_) return;
+  summed_ += step.length;
+  if (step.now / period_ == (step.now - step.length) / period_) return;
   const double elapsed_s = summed_.seconds();
   summed_ = Duration();
   const std::uint64_t number = ++sample_.number;

@@ -24,25 +24,23 @@
 #include <string_view>
 
 #include "core/random.hpp"
-#include "world/arc.hpp"
-#include "world/sensor_description.hpp"
-#include "world/world.hpp"
+#include "world/sensors/surroundings.hpp"
+#include "world/sensors/types/imu.hpp"
 
 namespace waitpoint::world {
 
-class Imu {
+class Imu::Model {
  public:
   /// Draws from the streams (seed, robot, "imu.gyro.noise"), likewise ".bias", ".walk" and ".drift", and those of
   /// "imu.ahead", "imu.left" and "imu.up", at tick = number of the sample.
-  Imu(const ImuDescription& description, std::uint64_t seed, std::string_view robot);
+  Model(const Description& description, std::uint64_t seed, std::string_view robot);
 
   /// Draws from the streams of this seed from now on; the biases go on from where they are.
   void reseed(std::uint64_t seed, std::string_view robot);
 
-  /// Adds the body's motion in the step of length `step` that ends at `now` since the start: along `arc`, to
-  /// `velocity`. With a period shorter than the step there is one sample per step.
-  void add(Duration now, Duration step, const Arc& arc, const Velocity& velocity);
-  const ImuSample& sample() const { return sample_; }
+  /// Adds the body's motion in the step. With a period shorter than the step there is one sample per step.
+  void moved(const StepDone& step, const BodyState& body);
+  const Reading& reading() const { return sample_; }
 
  private:
   /// One axis: the integral of its quantity since the last sample, and its errors.
@@ -70,7 +68,7 @@ class Imu {
   Duration period_, summed_;
   Axis gyro_, ahead_, left_, up_;
   Velocity velocity_;  // at the end of the step before
-  ImuSample sample_;
+  Reading sample_;
 };
 
 }  // namespace waitpoint::world

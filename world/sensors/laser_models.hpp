@@ -12,7 +12,7 @@
 #include <optional>
 #include <string>
 
-#include "world/sensor_description.hpp"
+#include "world/sensors/types/lasers.hpp"
 
 namespace waitpoint::world {
 

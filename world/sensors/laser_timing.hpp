@@ -8,7 +8,7 @@
 // ranges (2), two bytes a range, status, checksum (2). At 38 400 bit/s, 361 beams take 191 ms.
 #pragma once
 
-#include "world/sensor_description.hpp"
+#include "world/sensors/types/lasers.hpp"
 
 namespace waitpoint::world {
 

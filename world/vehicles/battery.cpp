@@ -6,14 +6,14 @@
 
 namespace waitpoint::world {
 
-Battery::Battery(const BatteryDescription& description)
+BatteryPack::BatteryPack(const Battery::Description& description)
     : description_(description),
       drawn_ah_((1 - description.charge) * description.capacity_ah),
       current_a_(description.idle_a) {}
 
-void Battery::draw(Duration now, Duration step, const Velocity& velocity, bool stalled) {
+void BatteryPack::draw(Duration now, Duration step, const Velocity& velocity, bool stalled) {
   if (empty()) return;
-  const BatteryDescription& d = description_;
+  const Battery::Description& d = description_;
   current_a_ = d.idle_a + d.drive_a_per_m_s * exact::hypot(velocity.v_m_s, velocity.side_m_s) +
                d.turn_a_per_rad_s * std::fabs(velocity.w_rad_s) +
                d.climb_a_per_m_s * std::max(velocity.climb_m_s, 0.0) + (stalled ? d.stalled_a : 0);
@@ -26,14 +26,14 @@ void Battery::draw(Duration now, Duration step, const Velocity& velocity, bool s
   current_a_ = 0;
 }
 
-double Battery::volts() const {
-  const BatteryDescription& d = description_;
+double BatteryPack::volts() const {
+  const Battery::Description& d = description_;
   const double used = std::min(drawn_ah_ / d.capacity_ah, 1.0);
   return d.volts_full - (d.volts_full - d.volts_empty) * used - d.resistance_ohm * current_a_;
 }
 
-BatteryState Battery::state() const {
-  const BatteryDescription& d = description_;
+BatteryState BatteryPack::state() const {
+  const Battery::Description& d = description_;
   double told_v = volts();
   if (d.resolution_v > 0) told_v = std::nearbyint(told_v / d.resolution_v) * d.resolution_v;
   return {told_v, current_a_, std::max(1 - drawn_ah_ / d.capacity_ah, 0.0), empty_at_};

@@ -15,9 +15,9 @@
 
 namespace waitpoint::world {
 
-class Battery {
+class BatteryPack {
  public:
-  explicit Battery(const BatteryDescription& description);
+  explicit BatteryPack(const Battery::Description& description);
 
   /// Supplies a body of that velocity in the step of length `step` that ends at `now` since the start.
   void draw(Duration now, Duration step, const Velocity& velocity, bool stalled);
@@ -27,7 +27,7 @@ class Battery {
  private:
   double volts() const;
 
-  BatteryDescription description_;
+  Battery::Description description_;
   double drawn_ah_, current_a_;
   std::optional<Duration> empty_at_;
 };

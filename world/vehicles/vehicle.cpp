@@ -23,7 +23,7 @@ bool held(const Arc& tried, const Arc& came) {
 
 Vehicle::Vehicle(const BodyDescription& description, std::uint64_t seed)
     : description_(&description), odometer_(description.base, seed, description.name) {
-  if (description.battery) battery_.emplace(*description.battery);
+  if (description.sensors<Battery>()) battery_.emplace(*description.sensors<Battery>());
   state_.height_m = description.start_height_m;
   put(description.start);
 }

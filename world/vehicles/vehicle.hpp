@@ -73,7 +73,7 @@ class Vehicle {
   BaseMotion motion_;               // the start of the next step's motion
   Outline outline_;                 // at state_.pose
   Odometer odometer_;
-  std::optional<Battery> battery_;
+  std::optional<BatteryPack> battery_;
   std::optional<Guidance> guidance_;  // from outside
 };
 

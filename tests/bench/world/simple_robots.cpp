@@ -31,7 +31,7 @@ world::BodyDescription robot(const std::string& name, const Pose& start) {
   ranger.field_of_view_rad = 2 * exact::pi * 11 / 12;
   ranger.range_max_m = 2;
   ranger.range_noise_m = ranger.resolution_m = 0;
-  body.lasers = {ranger};
+  body.sensors<world::Lasers>() = {ranger};
   return body;
 }
 

@@ -19,8 +19,8 @@ world::Shape box(double length_m, double width_m, double ahead_m = 0) {
 scenario::RobotScenario robot_with_laser_at(const Pose& mount) {
   scenario::RobotScenario robot;
   robot.body.shape = box(0.42, 0.43);
-  robot.body.lasers.emplace_back();
-  robot.body.lasers.front().mount = mount;
+  robot.body.sensors<world::Lasers>().emplace_back();
+  robot.body.sensors<world::Lasers>().front().mount = mount;
   robot.laser_names = {"front"};
   robot.bridge.push_back({"sick.reading", "front.reading", {}, {}});
   return robot;

@@ -39,14 +39,14 @@ TEST(MessageOfReading, ACovarianceOfThePlaneIsInRossRows) {
 }
 
 TEST(MessageOfReading, AnInertialUnitHasNoOrientation) {
-  const sensor_msgs::Imu imu = message_of(posters::Inertial{date, 1, 0.5, 1, 2, 9.8, 0}, "base");
+  const sensor_msgs::Imu imu = message_of(world::Imu::Reading{date, 1, 0.5, 1, 2, 9.8, 0}, "base");
   EXPECT_EQ(imu.orientation_covariance[0], -1);
   EXPECT_EQ(imu.angular_velocity.z, 0.5);
   EXPECT_EQ(imu.linear_acceleration.z, 9.8);
 }
 
 TEST(MessageOfReading, AFixIsAPointInItsFrame) {
-  const geometry_msgs::PointStamped point = message_of(posters::PositionFix{date, 1, {2, 3}, 4}, "map");
+  const geometry_msgs::PointStamped point = message_of(world::Gps::Reading{date, 1, {2, 3}, 4}, "map");
   EXPECT_EQ(point.header.frame_id, "map");
   EXPECT_EQ(point.point.x, 2);
   EXPECT_EQ(point.point.z, 4);

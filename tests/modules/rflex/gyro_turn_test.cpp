@@ -20,7 +20,7 @@ class Gyro {
   }
 
  private:
-  posters::Inertial sample_;
+  world::Imu::Reading sample_;
 };
 
 TEST(GyroTurn, AddsUpWhatTheGyroTurnsFromItsFirstSampleOn) {

@@ -47,7 +47,7 @@ TEST(MonitorBumpers, EndsWithThePanelThatIsPressed) {
     genom::ModuleSetup setup{names, "rflex", genom::Settings()};
     Rflex rflex(setup);
     names.create_poster<posters::BaseReading>("rflex.reading", "the test");
-    auto& bumper = names.create_poster<posters::Bumpers>("rflex.bumper_reading", "the test");
+    auto& bumper = names.create_poster<world::Bumpers::Reading>("rflex.bumper_reading", "the test");
     rflex.connect();
     rflex.start();
     bumper.write({threads::now(), 0});
@@ -59,7 +59,7 @@ TEST(MonitorBumpers, EndsWithThePanelThatIsPressed) {
     const Time asked = threads::now();
     const genom::Reply reply = client.call("rflex", "MonitorBumpers", genom::Nothing());
     EXPECT_EQ(reply.report, genom::ok);
-    EXPECT_EQ(reply.output.as<posters::Bumpers>().pressed, 1u << 5);
+    EXPECT_EQ(reply.output.as<world::Bumpers::Reading>().pressed, 1u << 5);
     EXPECT_GE(threads::now() - asked, Duration(std::chrono::milliseconds(100)));
     wall.join();
     EXPECT_TRUE(client.end_module("rflex"));
@@ -73,7 +73,7 @@ TEST(CalibrateGyro, FailsWithoutAGyroAndWhereTheRobotMoves) {
     genom::ModuleSetup setup{names, "rflex", genom::Settings({{"gyro_calibration_ms", "200", "", 0}})};
     Rflex rflex(setup);
     auto& controller = names.create_poster<posters::BaseReading>("rflex.reading", "the test");
-    auto& imu = names.create_poster<posters::Inertial>("rflex.imu_reading", "the test");
+    auto& imu = names.create_poster<world::Imu::Reading>("rflex.imu_reading", "the test");
     rflex.connect();
     rflex.start();
     genom::Client client(names, "client");
@@ -83,7 +83,7 @@ TEST(CalibrateGyro, FailsWithoutAGyroAndWhereTheRobotMoves) {
     threads::thread devices([&] {
       const Time started = threads::now();
       for (std::uint64_t i = 1; !done; ++i) {
-        posters::Inertial sample;
+        world::Imu::Reading sample;
         sample.date = threads::now();
         sample.number = i;
         sample.turned_rad = 0.02 * (sample.date - started).seconds();

@@ -61,8 +61,8 @@ TEST_F(RobotsFromMap, AllOfThemAreOfTheTypeAndHaveOfTheFileWhatItLeavesOut) {
   EXPECT_EQ(first.body.base.kind, Kind::differential);
   EXPECT_EQ(first.body.base.v_max_m_s, 0.5);
   EXPECT_EQ(first.body.base.odometry.travel_scale, 1.01) << "keys of the type over the file's";
-  ASSERT_EQ(first.body.lasers.size(), 1u);
-  EXPECT_EQ(first.body.lasers[0].beams, 181u);
+  ASSERT_EQ(first.body.sensors<world::Lasers>().size(), 1u);
+  EXPECT_EQ(first.body.sensors<world::Lasers>()[0].beams, 181u);
   EXPECT_EQ(first.laser_names, std::vector<std::string>{"ranger_0"});
   ASSERT_EQ(first.modules.size(), 1u);
   EXPECT_EQ(first.bridge.size(), 2u);
@@ -80,8 +80,8 @@ TEST_F(RobotsFromMap, KeysOfTheTypeOverrideTheFile) {
   EXPECT_EQ(body.base.kind, Kind::synchro);
   EXPECT_EQ(body.base.v_max_m_s, 0.5) << "of the base only what is given";
   EXPECT_EQ(scenario.robots[0].laser_names, std::vector<std::string>{"eye"});
-  ASSERT_EQ(body.lasers.size(), 1u);
-  EXPECT_EQ(body.lasers[0].beams, 361u);
+  ASSERT_EQ(body.sensors<world::Lasers>().size(), 1u);
+  EXPECT_EQ(body.sensors<world::Lasers>()[0].beams, 361u);
 }
 
 TEST_F(RobotsFromMap, TheFirstRowOfItsNameOrAnyOfItsTypesIsARobots) {
@@ -112,8 +112,8 @@ TEST_F(RobotsFromMap, ALaserHasAsManyBeamsAsAModuleTakes) {
       "floor.world",
       "position( ranger( sensor( samples 1081 fov 270 ) ) )\nposition( ranger( sensor( samples 1081 fov 270 ) ) )\n");
   const Scenario scenario = read("robots_from_map: scout\n");
-  EXPECT_EQ(scenario.robots[0].body.lasers[0].beams, 721u);
-  EXPECT_NEAR(scenario.robots[0].body.lasers[0].field_of_view_rad, 1.5 * exact::pi, 1e-12);
+  EXPECT_EQ(scenario.robots[0].body.sensors<world::Lasers>()[0].beams, 721u);
+  EXPECT_NEAR(scenario.robots[0].body.sensors<world::Lasers>()[0].field_of_view_rad, 1.5 * exact::pi, 1e-12);
   EXPECT_EQ(scenario.warnings,
             std::vector<std::string>{(folder_.path() / "floor.world").string() +
                                      ":1: a laser of more than 721 beams is taken with 721 (2 times)"});

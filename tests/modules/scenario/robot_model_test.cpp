@@ -35,7 +35,7 @@ TEST_F(RobotModelOfAScenario, GivesShapeAndLaserMounts) {
   EXPECT_EQ(body.shape.kind, world::Shape::Kind::box);
   EXPECT_EQ(body.shape.length_m, 0.6);
   EXPECT_EQ(body.shape.z_low_m, 0);
-  const world::LaserDescription& laser = body.lasers.at(0);
+  const world::LaserDescription& laser = body.sensors<world::Lasers>().at(0);
   EXPECT_NEAR(laser.mount.x, 0.2, 1e-12);
   EXPECT_NEAR(laser.mount.heading, 0.5, 1e-12);
   EXPECT_NEAR(laser.height_m, 0.4, 1e-12);  // the body stands on the floor, not in it

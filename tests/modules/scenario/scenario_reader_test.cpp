@@ -68,9 +68,9 @@ TEST_F(ScenarioReader, RobotKeysOverrideTheType) {
   EXPECT_EQ(one.body.base.v_max_m_s, 0.7);
   EXPECT_EQ(one.body.base.odometry.travel_scale, 1.01);
   EXPECT_EQ(one.laser_names, std::vector<std::string>{"laser"});
-  EXPECT_EQ(one.body.lasers.at(0).beams, 181u);
-  EXPECT_EQ(one.body.lasers.at(0).mount.x, 0.1);
-  EXPECT_EQ(one.body.sonars.at(0).count, 24u);
+  EXPECT_EQ(one.body.sensors<world::Lasers>().at(0).beams, 181u);
+  EXPECT_EQ(one.body.sensors<world::Lasers>().at(0).mount.x, 0.1);
+  EXPECT_EQ(one.body.sensors<world::Sonars>().at(0).count, 24u);
   ASSERT_EQ(one.goals.size(), 2u);
   EXPECT_EQ(one.goals[0].position, (Point{3, 1}));
   EXPECT_EQ(one.goals[1].name, "shelf");

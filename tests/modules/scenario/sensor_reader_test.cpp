@@ -12,7 +12,7 @@ TEST(SensorReader, LmsHasDataSheetDefaults) {
   const auto laser_of = [&](const std::string& keys) {
     const TemporaryFolder folder;
     const auto file = folder.write("s.yaml", changed("beams: 181", keys));
-    return read_scenario(file).robots.at(0).body.lasers.at(0);
+    return read_scenario(file).robots.at(0).body.sensors<world::Lasers>().at(0);
   };
   const world::LaserDescription lms_200 = laser_of("model: lms200");
   EXPECT_EQ(lms_200.beams, 361u);
@@ -33,27 +33,27 @@ TEST(SensorReader, LmsHasDataSheetDefaults) {
 TEST(SensorReader, ImuGpsAndBatteryAreOffByDefault) {
   const TemporaryFolder folder;
   const world::BodyDescription none = read_scenario(folder.write("s.yaml", valid_scenario)).robots.at(0).body;
-  EXPECT_FALSE(none.imu || none.gps || none.battery);
+  EXPECT_FALSE(none.sensors<world::Imu>() || none.sensors<world::Gps>() || none.sensors<world::Battery>());
   const std::string keys =
       "    imu: {gyro_rad_s: {noise_per_sqrt_hz: 0.001, bias: 0.02}, accelerometer_m_s2: {max: 20}}\n"
       "    gps: {antenna_m: [0.1, -0.2], drift_m: 3, period_ms: 200}\n"
       "    battery: {capacity_ah: 12, peukert: 1.2, charge: 0.5}\n    sonars:";
   const auto file = folder.write("t.yaml", changed("    sonars:", keys));
   const world::BodyDescription body = read_scenario(file).robots.at(0).body;
-  EXPECT_EQ(body.imu->gyro.noise_per_sqrt_hz, 0.001);
-  EXPECT_EQ(body.imu->gyro.bias, 0.02);
-  EXPECT_EQ(body.imu->gyro.walk_per_sqrt_s, 0);
-  EXPECT_EQ(body.imu->accelerometer.bias, 0);
-  EXPECT_EQ(body.imu->accelerometer.max, 20);
-  EXPECT_EQ(body.imu->period, Duration(10ms));
-  EXPECT_EQ(body.gps->antenna, (Point{0.1, -0.2}));
-  EXPECT_EQ(body.gps->drift_m, 3);
-  EXPECT_EQ(body.gps->noise_m, 0);
-  EXPECT_EQ(body.gps->period, Duration(200ms));
-  EXPECT_EQ(body.battery->capacity_ah, 12);
-  EXPECT_EQ(body.battery->peukert, 1.2);
-  EXPECT_EQ(body.battery->charge, 0.5);
-  EXPECT_EQ(body.battery->off_v, 0);
+  EXPECT_EQ(body.sensors<world::Imu>()->gyro.noise_per_sqrt_hz, 0.001);
+  EXPECT_EQ(body.sensors<world::Imu>()->gyro.bias, 0.02);
+  EXPECT_EQ(body.sensors<world::Imu>()->gyro.walk_per_sqrt_s, 0);
+  EXPECT_EQ(body.sensors<world::Imu>()->accelerometer.bias, 0);
+  EXPECT_EQ(body.sensors<world::Imu>()->accelerometer.max, 20);
+  EXPECT_EQ(body.sensors<world::Imu>()->period, Duration(10ms));
+  EXPECT_EQ(body.sensors<world::Gps>()->antenna, (Point{0.1, -0.2}));
+  EXPECT_EQ(body.sensors<world::Gps>()->drift_m, 3);
+  EXPECT_EQ(body.sensors<world::Gps>()->noise_m, 0);
+  EXPECT_EQ(body.sensors<world::Gps>()->period, Duration(200ms));
+  EXPECT_EQ(body.sensors<world::Battery>()->capacity_ah, 12);
+  EXPECT_EQ(body.sensors<world::Battery>()->peukert, 1.2);
+  EXPECT_EQ(body.sensors<world::Battery>()->charge, 0.5);
+  EXPECT_EQ(body.sensors<world::Battery>()->off_v, 0);
 }
 
 class BadSensor : public ::testing::TestWithParam<BadCase> {};

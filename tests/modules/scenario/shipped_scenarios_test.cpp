@@ -53,7 +53,7 @@ TEST(ShippedScenario, OfficeHasOneRobotSixGoalsAndAnUnmappedCrate) {
   const Scenario scenario = shipped("office.yaml");
   ASSERT_EQ(scenario.robots.size(), 1u);
   EXPECT_GE(scenario.robots[0].goals.size(), 6u);
-  EXPECT_EQ(scenario.robots[0].body.lasers.at(0).beams, 361u);
+  EXPECT_EQ(scenario.robots[0].body.sensors<world::Lasers>().at(0).beams, 361u);
   std::size_t unknown = 0;
   for (const world::Obstacle& obstacle : scenario.shapes) unknown += obstacle.known ? 0 : 1;
   EXPECT_EQ(unknown, 1u);

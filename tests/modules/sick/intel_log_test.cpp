@@ -20,7 +20,7 @@ bool read_flaser(const char* line, posters::LaserReading& scan) {
   if (std::string_view(line).substr(0, 7) != "FLASER ") return false;
   char* at = nullptr;
   const auto beams = static_cast<std::uint32_t>(std::strtoul(line + 7, &at, 10));
-  if (beams < 2 || beams > posters::beam_count_max) return false;
+  if (beams < 2 || beams > world::Lasers::count_max) return false;
   scan.range_m.resize(beams);
   for (std::uint32_t i = 0; i < beams; ++i) scan.range_m[i] = std::strtof(at, &at);
   scan.angle_step_rad = exact::pi / 180;

@@ -115,7 +115,7 @@ void Room::scan(const Pose& pose, const LaserModel& laser, const RandomStream& n
                 std::span<const Disc> others, posters::LaserReading& reading) const {
   step_rad_ = laser.field_of_view_rad / (laser.beams - 1);
   first_rad_ = -0.5 * laser.field_of_view_rad;
-  std::array<double, posters::beam_count_max> all{};
+  std::array<double, world::Lasers::count_max> all{};
   const std::span<double> range_m(all.data(), laser.beams);
   std::fill(range_m.begin(), range_m.end(), laser.range_m_max);
   for (const Wall& wall : walls_) see_wall(pose, wall, range_m);

@@ -55,7 +55,7 @@ TEST_F(Driving, APrismIsHeldWhereItsNoseMeetsAWall) {
 
 TEST_F(Driving, IsHeldByAWallAndTheWheelsStand) {
   BodyDescription body = robot("r", {0, 0, 0});
-  body.bumpers.emplace();
+  body.sensors<Bumpers>().emplace();
   description_.bodies = {body};
   description_.obstacles = {wall({1.6, 0, 0}, 0.2, 4)};
   start();
@@ -64,7 +64,7 @@ TEST_F(Driving, IsHeldByAWallAndTheWheelsStand) {
   EXPECT_NEAR(this->body().pose.x, 1.25, 0.002);
   EXPECT_TRUE(this->body().stalled);
   EXPECT_EQ(this->body().collisions, 1u);
-  EXPECT_EQ(world_->bumpers(BodyId(0)), 1u) << "the panel in front";
+  EXPECT_EQ(reading<Bumpers>(*world_).pressed, 1u) << "the panel in front";
   const auto counted = world_->odometer(BodyId(0)).travel_units;
   EXPECT_NEAR(static_cast<double>(counted) / body.base.odometry.units_per_m, this->body().pose.x, 1e-4);
   run(5);
@@ -79,7 +79,7 @@ TEST_F(Driving, IsHeldByAWallAndTheWheelsStand) {
 
 TEST_F(Driving, PushesALightBoxAheadAndItsRangesAreThoseOfTheMovedBox) {
   BodyDescription body = robot("r", {0, 0, 0});
-  body.lasers.push_back(perfect_laser(0.3));
+  body.sensors<Lasers>().push_back(perfect_laser(0.3));
   BodyDescription watcher = robot("watcher", {6, 0, exact::pi});
   description_.bodies = {body, watcher};
   description_.obstacles = {loose_box("box", {1, 0, 0}, 5)};

@@ -12,8 +12,8 @@ class DynamicRepetition : public DynamicWorldTest {
   void crowd(int robots, double x_m) {
     for (int i = 0; i < robots; ++i) {
       BodyDescription body = robot(numbered("r", description_.bodies.size()), {x_m, 1.5 * i, 0.4});
-      body.sonars.emplace_back();
-      body.lasers.emplace_back();
+      body.sensors<Sonars>().emplace_back();
+      body.sensors<Lasers>().emplace_back();
       description_.bodies.push_back(body);
       description_.obstacles.push_back(
           loose_box(numbered("box", description_.obstacles.size()), {x_m + 1, 1.5 * i + 0.3, 0.1 * i}, 4 + i));

@@ -195,9 +195,9 @@ TEST(MeshWorld, BothEnginesAreOneToTheLastBit) {
   for (int i = 0; i < 6; ++i) {
     BodyDescription body = nimble_body(numbered("r", i), i % 2 == 0 ? cylinder({0, 0}, 0.2) : box({}, 0.5, 0.3),
                                        {draw(-9, 9), draw(-9, 9), 0});
-    body.lasers = {perfect_laser(0.4), perfect_laser(0.9)};
-    body.sonars.emplace_back();
-    body.bumpers.emplace();
+    body.sensors<Lasers>() = {perfect_laser(0.4), perfect_laser(0.9)};
+    body.sensors<Sonars>().emplace_back();
+    body.sensors<Bumpers>().emplace();
     description.bodies.push_back(body);
     while (!start_overlaps(description).empty()) description.bodies.back().start = {draw(-9, 9), draw(-9, 9), 0};
   }
@@ -216,7 +216,7 @@ TEST(MeshWorld, BothEnginesAreOneToTheLastBit) {
         slice->command(id, velocity);
       }
       ASSERT_EQ(fcl->body(id).pose, slice->body(id).pose) << step;
-      ASSERT_EQ(fcl->bumpers(id), slice->bumpers(id));
+      ASSERT_EQ(reading<Bumpers>(*fcl, id).pressed, reading<Bumpers>(*slice, id).pressed);
       if (step % 10 != 0) continue;
       for (std::size_t laser = 0; laser < 2; ++laser) {
         fcl->scan(id, laser, 1, a);

@@ -143,8 +143,8 @@ TEST(Stage, APositionIsARobotWithItsLasers) {
   EXPECT_EQ(one.base.v_max_m_s, 0.5);
   EXPECT_EQ(one.base.w_max_rad_s, degrees(90));
   EXPECT_EQ(one.base.v_acceleration_m_s2, 1);
-  ASSERT_EQ(one.lasers.size(), 1u);
-  const LaserDescription& laser = one.lasers[0];
+  ASSERT_EQ(one.sensors<Lasers>().size(), 1u);
+  const LaserDescription& laser = one.sensors<Lasers>()[0];
   EXPECT_NEAR(laser.mount.x, 0.05, 1e-12) << "the sensor is ahead of the laser, which looks back";
   EXPECT_NEAR(laser.height_m, 0.3, 1e-12);
   EXPECT_EQ(laser.beams, 181u);
@@ -157,14 +157,14 @@ TEST(Stage, APositionIsARobotWithItsLasers) {
 
 TEST(Stage, SensorsOfOneSampleAtOnePlaceAreOneLaser) {
   const std::string ring = "sensor( pose [0 0 0 0] ) sensor( pose [0 0 0 120] ) sensor( pose [0 0 0 240] )";
-  const LaserDescription fan = stage_world("position( ranger( " + ring + " ) )").bodies[0].lasers.at(0);
+  const LaserDescription fan = stage_world("position( ranger( " + ring + " ) )").bodies[0].sensors<Lasers>().at(0);
   EXPECT_EQ(fan.beams, 3u);
   EXPECT_NEAR(fan.field_of_view_rad, degrees(240), 1e-12);
   EXPECT_NEAR(fan.mount.heading, degrees(120), 1e-12);
   const auto lasers = [](const std::string& last) {
     return stage_world("position( ranger( sensor( ) sensor( pose [0 0 0 30] ) sensor( " + last + " ) ) )")
         .bodies[0]
-        .lasers;
+        .sensors<Lasers>();
   };
   EXPECT_EQ(lasers("pose [0 0 0 60]").size(), 1u);
   EXPECT_EQ(lasers("pose [0 0 0 70]").size(), 3u) << "not evenly spaced";
@@ -178,7 +178,7 @@ TEST(Stage, RangersAndLasersOfEarlierVersionsMeanTheSame) {
       "define sick laser( range_max 10 fov 90 samples 91 size [0.1 0.1 0.2] )\n"
       "define ring ranger( scount 2 spose[0] [0.1 0.2 90] spose[1] [0.1 -0.2 -90] sview [0 3 15] sview[1] [0 4 15] )\n"
       "position( sick( pose [0.05 0 0 180] ) ring() sonar( scount 1 spose[0] [0 0 0] ) laser() )\n");
-  const std::vector<LaserDescription>& lasers = read.bodies.at(0).lasers;
+  const std::vector<LaserDescription>& lasers = read.bodies.at(0).sensors<Lasers>();
   ASSERT_EQ(lasers.size(), 5u);
   EXPECT_EQ(lasers[0].beams, 91u);
   EXPECT_EQ(lasers[0].field_of_view_rad, degrees(90));
@@ -260,7 +260,7 @@ TEST(Stage, ARobotTellsWhereItStandsItsTypesAndItsRangersNames) {
   EXPECT_EQ(read.origins[1].types, (std::vector<std::string>{"red", "bot", "position"}));
   EXPECT_EQ(read.origins[1].laser_names,
             (std::vector<std::string>{"ranger_0", "rear", "ranger_2_0", "ranger_2_1", "rear_1"}));
-  ASSERT_EQ(read.bodies[1].lasers.size(), 5u);
+  ASSERT_EQ(read.bodies[1].sensors<Lasers>().size(), 5u);
 }
 
 TEST(Stage, ReportsEachIgnoredKindOnce) {
@@ -363,8 +363,8 @@ TEST_F(StageData, SimpleWorldIsRead) {
   ASSERT_EQ(world.bodies.size(), 2u);
   EXPECT_EQ(world.bodies[1].name, "r1");
   EXPECT_EQ(world.bodies[1].start, (Pose{-3.946, -6.947, degrees(45)}));
-  ASSERT_EQ(world.bodies[0].lasers.size(), 17u) << "16 sonars and the laser";
-  EXPECT_EQ(world.bodies[0].lasers[16].beams, 180u);
+  ASSERT_EQ(world.bodies[0].sensors<Lasers>().size(), 17u) << "16 sonars and the laser";
+  EXPECT_EQ(world.bodies[0].sensors<Lasers>()[16].beams, 180u);
   EXPECT_GT(world.obstacles.size(), 100u);
   EXPECT_TRUE(overlaps(world).empty());
 }
@@ -375,17 +375,17 @@ TEST_F(StageData, CaveWorldIsRead) {
   EXPECT_EQ(world.bodies[0].name, "redrob_0");
   EXPECT_EQ(world.bodies[0].start, (Pose{-5.285, 4.915, degrees(150.459)}));
   EXPECT_EQ(world.bodies[0].shape.length_m, 0.44);
-  EXPECT_EQ(world.bodies[0].lasers.back().beams, 180u);
-  EXPECT_EQ(world.bodies[0].lasers.back().range_max_m, 8);
+  EXPECT_EQ(world.bodies[0].sensors<Lasers>().back().beams, 180u);
+  EXPECT_EQ(world.bodies[0].sensors<Lasers>().back().range_max_m, 8);
   for (const StartOverlap& overlap : overlaps(world)) ADD_FAILURE() << overlap.body << " in " << overlap.other;
 }
 
 TEST_F(StageData, HospitalWorldIsRead) {
   const WorldFile world = read("benchmark/hospital.world");
   ASSERT_EQ(world.bodies.size(), 1000u);
-  ASSERT_EQ(world.bodies[999].lasers.size(), 1u);
-  EXPECT_EQ(world.bodies[999].lasers[0].beams, 12u);
-  EXPECT_NEAR(world.bodies[999].lasers[0].height_m, 0.05, 1e-12);
+  ASSERT_EQ(world.bodies[999].sensors<Lasers>().size(), 1u);
+  EXPECT_EQ(world.bodies[999].sensors<Lasers>()[0].beams, 12u);
+  EXPECT_NEAR(world.bodies[999].sensors<Lasers>()[0].height_m, 0.05, 1e-12);
   EXPECT_GT(world.obstacles.size(), 1000u);
   EXPECT_LT(world.warnings.size(), 40u);
 }

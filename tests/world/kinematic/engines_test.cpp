@@ -38,8 +38,8 @@ WorldDescription robots_among_shapes() {
       laser.spot_m = 0.01;
       laser.incidence_max_rad = 1.4;
     }
-    body.lasers.push_back(laser);
-    if (n % 2 == 0) body.sonars.emplace_back();
+    body.sensors<Lasers>().push_back(laser);
+    if (n % 2 == 0) body.sensors<Sonars>().emplace_back();
     description.bodies.push_back(body);
     if (!start_overlaps(description).empty()) description.bodies.pop_back();
   }
@@ -94,8 +94,8 @@ TEST(Engines, AgreeWhereThereIsNothing) {
   WorldDescription description;
   description.engine = Engine::slice;
   description.bodies.push_back(nimble_body("alone", cylinder({0, 0}, 0.3), {0, 0, 0}));
-  description.bodies[0].lasers.push_back(perfect_laser(0.4));
-  description.bodies[0].sonars.emplace_back();
+  description.bodies[0].sensors<Lasers>().push_back(perfect_laser(0.4));
+  description.bodies[0].sensors<Sonars>().emplace_back();
   const auto world = make_kinematic_world(description, 1);
   LaserScan scan;
   world->scan(BodyId(0), 0, 1, scan);

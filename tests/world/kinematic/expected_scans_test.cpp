@@ -27,7 +27,7 @@ WorldDescription crowd(Engine engine) {
       laser.height_m = i == 0 ? 0.4 : 0.6;
       laser.warm_up_bias_m = 0.1;
       if (n % 3 == 1) laser.mirror_turn = std::chrono::milliseconds(15);
-      body.lasers.push_back(laser);
+      body.sensors<Lasers>().push_back(laser);
     }
     description.bodies.push_back(body);
     if (!start_overlaps(description).empty()) description.bodies.pop_back();

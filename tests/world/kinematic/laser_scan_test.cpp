@@ -30,7 +30,7 @@ WorldDescription scanning_robots() {
     description.bodies.push_back(nimble_body(numbered("r", n), shape, start));
     LaserDescription laser = perfect_laser(n < 3 ? 0.4 : 0.6);
     laser.mount = {0.15, 0.05, 0.2};
-    description.bodies.back().lasers.push_back(laser);
+    description.bodies.back().sensors<Lasers>().push_back(laser);
     if (!start_overlaps(description).empty()) description.bodies.pop_back();
   }
   return description;
@@ -59,7 +59,7 @@ TEST(LaserScan, AgreesWithBruteForceOnAMillionBeams) {
     for (std::size_t i = 0; i < 5; ++i) world->command(BodyId(i), {draw(-40, 40), draw(-60, 60)});
     world->step();
     for (std::size_t i = 0; i < 5; ++i) {
-      const LaserDescription& laser = description.bodies[i].lasers[0];
+      const LaserDescription& laser = description.bodies[i].sensors<Lasers>()[0];
       world->scan(BodyId(i), 0, number, scan);
       const Pose device = compose(world->body(BodyId(i)).pose, laser.mount);
       const brute_force::Shapes shapes(seen_by(*world, i));

@@ -131,16 +131,16 @@ TEST(MeshWorld, ABodyCannotStartOrBePutWithinReachOfATriangle) {
 TEST(MeshWorld, SensorsSeeIt) {
   for (const Engine engine : {Engine::fcl, Engine::slice}) {
     BodyDescription body = disc({2.75 - 1e-4, 0, 0});
-    body.lasers = {perfect_laser(0.5)};
-    body.sonars.emplace_back();
-    body.sonars[0].range_noise_relative = 0;
-    body.bumpers.emplace();
+    body.sensors<Lasers>() = {perfect_laser(0.5)};
+    body.sensors<Sonars>().emplace_back();
+    body.sensors<Sonars>()[0].range_noise_relative = 0;
+    body.sensors<Bumpers>().emplace();
     WorldDescription description = world_of(box_mesh({3, -1, 0}, {4, 1, 2}), body);
     description.engine = engine;
     const auto world = make_kinematic_world(description, 1);
-    EXPECT_EQ(world->bumpers(only) & 1u, 1u);
+    EXPECT_EQ(reading<Bumpers>(*world, only).pressed & 1u, 1u);
     EXPECT_EQ(world->move_body(only, {1, 0, 0}), std::nullopt);
-    EXPECT_EQ(world->bumpers(only), 0u);
+    EXPECT_EQ(reading<Bumpers>(*world, only).pressed, 0u);
     LaserScan scan;
     world->scan(only, 0, 1, scan);
     EXPECT_NEAR(scan.range_m[180], 2, 1e-11);
@@ -149,7 +149,7 @@ TEST(MeshWorld, SensorsSeeIt) {
     std::vector<double> ranges;
     world->sonar(only, 0, 1, ranges);
     EXPECT_NEAR(ranges[0], 1.75, 1e-9);
-    EXPECT_EQ(ranges[6], body.sonars[0].range_max_m);
+    EXPECT_EQ(ranges[6], body.sensors<Sonars>()[0].range_max_m);
   }
 }
 

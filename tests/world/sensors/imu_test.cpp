@@ -18,20 +18,27 @@ const Duration step = std::chrono::milliseconds(10);
 /// Samples of a unit at rest, one a step.
 class Standing {
  public:
-  Standing(const ImuDescription& description, std::uint64_t seed) : imu_(description, seed, "robot") {}
-  const ImuSample& next() {
+  Standing(const Imu::Description& description, std::uint64_t seed) : imu_(description, seed, "robot") {}
+  const Imu::Reading& next() {
     now_ += step;
-    imu_.add(now_, step, Arc(), Velocity());
-    return imu_.sample();
+    imu_.moved({now_, step}, BodyState());
+    return imu_.reading();
   }
 
  private:
-  Imu imu_;
+  Imu::Model imu_;
   Duration now_;
 };
 
-ImuDescription with_gyro(const InertialErrors& errors) {
-  ImuDescription description;
+/// A body that has turned by that in a step.
+BodyState turned(double turn_rad) {
+  BodyState body;
+  body.arc.turn_rad = turn_rad;
+  return body;
+}
+
+Imu::Description with_gyro(const InertialErrors& errors) {
+  Imu::Description description;
   description.gyro = errors;
   description.period = step;
   return description;
@@ -47,18 +54,19 @@ TEST(Imu, MeasuresTurnAccelerationAndWhatACurveAndGravityTake) {
   WorldDescription description;
   description.bodies.push_back(nimble_body("robot", cylinder({0, 0}, 0.2), {0, 0, 0}));
   description.bodies[0].base.v_acceleration_m_s2 = 2;
-  description.bodies[0].imu = ImuDescription{};
+  description.bodies[0].sensors<Imu>() = Imu::Description{};
   const auto world = make_kinematic_world(description, 1);
-  EXPECT_EQ(world->imu(BodyId(0)).number, 0u);
+  EXPECT_EQ(reading<Imu>(*world).number, 0u);
   world->command(BodyId(0), {0.5, 0});
   world->step();
-  const ImuSample& sample = world->imu(BodyId(0));
+  Imu::Reading sample = reading<Imu>(*world);
   EXPECT_EQ(sample.number, 1u);
   EXPECT_NEAR(sample.ahead_m_s2, 2, 1e-9);
   EXPECT_NEAR(sample.up_m_s2, gravity_m_s2, 1e-9);
   for (int i = 0; i < 100; ++i) world->step();
   world->command(BodyId(0), {0.5, 0.8});
   for (int i = 0; i < 100; ++i) world->step();
+  sample = reading<Imu>(*world);
   EXPECT_NEAR(sample.turn_rad_s, 0.8, 1e-9);
   EXPECT_NEAR(sample.left_m_s2, 0.5 * 0.8, 1e-9);
   EXPECT_NEAR(sample.ahead_m_s2, 0, 1e-9);
@@ -66,24 +74,24 @@ TEST(Imu, MeasuresTurnAccelerationAndWhatACurveAndGravityTake) {
 }
 
 TEST(Imu, ASampleIsTheMeanOverItsPeriod) {
-  ImuDescription description;
+  Imu::Description description;
   description.period = 5 * step;
-  Imu imu(description, 1, "robot");
+  Imu::Model imu(description, 1, "robot");
   for (int i = 1; i <= 10; ++i) {
-    imu.add(i * step, step, {Pose(), 0, 0.001 * i}, Velocity());
-    EXPECT_EQ(imu.sample().number, static_cast<std::uint64_t>(i / 5));
+    imu.moved({i * step, step}, turned(0.001 * i));
+    EXPECT_EQ(imu.reading().number, static_cast<std::uint64_t>(i / 5));
   }
-  EXPECT_NEAR(imu.sample().turn_rad_s, 0.001 * (6 + 7 + 8 + 9 + 10) / 0.05, 1e-12);
-  EXPECT_NEAR(imu.sample().turned_rad, 0.055, 1e-12);
+  EXPECT_NEAR(imu.reading().turn_rad_s, 0.001 * (6 + 7 + 8 + 9 + 10) / 0.05, 1e-12);
+  EXPECT_NEAR(imu.reading().turned_rad, 0.055, 1e-12);
 }
 
 TEST(Imu, IsExactWithoutKeysAndScaledBoundedAndQuantisedWithThem) {
-  Standing exact_one(ImuDescription{}, 1);
+  Standing exact_one(Imu::Description{}, 1);
   for (int i = 0; i < 100; ++i) EXPECT_EQ(exact_one.next().turn_rad_s, 0);
   const auto reading = [](const InertialErrors& errors, double turn_rad_s) {
-    Imu imu(with_gyro(errors), 1, "robot");
-    imu.add(step, step, {Pose(), 0, turn_rad_s * step.seconds()}, Velocity());
-    return imu.sample().turn_rad_s;
+    Imu::Model imu(with_gyro(errors), 1, "robot");
+    imu.moved({step, step}, turned(turn_rad_s * step.seconds()));
+    return imu.reading().turn_rad_s;
   };
   EXPECT_NEAR(reading({.scale = 1.02}, 0.5), 0.51, 1e-12);
   EXPECT_EQ(reading({.max = 4}, -5), -4);
@@ -140,11 +148,11 @@ TEST(Imu, ALongRecordHasTheAllanVarianceOfItsErrors) {
 }
 
 TEST(Imu, AxesRobotsAndErrorsHaveStreamsOfTheirOwn) {
-  ImuDescription noisy;
+  Imu::Description noisy;
   noisy.gyro.noise_per_sqrt_hz = noisy.accelerometer.noise_per_sqrt_hz = 1;
   noisy.period = step;
   Standing one(noisy, 1);
-  const ImuSample sample = one.next();
+  const Imu::Reading sample = one.next();
   const std::vector<double> drawn = {sample.turn_rad_s, sample.ahead_m_s2, sample.left_m_s2,
                                      sample.up_m_s2 - gravity_m_s2};
   for (std::size_t i = 0; i < drawn.size(); ++i)

@@ -25,7 +25,7 @@ WorldDescription world_of(const std::vector<Shape>& shapes, const LaserDescripti
   for (const Shape& shape : shapes)
     description.obstacles.push_back({numbered("o", description.obstacles.size()), shape, true});
   description.bodies.push_back(nimble_body("robot", cylinder({0, 0}, 0.2), {0, 0, 0}));
-  description.bodies[0].lasers.push_back(laser);
+  description.bodies[0].sensors<Lasers>().push_back(laser);
   return description;
 }
 

@@ -74,7 +74,7 @@ struct Ride {
                                box({0, -7, 0}, 40, 1), cylinder({3, 2}, 0.5)})
       description.obstacles.push_back({numbered("o", description.obstacles.size()), shape, true});
     description.bodies.push_back(nimble_body("robot", cylinder({0, 0}, 0.2), {0.3, -0.2, 0.7}));
-    description.bodies[0].lasers.push_back(laser);
+    description.bodies[0].sensors<Lasers>().push_back(laser);
     world = make_kinematic_world(description, 1);
     world->command(BodyId(0), velocity);
     for (int i = 0; i < steps; ++i) world->step();

@@ -25,7 +25,7 @@ double range(const std::vector<Shape>& shapes, double heading, const SonarRingDe
     description.obstacles.push_back({numbered("o", description.obstacles.size()), shape, true});
   }
   description.bodies.push_back(nimble_body("robot", cylinder({0, 0}, 0.2), {0, 0, heading}));
-  description.bodies[0].sonars.push_back(ring);
+  description.bodies[0].sensors<Sonars>().push_back(ring);
   std::vector<double> ranges;
   make_kinematic_world(description, 1)->sonar(BodyId(0), 0, 1, ranges);
   return ranges.at(0);
@@ -91,7 +91,7 @@ TEST(Sonar, ARingLooksAroundCounterClockwise) {
   description.bodies.push_back(nimble_body("robot", cylinder({0, 0}, 0.2), {0, 0, 0}));
   SonarRingDescription ring;
   ring.range_noise_relative = 0;
-  description.bodies[0].sonars.push_back(ring);
+  description.bodies[0].sensors<Sonars>().push_back(ring);
   std::vector<double> ranges;
   make_kinematic_world(description, 1)->sonar(BodyId(0), 0, 1, ranges);
   ASSERT_EQ(ranges.size(), 24u);
@@ -113,7 +113,7 @@ std::unique_ptr<World> among_things(const std::vector<SonarRingDescription>& rin
   for (const Shape& shape : {cylinder({c, s}, 0.05), box({0, 2.5, 0}, 20, 1), box({-2, 0, 0.1}, 1, 9)})
     description.obstacles.push_back({numbered("o", description.obstacles.size()), shape, true});
   description.bodies.push_back(nimble_body("robot", cylinder({0, 0}, 0.2), {0, 0, 0}));
-  description.bodies[0].sonars = rings;
+  description.bodies[0].sensors<Sonars>() = rings;
   return make_kinematic_world(description, 1);
 }
 

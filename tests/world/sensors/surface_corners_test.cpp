@@ -26,7 +26,7 @@ std::vector<double> readings(WorldDescription description, const Pose& at, Engin
   ring.range_noise_relative = 0;
   ring.ring_radius_m = 0.1;
   ring.crosstalk = crosstalk;
-  body.sonars = {ring};
+  body.sensors<Sonars>() = {ring};
   description.engine = engine;
   description.bodies = {body};
   std::vector<double> ranges;
@@ -93,7 +93,7 @@ TEST(SurfaceCorners, AWallOfManyTrianglesHasEdgesAtItsEndsOnly) {
   ring.count = 1;
   ring.range_noise_relative = 0;
   ring.ring_radius_m = 0;
-  body.sonars = {ring};
+  body.sensors<Sonars>() = {ring};
   wall.bodies = {body};
   const auto world = make_kinematic_world(wall, 1);
   std::vector<double> ranges;

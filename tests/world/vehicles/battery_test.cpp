@@ -14,8 +14,8 @@ namespace {
 const Duration second = std::chrono::seconds(1);
 
 /// The time at which it is empty, drained at one velocity; at most a week.
-double emptied_after_s(const BatteryDescription& description, const Velocity& velocity = {}) {
-  Battery battery(description);
+double emptied_after_s(const Battery::Description& description, const Velocity& velocity = {}) {
+  BatteryPack battery(description);
   for (int s = 1; s <= 7 * 86400; ++s) {
     battery.draw(s * second, second, velocity, false);
     if (battery.empty()) return battery.state().empty_at->seconds();
@@ -26,7 +26,7 @@ double emptied_after_s(const BatteryDescription& description, const Velocity& ve
 TEST(Battery, AtAConstantCurrentIsEmptyWhenPeukertsLawSays) {
   for (const double peukert : {1.0, 1.15, 1.3}) {
     for (const double current_a : {1.0, 2.0, 10.0, 40.0}) {
-      const BatteryDescription battery = {.capacity_ah = 40, .rated_h = 20, .peukert = peukert, .idle_a = current_a};
+      const Battery::Description battery = {.capacity_ah = 40, .rated_h = 20, .peukert = peukert, .idle_a = current_a};
       const double hours = 20 * std::pow(40 / (current_a * 20), peukert);
       EXPECT_NEAR(emptied_after_s(battery), hours * 3600, 1.001) << current_a << " A, " << peukert;
     }
@@ -34,54 +34,54 @@ TEST(Battery, AtAConstantCurrentIsEmptyWhenPeukertsLawSays) {
 }
 
 TEST(Battery, MotionDrawsByItsKeys) {
-  const BatteryDescription battery = {.capacity_ah = 1,
-                                      .rated_h = 1,
-                                      .peukert = 1,
-                                      .idle_a = 1,
-                                      .drive_a_per_m_s = 4,
-                                      .turn_a_per_rad_s = 2,
-                                      .climb_a_per_m_s = 10};
+  const Battery::Description battery = {.capacity_ah = 1,
+                                        .rated_h = 1,
+                                        .peukert = 1,
+                                        .idle_a = 1,
+                                        .drive_a_per_m_s = 4,
+                                        .turn_a_per_rad_s = 2,
+                                        .climb_a_per_m_s = 10};
   EXPECT_NEAR(emptied_after_s(battery, {-0.5, 0.25}), 3600 / 3.5, 1);
   EXPECT_NEAR(emptied_after_s(battery, {.v_m_s = 0.3, .side_m_s = 0.4}), 3600 / 3.0, 1);
   EXPECT_NEAR(emptied_after_s(battery, {.climb_m_s = 0.2}), 3600 / 3.0, 1);
   EXPECT_NEAR(emptied_after_s(battery, {.climb_m_s = -0.2}), 3600, 1);
-  Battery pushing({.idle_a = 2, .stalled_a = 20});
+  BatteryPack pushing({.idle_a = 2, .stalled_a = 20});
   pushing.draw(second, second, {}, true);
   EXPECT_EQ(pushing.state().current_a, 22);
 }
 
 TEST(Battery, ItsVoltageFallsWithTheChargeAndSagsUnderLoad) {
-  Battery battery({.volts_full = 26,
-                   .volts_empty = 22,
-                   .resistance_ohm = 0.1,
-                   .capacity_ah = 10,
-                   .rated_h = 1,
-                   .peukert = 1,
-                   .charge = 0.75,
-                   .idle_a = 5,
-                   .drive_a_per_m_s = 10});
+  BatteryPack battery({.volts_full = 26,
+                       .volts_empty = 22,
+                       .resistance_ohm = 0.1,
+                       .capacity_ah = 10,
+                       .rated_h = 1,
+                       .peukert = 1,
+                       .charge = 0.75,
+                       .idle_a = 5,
+                       .drive_a_per_m_s = 10});
   EXPECT_NEAR(battery.state().volts, 25 - 0.5, 1e-12);
   for (int s = 1; s <= 1800; ++s) battery.draw(s * second, second, {}, false);
   EXPECT_NEAR(battery.state().charge, 0.5, 1e-9);
   EXPECT_NEAR(battery.state().volts, 24 - 0.5, 1e-9);
   battery.draw(1801 * second, second, {0.5, 0}, false);
   EXPECT_NEAR(battery.state().volts, 24 - 1.0, 0.002);
-  Battery coarse({.resolution_v = 0.5});
+  BatteryPack coarse({.resolution_v = 0.5});
   EXPECT_EQ(coarse.state().volts, 26);
 }
 
 TEST(Battery, UnderLoadGoesOffBeforeItIsDrained) {
   // 26 V - 4 V q - 0.1 Ohm * 10 A = 23 V where q = 1 / 2.
-  const BatteryDescription description = {.volts_full = 26,
-                                          .volts_empty = 22,
-                                          .resistance_ohm = 0.1,
-                                          .capacity_ah = 10,
-                                          .rated_h = 1,
-                                          .peukert = 1,
-                                          .off_v = 23,
-                                          .idle_a = 10};
+  const Battery::Description description = {.volts_full = 26,
+                                            .volts_empty = 22,
+                                            .resistance_ohm = 0.1,
+                                            .capacity_ah = 10,
+                                            .rated_h = 1,
+                                            .peukert = 1,
+                                            .off_v = 23,
+                                            .idle_a = 10};
   EXPECT_NEAR(emptied_after_s(description), 1800, 1.001);
-  Battery battery(description);
+  BatteryPack battery(description);
   for (int s = 1; s <= 2000; ++s) battery.draw(s * second, second, {}, false);
   EXPECT_TRUE(battery.empty()) << "although without load the voltage is above again";
   EXPECT_NEAR(battery.state().volts, 24, 0.01);
@@ -94,7 +94,8 @@ WorldDescription short_drive(BaseDescription::Kind kind) {
   BodyDescription body = nimble_body("robot", cylinder({0, 0}, 0.2), {0, 0, 0});
   body.base.kind = kind;
   body.base.v_acceleration_m_s2 = 1;
-  body.battery = BatteryDescription{.resistance_ohm = 0, .capacity_ah = 1, .rated_h = 1, .peukert = 1, .idle_a = 1800};
+  body.sensors<Battery>() =
+      Battery::Description{.resistance_ohm = 0, .capacity_ah = 1, .rated_h = 1, .peukert = 1, .idle_a = 1800};
   if (kind == BaseDescription::Kind::aerial) body.start_height_m = 1;
   description.bodies.push_back(body);
   return description;

@@ -204,9 +204,9 @@ TEST(AerialBase, SeesWhatIsAtItsHeight) {
     description.engine = engine;
     description.bodies.push_back(body_on(Kind::aerial));
     description.bodies[0].shape.z_high_m = 0.3;
-    description.bodies[0].lasers.push_back(perfect_laser(0.2));
+    description.bodies[0].sensors<Lasers>().push_back(perfect_laser(0.2));
     description.bodies.push_back(nimble_body("seer", cylinder({0, 0}, 0.25), {-3, 0, 0}));
-    description.bodies[1].lasers.push_back(perfect_laser(0.2));
+    description.bodies[1].sensors<Lasers>().push_back(perfect_laser(0.2));
     description.obstacles.push_back({"desk", box({3, 0, 0}, 1, 4), true});
     description.obstacles[0].shape.z_high_m = 0.75;
     const auto world = make_kinematic_world(description, 1);

@@ -14,7 +14,7 @@ import sys
 sys.dont_write_bytecode = True
 from texts import code, report, rows, sources  # noqa: E402
 
-TYPE = re.compile(r"^(?:class|struct|union|enum class|enum)\s+(?:\[\[\w+\]\] )?(\w+)(?:\s+final)?\s*(?::[^;{]*)?\{", re.MULTILINE)
+TYPE = re.compile(r"^(?:class|struct|union|enum class|enum)\s+(?:\[\[\w+\]\] )?(\w+)(?:\s+final)?\s*(?::(?!:)[^;{]*)?\{", re.MULTILINE)
 
 
 def main():

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "world/sensors/infrared.hpp"
+#include "world/sensors/infrareds.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,19 +11,19 @@
 namespace waitpoint::world {
 namespace {
 
-double range_of(const InfraredRingDescription& ring, double volts) {
+double range_of(const Infrareds::Description& ring, double volts) {
   return std::pow(ring.gain_per_v * volts, ring.exponent);
 }
 
-InfraredRingDescription exact_ring() {
-  InfraredRingDescription ring;
+Infrareds::Description exact_ring() {
+  Infrareds::Description ring;
   ring.noise_v = 0;
   ring.resolution_v = 1e-9;
   return ring;
 }
 
 TEST(Infrared, TheVoltageIsTheInverseOfTheRangesLaw) {
-  InfraredRingDescription ring = exact_ring();
+  Infrareds::Description ring = exact_ring();
   for (const double exponent : {-1.0, -1.4}) {
     ring.exponent = exponent;
     for (const double range : {0.1, 0.33, 0.8}) EXPECT_NEAR(range_of(ring, infrared_v(ring, range, 0)), range, 1e-7);
@@ -33,8 +33,8 @@ TEST(Infrared, TheVoltageIsTheInverseOfTheRangesLaw) {
 }
 
 TEST(Infrared, NoiseOfTheVoltageGrowsWithTheRangeSquared) {
-  const InfraredRingDescription ring;
-  const RandomStream noise = infrared_noise(1, "robot");
+  const Infrareds::Description ring;
+  const RandomStream noise(1, "robot", "infrared.volts");
   for (const double range : {0.15, 0.3, 0.6}) {
     std::vector<double> volts, ranges;
     for (std::uint64_t i = 0; i < 20000; ++i) {
@@ -55,16 +55,17 @@ TEST(Infrared, ARingLooksAroundCounterClockwiseAtItsHeight) {
   sill.z_high_m = 0.4;
   description.obstacles.push_back({"sill", sill, true});
   description.bodies.push_back(nimble_body("robot", cylinder({0, 0}, 0.2), {0, 0, 0}));
-  description.bodies[0].infrareds = exact_ring();
+  description.bodies[0].sensors<Infrareds>() = exact_ring();
   std::vector<double> slice_v, volts;
   for (const Engine engine : {Engine::slice, Engine::fcl}) {
     description.engine = engine;
-    make_kinematic_world(description, 1)->infrareds(BodyId(0), 1, volts);
+    const Infrareds::Reading measured = reading<Infrareds>(*make_kinematic_world(description, 1), BodyId(0), 1);
+    volts.assign(measured.volts.begin(), measured.volts.end());
     ASSERT_EQ(volts.size(), 24u);
     if (engine == Engine::slice) slice_v = volts;
   }
   EXPECT_EQ(volts, slice_v);
-  const InfraredRingDescription& ring = *description.bodies[0].infrareds;
+  const Infrareds::Description& ring = *description.bodies[0].sensors<Infrareds>();
   EXPECT_NEAR(range_of(ring, volts[6]), 0.25, 1e-7);
   const double slanted = (0.5 - 0.25 * std::cos(exact::pi / 6)) / std::cos(exact::pi / 6);
   EXPECT_NEAR(range_of(ring, volts[8]), slanted, 1e-7);

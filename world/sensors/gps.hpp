@@ -14,23 +14,22 @@
 
 #include "core/pose.hpp"
 #include "core/random.hpp"
-#include "world/sensor_description.hpp"
-#include "world/world.hpp"
+#include "world/sensors/surroundings.hpp"
+#include "world/sensors/types/gps.hpp"
 
 namespace waitpoint::world {
 
-class PositionReceiver {
+class Gps::Model {
  public:
   /// Draws from the streams (seed, robot, "gps.drift"), (.., "gps.noise") and (.., "gps.dropout"), at tick = number of
   /// the try, index = axis.
-  PositionReceiver(const PositionReceiverDescription& description, std::uint64_t seed, std::string_view robot);
+  Model(const Description& description, std::uint64_t seed, std::string_view robot);
 
   /// Draws from the streams of this seed from now on; the drift goes on from where it is.
   void reseed(std::uint64_t seed, std::string_view robot) { draws_ = Draws(seed, robot); }
 
-  /// The body is at `pose` and `height_m` at the end of the step of length `step` that ends at `now` since the start.
-  void add(Duration now, Duration step, const Pose& pose, double height_m);
-  const PositionFix& fix() const { return fix_; }
+  void moved(const StepDone& step, const BodyState& body);
+  const Reading& reading() const { return fix_; }
 
  private:
   struct Draws {
@@ -41,12 +40,12 @@ class PositionReceiver {
 
   double measured(std::uint64_t axis, double true_m) const;
 
-  PositionReceiverDescription description_;
+  Description description_;
   Draws draws_;
   double kept_;  // the correlation p of the drift from try to try
   std::array<double, 3> wandered_m_{};
   std::uint64_t tries_ = 0;
-  PositionFix fix_;
+  Reading fix_;
 };
 
 }  // namespace waitpoint::world
