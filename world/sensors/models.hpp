@@ -15,3 +15,4 @@
 #include "world/sensors/gps.hpp"
 #include "world/sensors/imu.hpp"
 #include "world/sensors/infrareds.hpp"
+#include "world/sensors/optical_flow.hpp"

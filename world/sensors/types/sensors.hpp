@@ -30,6 +30,7 @@
 #include "world/sensors/types/imu.hpp"
 #include "world/sensors/types/infrareds.hpp"
 #include "world/sensors/types/lasers.hpp"
+#include "world/sensors/types/optical_flow.hpp"
 #include "world/sensors/types/sonars.hpp"
 
 namespace waitpoint::world {
@@ -49,7 +50,7 @@ struct SensorList {
   SensorList<Types..., Others...> operator+(SensorList<Others...>) const;
 };
 
-using Sensors = SensorList<Lasers, Sonars, Bumpers, Infrareds, Imu, Gps, Battery>;
+using Sensors = SensorList<Lasers, Sonars, Bumpers, Infrareds, Imu, Gps, OpticalFlow, Battery>;
 
 /// A body has a list of them.
 template <class S>
