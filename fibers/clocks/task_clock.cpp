@@ -3,7 +3,7 @@
 
 #include <ctime>
 
-#include "fibers/kernel/scheduler.hpp"
+#include "fibers/kernel/turn.hpp"
 
 namespace waitpoint::kernel {
 namespace {

@@ -9,6 +9,8 @@
 #include "fibers/explore/schedules/course.hpp"
 #include "fibers/explore/strategies/fifo.hpp"
 #include "fibers/explore/target/evidence_recorder.hpp"
+#include "fibers/kernel/run.hpp"
+#include "fibers/kernel/run_window.hpp"
 #include "fibers/sync/system_calls/system_calls.hpp"
 
 namespace waitpoint::exploration {
@@ -39,7 +41,7 @@ Body::Body(std::function<void()> function, ExternalChecks* checks, Time until, s
       reports_(&simulation_.scheduler()),
       explorer_(simulation_.scheduler(), steps_max, memory),
       memory_(memory) {
-  simulation_.scheduler().set_decisions(explorer_);
+  kernel::set_decisions(simulation_.scheduler(), explorer_);
   tell(sync::Places::left_out);
 }
 
@@ -78,7 +80,7 @@ RunVerdict Body::carry_out(Strategy& strategy, const Played& played, Time until,
   verdict.digest = simulation_.digest().value();
   verdict.order = explorer_.trace();
   verdict.end = simulation_.global_time();
-  verdict.events = simulation_.scheduler().events();
+  verdict.events = kernel::events(simulation_.scheduler());
   verdict.is_beyond_enumeration = explorer_.is_beyond_enumeration();
   if (recording != nullptr) recording->finish();
   simulation_.unwind();
@@ -138,7 +140,7 @@ void Body::run_up_to(const Played& played, const std::function<void()>& look) {
   Fifo rest;
   start(rest, played);
   try {
-    simulation_.scheduler().run_before(until_);
+    kernel::run_before(simulation_.scheduler(), until_);
     look();
   } catch (...) {
     simulation_.unwind();

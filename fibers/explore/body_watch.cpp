@@ -4,6 +4,7 @@
 #include "fibers/explore/races/races.hpp"
 #include "fibers/explore/report/timeline_recorder.hpp"
 #include "fibers/explore/strategies/fifo.hpp"
+#include "fibers/kernel/watch.hpp"
 
 namespace waitpoint::exploration {
 
@@ -17,9 +18,9 @@ RunVerdict take_profile(Body& body, Profile& profile) {
   }
   Profiling counting(profile);
   kernel::Scheduler& scheduler = body.simulation().scheduler();
-  scheduler.set_watch(&counting);
+  kernel::set_watch(scheduler, &counting);
   const RunVerdict verdict = body.run(fifo);
-  scheduler.set_watch(nullptr);
+  kernel::set_watch(scheduler, nullptr);
   profile.finish(body.explorer().steps());
   profile.memory = body.memory();
   return verdict;
@@ -29,10 +30,10 @@ Timeline take_timeline(Body& body) {
   Timeline timeline;
   TimelineRecorder recording(timeline, &body.explorer());
   kernel::Scheduler& scheduler = body.simulation().scheduler();
-  scheduler.set_watch(&recording);
+  kernel::set_watch(scheduler, &recording);
   Fifo rest;
   (void)body.run(rest);
-  scheduler.set_watch(nullptr);
+  kernel::set_watch(scheduler, nullptr);
   return timeline;
 }
 

@@ -14,6 +14,7 @@
 #include "fibers/explore/play.hpp"
 #include "fibers/explore/races/races.hpp"
 #include "fibers/explore/strategies/fifo.hpp"
+#include "fibers/kernel/run.hpp"
 
 namespace waitpoint::exploration {
 namespace {
@@ -250,7 +251,7 @@ std::string Campaign::event_at(const Token& token, std::uint32_t decision) {
   Played played{.deviations = token.deviations};
   played.stop_at = decision;
   body_.run_up_to(played, [&] {
-    text = "event " + std::to_string(body_.simulation().scheduler().events()) + ", at " +
+    text = "event " + std::to_string(kernel::events(body_.simulation().scheduler())) + ", at " +
            to_string(body_.simulation().global_time()) + " s";
   });
   return text;

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fibers/io/link.hpp"
 
+#include "fibers/kernel/messages.hpp"
+#include "fibers/kernel/run.hpp"
+#include "fibers/kernel/timers.hpp"
+
 #include <algorithm>
 #include <utility>
 
@@ -12,11 +16,11 @@ enum Draw : std::uint64_t { of_latency, of_loss };
 
 // The exploration strategy that also decides about the media's latencies and losses; else null.
 kernel::Decisions* deciding_strategy(kernel::Scheduler& scheduler) {
-  return kernel::running != nullptr ? scheduler.chooser().decisions() : nullptr;
+  return kernel::running != nullptr ? kernel::chooser(scheduler).decisions() : nullptr;
 }
 
 RandomStream stream(kernel::Scheduler& scheduler, const kernel::Robot& from, const std::string& to) {
-  return {scheduler.chooser().seed(), from.name, "medium to " + to};
+  return {kernel::chooser(scheduler).seed(), from.name, "medium to " + to};
 }
 
 }  // namespace
@@ -40,9 +44,9 @@ void Link::reseed() { random_ = stream(scheduler_, from_, to_); }
 
 void Link::stop() {
   stopped_ = true;
-  if (range_check_.in_list()) scheduler_.cancel(range_check_);
+  if (range_check_.in_list()) kernel::cancel(scheduler_, range_check_);
   for (Flight& flight : flights_)
-    if (flight.in_list()) scheduler_.cancel(flight);
+    if (flight.in_list()) kernel::cancel(scheduler_, flight);
   flights_.clear();
   free_flights_.clear();
   waiting_.clear();
@@ -57,7 +61,7 @@ double Link::distance_m() const {
 // The arrival time of a message whose last bit follows those of all earlier messages.
 Time Link::put_on_air(std::size_t bytes, double distance_m) {
   ++number_;
-  free_at_ = std::max(free_at_, scheduler_.global_time()) + time_on_air(*medium_, bytes);
+  free_at_ = std::max(free_at_, kernel::global_time(scheduler_)) + time_on_air(*medium_, bytes);
   return free_at_ + latency() + Duration::from_seconds(medium_->latency_per_metre.seconds() * distance_m);
 }
 
@@ -88,7 +92,7 @@ bool Link::send_datagram(std::size_t bytes, Packet packet) {
     receiver_.receive(*this, packet);
     return true;
   }
-  const Duration queued = std::max(free_at_, scheduler_.global_time()) - scheduler_.global_time();
+  const Duration queued = std::max(free_at_, kernel::global_time(scheduler_)) - kernel::global_time(scheduler_);
   if (queued > time_on_air(*medium_, medium_->queue_bytes)) {
     ++statistics.overflowed;
     return false;
@@ -112,14 +116,16 @@ void Link::send_in_order(std::size_t bytes, Packet packet) {
   if (waiting_.empty() && away_m <= medium_->range_m) return transmit_in_order(bytes, away_m, std::move(packet));
   check_room();
   waiting_.push_back({bytes, std::move(packet)});
-  if (!range_check_.in_list()) scheduler_.deliver(range_check_, scheduler_.global_time() + medium_->range_check, from_);
+  if (!range_check_.in_list())
+    kernel::deliver(scheduler_, range_check_, kernel::global_time(scheduler_) + medium_->range_check, from_);
 }
 
 void Link::look_again(kernel::EventNode& node) {
   Link& self = *static_cast<RangeCheck&>(node).link;
   const double away_m = self.distance_m();
   if (away_m > self.medium_->range_m) {
-    self.scheduler_.deliver(node, self.scheduler_.global_time() + self.medium_->range_check, self.from_);
+    kernel::deliver(self.scheduler_, node, kernel::global_time(self.scheduler_) + self.medium_->range_check,
+                    self.from_);
     return;
   }
   for (; !self.waiting_.empty(); self.waiting_.pop_front())
@@ -139,10 +145,10 @@ void Link::check_room() const {
 // A flight to another process has the same event here, which only makes room: the bound is that of one process.
 void Link::launch(Time arrives, Packet&& packet) {
   check_room();
-  WAITPOINT_CHECK(arrives - scheduler_.global_time() >= scheduler_.lookahead(),
+  WAITPOINT_CHECK(arrives - kernel::global_time(scheduler_) >= kernel::lookahead(scheduler_),
                   "a message arrives within the lookahead");
   Flight& flight = take_flight();
-  scheduler_.deliver(flight, arrives, from_);
+  kernel::deliver(scheduler_, flight, arrives, from_);
   if (forward_ == nullptr)
     flight.packet = std::move(packet);
   else
@@ -153,7 +159,7 @@ void Link::arrive_at(Time time, std::uint64_t count, Packet packet) {
   WAITPOINT_CHECK(!stopped_ && forward_ == nullptr, "a packet comes to a process without its receiver");
   Flight& flight = take_flight();
   flight.packet = std::move(packet);
-  scheduler_.deliver(flight, time, from_, count);
+  kernel::deliver(scheduler_, flight, time, from_, count);
 }
 
 Link::Flight& Link::take_flight() {

@@ -16,7 +16,7 @@
 #include "core/random.hpp"
 #include "fibers/io/medium.hpp"
 #include "fibers/io/packet.hpp"
-#include "fibers/kernel/scheduler.hpp"
+#include "fibers/kernel/task.hpp"
 
 namespace waitpoint::io {
 

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fibers/io/network.hpp"
 
+#include "fibers/kernel/interruption.hpp"
+#include "fibers/kernel/messages.hpp"
+#include "fibers/kernel/run.hpp"
+
 namespace waitpoint::io {
 namespace {
 
@@ -9,7 +13,7 @@ std::pair<std::string, std::string> in_order(const std::string& a, const std::st
 }
 
 kernel::Robot* robot_named(const kernel::Scheduler& scheduler, const std::string& name) {
-  for (kernel::Robot* robot = scheduler.roster().first_robot(); robot != nullptr; robot = robot->next)
+  for (kernel::Robot* robot = kernel::roster(scheduler).first_robot(); robot != nullptr; robot = robot->next)
     if (name == robot->name) return robot;
   return nullptr;
 }
@@ -87,7 +91,7 @@ Network::~Network() {
   for (const auto& [name, node] : nodes_) node->stop();
   // Outside tasks the run that uses the sockets may not be unwound yet, and tasks that cannot be unwound leave some
   // open.
-  if (kernel::running == nullptr || scheduler_.unwinding()) return;
+  if (kernel::running == nullptr || kernel::is_unwinding(scheduler_)) return;
   for (const auto& [name, node] : nodes_)
     WAITPOINT_REQUIRE(node->sockets() == 0, "a network is destroyed before its sockets");
 }
@@ -95,7 +99,7 @@ Network::~Network() {
 void Network::begin_declaring(const Medium& medium) {
   WAITPOINT_REQUIRE(!has_traffic_, "a medium is declared after robots have sent to each other");
   check(medium);
-  scheduler_.declare_latency(medium.latency_least);
+  kernel::declare_latency(scheduler_, medium.latency_least);
 }
 
 void Network::declare(const Medium& medium) {

@@ -3,7 +3,7 @@
 
 #include <unwind.h>
 
-#include "fibers/kernel/scheduler.hpp"
+#include "fibers/kernel/run.hpp"
 #include "fibers/kernel/signal_safe_text.hpp"
 
 namespace waitpoint::kernel {
@@ -40,7 +40,7 @@ void describe_run(const Task& task) {
   text.add("  at virtual time ").add(task.local_time).add(" s, in task ").add(task.name).add(" of ");
   text.add(task.robot->name).add(", at its event ").add(task.sequence).add(" (").add(name(task.operation));
   text.add(")");
-  const Chooser& chooser = task.scheduler->chooser();
+  const Chooser& chooser = kernel::chooser(*task.scheduler);
   if (chooser.order() != Order::explored) text.add(", seed ").add(chooser.seed());  // else a strategy decides
   text.add("\n").write();
   if (task.work.what != nullptr) {
@@ -48,7 +48,7 @@ void describe_run(const Task& task) {
     work.add("  in ").add(task.work.what).add(" of ").add(task.work.of).add("\n").write();
   }
   SignalSafeText replay;
-  const char* const command = task.scheduler->hooks().replay;
+  const char* const command = hooks(*task.scheduler).replay;
   if (command[0] != '\0') replay.add("  replay: ").add(command).add("\n").write();
 }
 

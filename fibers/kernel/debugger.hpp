@@ -33,10 +33,10 @@ struct DebuggerView {
   Scheduler* scheduler = nullptr;  ///< of the run that was entered last; null after its destruction
 
   // Written by the debugger.
-  bool watching = false;                            ///< for new runs; the run of `scheduler` needs its watched_ set too
-  std::uint64_t stop_at_event = 0;                  ///< stop at this value of `events`
-  Time stop_at_time = Time::max();                  ///< stop at the first event at this time or later
-  std::uint64_t stop_at_task = 0;                   ///< stop at the next event of the task with this id
+  bool watching = false;            ///< for new runs; the run of `scheduler` needs its Watching::is_on set too
+  std::uint64_t stop_at_event = 0;  ///< stop at this value of `events`
+  Time stop_at_time = Time::max();  ///< stop at the first event at this time or later
+  std::uint64_t stop_at_task = 0;   ///< stop at the next event of the task with this id
   std::uint64_t checkpoint_at = ~std::uint64_t{0};  ///< make a checkpoint when `events` reaches this value
   bool restarted = false;                           ///< the process was restarted from a checkpoint
 

@@ -3,6 +3,7 @@
 // The explored order: the events of all tasks due at the present instant are moved from the event list to the ready
 // set, and a strategy chooses among them.
 #include "core/error.hpp"
+#include "fibers/kernel/run.hpp"
 #include "fibers/kernel/scheduler.hpp"
 #include "fibers/kernel/scheduler_steps.hpp"
 #include "fibers/switch/reserved_pages.hpp"
@@ -18,6 +19,17 @@ bool is_before_tasks_at(const EventKey& key, Time time) {
 }
 bool is_of_tasks(const EventKey& key) {
   return key.order >= make_order(Phase::tasks, 0) && key.order < make_order(Phase::processors, 0);
+}
+
+// Moves the events of all ready tasks to the instant of the next event.
+void let_time_pass(Agenda& agenda) {
+  WAITPOINT_CHECK(agenda.is_due_later(), "the strategy lets time pass, but no event is due later");
+  const Time next = agenda.events.least().key.time;
+  while (!agenda.ready.empty()) {
+    Task& task = agenda.ready.take(0);
+    set_local_time(task, next);
+    agenda.events.insert(task.event, agenda.key(task, next));
+  }
 }
 
 }  // namespace
@@ -45,49 +57,39 @@ void Scheduler::reserve_ahead() {
   stacks.guard_ahead(usual_tasks);
 }
 
-void Scheduler::set_decisions(Decisions& decisions) {
-  WAITPOINT_CHECK(agenda_.chooser.order() == Order::explored, "a strategy decides only in the explored order");
-  if (agenda_.chooser.decisions() == nullptr) agenda_.ready.reserve(tasks_max);
-  agenda_.chooser.set_decisions(decisions);
+void set_decisions(Scheduler& scheduler, Decisions& decisions) {
+  Agenda& agenda = scheduler.agenda;
+  WAITPOINT_CHECK(agenda.chooser.order() == Order::explored, "a strategy decides only in the explored order");
+  if (agenda.chooser.decisions() == nullptr) agenda.ready.reserve(tasks_max);
+  agenda.chooser.set_decisions(decisions);
 }
 
-// Moves the events of all ready tasks to the instant of the next event.
-void Scheduler::let_time_pass() {
-  WAITPOINT_CHECK(is_due_later(), "the strategy lets time pass, but no event is due later");
-  const Time next = agenda_.events.least().key.time;
-  while (!agenda_.ready.empty()) {
-    Task& task = agenda_.ready.take(0);
-    set_local_time(task, next);
-    agenda_.events.insert(task.event, agenda_.key(task, next));
-  }
-}
-
-Fiber& Scheduler::dispatch_explored() {
+Fiber& dispatch_explored(Scheduler& scheduler) {
+  Agenda& agenda = scheduler.agenda;
   for (;;) {
-    if (agenda_.ready.empty() ||
-        (!agenda_.events.empty() && is_before_tasks_at(agenda_.events.least().key, agenda_.now))) {
-      EventNode* node = agenda_.events.pop_before(agenda_.until);
-      if (node == nullptr) return end_window(pending_events() == 0 ? RunState::idle : RunState::reached);
-      agenda_.now = agenda_.events.present();
+    if (agenda.ready.empty() || (!agenda.events.empty() && is_before_tasks_at(agenda.events.least().key, agenda.now))) {
+      EventNode* node = agenda.events.pop_before(agenda.until);
+      if (node == nullptr) return end_window(scheduler, agenda.size() == 0 ? RunState::idle : RunState::reached);
+      agenda.now = agenda.events.present();
       if (node->fire != nullptr) {
         node->fire(*node);
         continue;
       }
       Task& task = task_of(*node);
-      if (task.phase != Phase::tasks) return dispatch_task(task);
-      agenda_.ready.add(task);
-      while (is_of_tasks(agenda_.events.least().key) && agenda_.events.least().key.time == agenda_.now)
-        agenda_.ready.add(task_of(agenda_.events.pop()));
+      if (task.phase != Phase::tasks) return dispatch_task(scheduler, task);
+      agenda.ready.add(task);
+      while (is_of_tasks(agenda.events.least().key) && agenda.events.least().key.time == agenda.now)
+        agenda.ready.add(task_of(agenda.events.pop()));
     }
-    if (agenda_.now >= agenda_.until) return end_window(RunState::reached);
-    const std::uint32_t chosen = agenda_.chooser.decisions()->next(agenda_.ready.tasks(), agenda_.ready.size());
-    if (cause_ != StopCause::none) return end_window(RunState::stopped);
+    if (agenda.now >= agenda.until) return end_window(scheduler, RunState::reached);
+    const std::uint32_t chosen = agenda.chooser.decisions()->next(agenda.ready.tasks(), agenda.ready.size());
+    if (scheduler.window.cause != StopCause::none) return end_window(scheduler, RunState::stopped);
     if (__builtin_expect(chosen == Decisions::later, 0)) {
-      let_time_pass();
+      let_time_pass(agenda);
       continue;
     }
-    if (__builtin_expect(chosen == Decisions::elsewhere, 0)) return end_window(RunState::reached);
-    return dispatch_task(agenda_.ready.take(chosen));
+    if (__builtin_expect(chosen == Decisions::elsewhere, 0)) return end_window(scheduler, RunState::reached);
+    return dispatch_task(scheduler, agenda.ready.take(chosen));
   }
 }
 

@@ -10,74 +10,76 @@
 
 namespace waitpoint::kernel {
 
-// For the coming window: short cuts are taken unless the run is interrupted.
-void Scheduler::allow_fast_paths() { fast_allowed_ = fast_path_.passes_ties() && !interrupted_; }
-
-void Scheduler::use_fast_paths(bool used) {
-  WAITPOINT_CHECK(running == nullptr && first_task() == nullptr, "the fast paths are chosen while tasks run");
-  fast_path_.enable(used);
-  fast_path_.allow(agenda_.chooser.order());
-}
+// The rare cases.
+static Departure depart_sleeping(Scheduler& scheduler, Task& task);
+static Departure block_with_far_timeout(Scheduler& scheduler, Object& object, EventKey timeout);
+static Task* wake_from_far_timeout(Scheduler& scheduler, Object& object);
 
 // --- waitpoints ---
 
 // The fast path holds for the task, but each event is shown to a watch: executes it without a search of the list.
-bool Scheduler::waitpoint_at_present(Task& task, Operation operation, Object* object) {
+bool waitpoint_at_present(Scheduler& scheduler, Task& task, Operation operation, Object* object) {
   ++task.waitpoints;
   task.operation = operation;
   task.at = object;
   if (object != nullptr) enter(*object);
-  execute(task, operation, object);
-  if (fast_path_.holds_for(task)) fast_path_.open(task, agenda_.now, fast_epoch());  // a watch may have closed it
+  execute(scheduler, task, operation, object);
+  if (turn.holds_for(task))
+    scheduler.fast_path.open(task, scheduler.agenda.now, scheduler.fast_epoch());  // a watch may have closed it
   return true;
 }
 
 // The list's least event precedes the task's, and the present queue is empty: inserts one and takes the other in one
 // step.
-Fiber& Scheduler::exchange_with_least(Task& task) {
-  const EventEntry& least = agenda_.events.least();
-  const EventKey own = agenda_.key(task, task.local_time);
-  if (least.key.time >= agenda_.until) {
-    agenda_.events.insert(task.event, own);
-    return end_window(RunState::reached);
+Fiber& exchange_with_least(Scheduler& scheduler, Task& task) {
+  Agenda& agenda = scheduler.agenda;
+  const EventEntry& least = agenda.events.least();
+  const EventKey own = agenda.key(task, task.local_time);
+  if (least.key.time >= agenda.until) {
+    agenda.events.insert(task.event, own);
+    return end_window(scheduler, RunState::reached);
   }
-  Fiber* const next = dispatch_event(agenda_.events.exchange(least, task.event, own));
-  return next != nullptr ? *next : dispatch();
+  Fiber* const next = dispatch_event(scheduler, agenda.events.exchange(least, task.event, own));
+  return next != nullptr ? *next : dispatch(scheduler);
 }
 
 // --- sleeping ---
 
-Departure Scheduler::start_sleep(Time time) {
+Departure start_sleep(Scheduler& scheduler, Time time) {
   Task& task = *running;
-  const bool is_plain = fast_allowed_ && task.attention == 0 && time > task.local_time && time < agenda_.until;
-  if (__builtin_expect(!is_plain || !agenda_.present.empty() || watched_, 0)) return sleep_slow(time);
+  const bool is_plain = scheduler.fast_path.takes_short_cuts() && task.attention == 0 && time > task.local_time &&
+                        time < scheduler.agenda.until;
+  if (__builtin_expect(!is_plain || !scheduler.agenda.present.empty() || scheduler.watching.is_on, 0))
+    return sleep_slow(scheduler, time);
   task.local_time = time;
   task.operation = Operation::sleep;
   task.at = nullptr;
   task.waitpoints = 1;
-  if (!agenda_.precedes(task, agenda_.events.least().key)) return depart_sleeping(task);
-  agenda_.advance(time);
-  fast_path_.open(task, time, epoch_);
+  if (!scheduler.agenda.precedes(task, scheduler.agenda.events.least().key)) return depart_sleeping(scheduler, task);
+  scheduler.agenda.advance(time);
+  scheduler.fast_path.open(task, time, scheduler.epoch);
   count_event(task, Operation::sleep, nullptr, time);
   return stay(Wake::woken);
 }
 
-[[gnu::noinline]] Departure Scheduler::depart_sleeping(Task& task) {
-  fast_path_.close();
+[[gnu::noinline]] Departure depart_sleeping(Scheduler& scheduler, Task& task) {
+  turn.close();
   task.state = TaskState::ready;
-  Fiber& to = exchange_with_least(task);
-  if (departs(task.fiber, to)) return start_switch(task.fiber, to);
-  return stay(end_waitpoint(*running) ? Wake::woken : Wake::unwinding);
+  Fiber& to = exchange_with_least(scheduler, task);
+  if (departs(scheduler, task.fiber, to)) return start_switch(task.fiber, to);
+  return stay(end_waitpoint(scheduler, *running) ? Wake::woken : Wake::unwinding);
 }
 
 // --- blocking and waking ---
 
 // True if the running task, once blocked, can be left for the first task of the present queue at once: that event is
 // the least, events are not watched, and the switch needs no other work.
-inline bool Scheduler::can_dispatch_present() const {
-  if (!fast_allowed_ || !turn.is_fast() || agenda_.present.size() - 1 >= crowd_min) return false;
-  const Task& next = *agenda_.present.first();
-  return __builtin_expect(!agenda_.events.is_due(agenda_.now), 1) &&
+inline bool can_dispatch_present(const Scheduler& scheduler) {
+  const Agenda& agenda = scheduler.agenda;
+  if (!scheduler.fast_path.takes_short_cuts() || !turn.is_fast() || agenda.present.size() - 1 >= crowd_min)
+    return false;
+  const Task& next = *agenda.present.first();
+  return __builtin_expect(!agenda.events.is_due(agenda.now), 1) &&
          __builtin_expect(can_switch_in_parts(running->fiber, next.fiber), 1) && StackArena::intact(next.fiber.stack);
 }
 
@@ -90,64 +92,66 @@ inline bool cannot_close_cycle(const Object& object) {
 
 // The fast path, open for the present instant, passes from `task`, which blocks on `object`, to the next one. A timeout
 // is in the list already.
-[[gnu::always_inline]] inline Departure Scheduler::leave_for_present(Task& task, Object& object, bool has_timeout) {
+[[gnu::always_inline]] inline Departure leave_for_present(Scheduler& scheduler, Task& task, Object& object,
+                                                          bool has_timeout) {
   append_waiter(object, task);
   task.state = TaskState::blocked;
   task.finite_wait = has_timeout;
-  Task& next = agenda_.present.take();
+  Task& next = scheduler.agenda.present.take();
   next.state = TaskState::running;
   running = &next;
   hash_events_of(*next.robot);
-  if (__builtin_expect(next.attention != 0, 0)) fast_path_.close();
-  ++switches_;
+  if (__builtin_expect(next.attention != 0, 0)) turn.close();
+  ++scheduler.switches;
   return start_switch(task.fiber, next.fiber);
 }
 
 template <bool is_finite>
-Departure Scheduler::start_block(Object& object, Time deadline) {
+Departure start_block(Scheduler& scheduler, Object& object, Time deadline) {
   Task& task = *running;
-  if (__builtin_expect(!can_dispatch_present(), 0)) return block_slow(object, deadline);
+  if (__builtin_expect(!can_dispatch_present(scheduler), 0)) return block_slow(scheduler, object, deadline);
   if constexpr (is_finite) {
-    if (__builtin_expect(deadline <= agenda_.now, 0)) return block_slow(object, deadline);
-    const EventKey key{deadline, make_order(task.phase, agenda_.chooser.tie_of_next(task))};
-    if (__builtin_expect(!agenda_.events.try_insert_fast(task.event, key), 0))
-      return block_with_far_timeout(object, key);
+    if (__builtin_expect(deadline <= scheduler.agenda.now, 0)) return block_slow(scheduler, object, deadline);
+    const EventKey key{deadline, make_order(task.phase, scheduler.agenda.chooser.tie_of_next(task))};
+    if (__builtin_expect(!scheduler.agenda.events.try_insert_fast(task.event, key), 0))
+      return block_with_far_timeout(scheduler, object, key);
   } else if (!cannot_close_cycle(object)) {
-    return block_slow(object, deadline);
+    return block_slow(scheduler, object, deadline);
   }
-  return leave_for_present(task, object, is_finite);
+  return leave_for_present(scheduler, task, object, is_finite);
 }
 
 // The timeout's place is not near the end of the run: with many tasks the usual case.
-[[gnu::noinline]] Departure Scheduler::block_with_far_timeout(Object& object, EventKey timeout) {
-  agenda_.events.insert(running->event, timeout);
-  return leave_for_present(*running, object, true);
+[[gnu::noinline]] Departure block_with_far_timeout(Scheduler& scheduler, Object& object, EventKey timeout) {
+  scheduler.agenda.events.insert(running->event, timeout);
+  return leave_for_present(scheduler, *running, object, true);
 }
-template Departure Scheduler::start_block<true>(Object&, Time);
-template Departure Scheduler::start_block<false>(Object&, Time);
+template Departure start_block<true>(Scheduler&, Object&, Time);
+template Departure start_block<false>(Scheduler&, Object&, Time);
 
-[[gnu::always_inline]] inline Task* Scheduler::wake_here(Object& object) {
+[[gnu::always_inline]] inline Task* wake_here(Scheduler& scheduler, Object& object) {
   Task& first = remove_first_waiter(object);
   first.wake = Wake::woken;
   first.state = TaskState::ready;
-  set_local_time(first, agenda_.now);
-  agenda_.place_present(first);
+  set_local_time(first, scheduler.agenda.now);
+  scheduler.agenda.place_present(first);
   return &first;
 }
 
 // wake() of the first waiter, in the common case.
-Task* Scheduler::wake_waiter(Object& object) {
+Task* wake_waiter(Scheduler& scheduler, Object& object) {
   Task& first = *object.first_waiter;
-  const bool is_usual = __builtin_expect(fast_allowed_, 1) && object.epoch == epoch_ && first.phase == Phase::tasks;
-  if (__builtin_expect(!is_usual, 0)) return wake_one_slow(object);
-  if (first.finite_wait && __builtin_expect(!agenda_.events.try_remove_fast(first.event), 0))
-    return wake_from_far_timeout(object);
-  return wake_here(object);
+  const bool is_usual = __builtin_expect(scheduler.fast_path.takes_short_cuts(), 1) &&
+                        object.epoch == scheduler.epoch && first.phase == Phase::tasks;
+  if (__builtin_expect(!is_usual, 0)) return wake_one_slow(scheduler, object);
+  if (first.finite_wait && __builtin_expect(!scheduler.agenda.events.try_remove_fast(first.event), 0))
+    return wake_from_far_timeout(scheduler, object);
+  return wake_here(scheduler, object);
 }
 
-[[gnu::noinline]] Task* Scheduler::wake_from_far_timeout(Object& object) {
-  agenda_.events.remove(object.first_waiter->event);
-  return wake_here(object);
+[[gnu::noinline]] Task* wake_from_far_timeout(Scheduler& scheduler, Object& object) {
+  scheduler.agenda.events.remove(object.first_waiter->event);
+  return wake_here(scheduler, object);
 }
 
 }  // namespace waitpoint::kernel

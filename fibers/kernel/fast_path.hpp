@@ -7,7 +7,6 @@
 #pragma once
 
 #include "fibers/kernel/chooser.hpp"
-#include "fibers/kernel/limits.hpp"
 #include "fibers/kernel/task.hpp"
 #include "fibers/kernel/turn.hpp"
 #include "fibers/switch/sanitizer.hpp"
@@ -26,47 +25,35 @@ class FastPath {
   /// Makes later calls of allow() effective, or not.
   void enable(bool enabled) { enabled_ = enabled; }
   bool is_enabled() const { return enabled_; }
-  /// Forbids the fast path until the next allow().
-  void forbid() { passes_ties_ = passes_alone_ = false; }
+  /// Forbids the fast path and the short cuts until the next allow().
+  void forbid() { passes_ties_ = passes_alone_ = takes_short_cuts_ = false; }
+
+  /// The calls of fast_calls.cpp, which need the first-in-first-out order, are allowed, or not.
+  void allow_short_cuts(bool allowed) { takes_short_cuts_ = allowed && passes_ties_; }
+  bool takes_short_cuts() const { return takes_short_cuts_; }
 
   /// True if a task at a waitpoint continues although others tie with it.
   bool passes_ties() const { return passes_ties_; }
   /// True if it continues; `alone`: no other event is due at its instant.
   bool passes_ties(bool alone) const { return passes_ties_ || (passes_alone_ && alone); }
 
-  bool holds_for(const Task& task) const { return task.local_time == turn.at && task.waitpoints < waitpoints_max; }
-
   /// Opens the path to the running task for the instant `now`. `fast_epoch`: the epoch of the run, or no_epoch if
   /// events are watched.
   void open(const Task& task, Time now, std::uint64_t fast_epoch) {
-    if (task.attention != 0) return close();
+    if (task.attention != 0) return turn.close();
     turn.at = now;
     turn.fast_epoch = fast_epoch;
   }
-  void close() { turn.close(); }
-
   /// An event of this phase was inserted at the present instant.
   void note_present_event(Phase phase) {
-    if (running != nullptr && (!passes_ties_ || phase < running->phase)) close();
+    if (running != nullptr && (!passes_ties_ || phase < running->phase)) turn.close();
   }
 
  private:
   bool enabled_ = true;
   bool passes_ties_ = false;
   bool passes_alone_ = false;
+  bool takes_short_cuts_ = false;
 };
-
-/// The running task's waitpoint, if the path is open for `object` and events are not watched; otherwise false, with
-/// nothing changed.
-[[gnu::always_inline]] inline bool try_fast_waitpoint(Operation operation, Object& object) {
-  if (__builtin_expect(object.epoch != turn.fast_epoch, 0)) return false;
-  Task& task = *running;
-  if (__builtin_expect(task.waitpoints >= waitpoints_max, 0)) return false;
-  ++task.waitpoints;
-  task.operation = operation;
-  task.at = &object;
-  count_event(task, operation, &object, turn.at);
-  return true;
-}
 
 }  // namespace waitpoint::kernel

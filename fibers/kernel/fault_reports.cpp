@@ -18,9 +18,11 @@
 #include "core/spin_lock.hpp"
 #include "fibers/kernel/call_stack.hpp"
 #include "fibers/kernel/death_text.hpp"
+#include "fibers/kernel/run.hpp"
 #include "fibers/kernel/signal_safe_text.hpp"
 #include "fibers/switch/reserved_pages.hpp"
 #include "fibers/switch/sanitizer.hpp"
+#include "fibers/switch/stack_arena.hpp"
 
 namespace waitpoint::kernel {
 namespace {
@@ -64,7 +66,7 @@ const Task* overflowed(const Scheduler& scheduler, const char* address) {
     const Stack& stack = running->fiber.stack;
     if (address < stack.low && address >= stack.low - bytes(stack.size)) return running;
   }
-  for (const Task* task = scheduler.first_task(); task != nullptr; task = task->next) {
+  for (const Task* task = first_task(scheduler); task != nullptr; task = task->next) {
     const Stack& stack = task->fiber.stack;
     if (StackArena::guards(stack, address) || !StackArena::intact(stack)) return task;
   }

@@ -25,9 +25,10 @@
 #include <cstddef>
 #include <iterator>
 
-#include "fibers/kernel/scheduler.hpp"
-
 namespace waitpoint::kernel {
+
+class Scheduler;
+struct Task;
 
 class FaultReports {
  public:

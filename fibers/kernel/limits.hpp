@@ -20,7 +20,7 @@ inline constexpr std::uint64_t idle_yields_of_robot = 512;
 /// Places of robots in the order of one instant; later ones share the last.
 inline constexpr std::uint32_t places_max = (1u << 17) - 1;
 /// After this number of waitpoints at one instant a run ends even so: half a minute of processor time. The default of
-/// Scheduler::set_instant_limit().
+/// set_instant_limit().
 inline constexpr std::uint64_t instant_limit = 2'000'000'000;
 /// Calls that a task may make while it is unwound; after more it is abandoned.
 inline constexpr std::uint32_t refusals_max = 10'000;

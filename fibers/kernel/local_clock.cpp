@@ -2,7 +2,8 @@
 #include "fibers/kernel/local_clock.hpp"
 
 #include "fibers/kernel/processor.hpp"
-#include "fibers/kernel/scheduler.hpp"
+#include "fibers/kernel/run.hpp"
+#include "fibers/kernel/waitpoint_calls.hpp"
 
 namespace waitpoint::kernel {
 
@@ -13,7 +14,7 @@ void set_clock(Task& task, LocalClock* clock) {
 }
 
 Time local_time_by_clock(Task& task) {
-  if (task.scheduler->unwinding()) return task.local_time;
+  if (is_unwinding(*task.scheduler)) return task.local_time;
   LocalClock* clock = task.clock;
   if (clock != nullptr && clock->end != nullptr) {
     clock->end(*clock, task);
@@ -26,19 +27,19 @@ void consume(Task& task, Duration cost) {
   if (task.seat != nullptr) {
     use_processor(task, cost);
   } else {
-    task.scheduler->close_fast_path();
+    turn.close();
     task.local_time += cost;
   }
 }
 
 void access_hardware(Task& task, Duration latency) {
   WAITPOINT_REQUIRE(latency >= Duration(), "an access to hardware has a negative latency");
-  if (latency == Duration() || task.scheduler->unwinding()) return;
+  if (latency == Duration() || is_unwinding(*task.scheduler)) return;
   const Time after = local_time(task) + latency;
   if (task.seat != nullptr) {
-    task.scheduler->sleep_until(after);  // others use the processor meanwhile
+    sleep_until(*task.scheduler, after);  // others use the processor meanwhile
   } else {
-    task.scheduler->close_fast_path();
+    turn.close();
     task.local_time = after;
   }
 }
@@ -46,7 +47,7 @@ void access_hardware(Task& task, Duration latency) {
 void compute(Task& task, Duration least, Duration greatest) {
   WAITPOINT_REQUIRE(least >= Duration(), "a computing time is negative");
   WAITPOINT_REQUIRE(least <= greatest, "the ends of an interval of computing times are swapped");
-  if (task.scheduler->unwinding()) return;
+  if (is_unwinding(*task.scheduler)) return;
   if (task.clock == nullptr)
     consume(task, choose_cost(task, least, greatest));
   else if (task.clock->compute != nullptr)
@@ -55,11 +56,11 @@ void compute(Task& task, Duration least, Duration greatest) {
 
 Duration choose_cost(Task& task, Duration least, Duration greatest) {
   if (least == greatest) return least;
-  return filter_cost(task, task.scheduler->chooser().computing(task, least, greatest));
+  return filter_cost(task, chooser(*task.scheduler).computing(task, least, greatest));
 }
 
 Duration filter_cost(const Task& task, Duration cost) {
-  Durations* const durations = task.scheduler->hooks().durations;
+  Durations* const durations = hooks(*task.scheduler).durations;
   return durations != nullptr ? durations->pass(*durations, task, cost) : cost;
 }
 

@@ -2,7 +2,9 @@
 #include "fibers/kernel/processor.hpp"
 
 #include "core/error.hpp"
-#include "fibers/kernel/scheduler.hpp"
+#include "fibers/kernel/run.hpp"
+#include "fibers/kernel/timers.hpp"
+#include "fibers/kernel/waiting_calls.hpp"
 
 namespace waitpoint::kernel {
 namespace {
@@ -15,19 +17,19 @@ bool is_before(const Seat& a, const Seat& b) {
 void decide_later(Processor& processor) {
   if (processor.decision.in_list()) return;
   Scheduler& scheduler = *processor.scheduler;
-  scheduler.schedule(processor.decision, scheduler.global_time(), processor.object, Phase::processors);
+  schedule(scheduler, processor.decision, global_time(scheduler), processor.object, Phase::processors);
 }
 
 void go_on_computing(Seat& seat) {
   Scheduler& scheduler = *seat.processor->scheduler;
-  seat.resumed = scheduler.global_time();
-  scheduler.schedule(seat.completion, seat.resumed + seat.remaining, seat.processor->object);
+  seat.resumed = global_time(scheduler);
+  schedule(scheduler, seat.completion, seat.resumed + seat.remaining, seat.processor->object);
 }
 
 void complete(EventNode& node) {
   Seat& seat = reinterpret_cast<Seat&>(node);
   seat.computing = false;
-  seat.processor->scheduler->wake(*seat.task);
+  wake(*seat.processor->scheduler, *seat.task);
 }
 
 void decide(EventNode& node) {
@@ -40,14 +42,14 @@ void decide(EventNode& node) {
   if (best == nullptr || best == user) return;
   if (user != nullptr) {
     WAITPOINT_CHECK(user->computing, "a preempted task does not compute");
-    scheduler.cancel(user->completion);
-    user->remaining -= scheduler.global_time() - user->resumed;
+    cancel(scheduler, user->completion);
+    user->remaining -= global_time(scheduler) - user->resumed;
   }
   processor.user = best;
   if (best->computing)
     go_on_computing(*best);
   else
-    scheduler.wake(*best->task);
+    wake(scheduler, *best->task);
 }
 
 // The greatest of the task's own priority and those that its locks lend.
@@ -68,7 +70,7 @@ int due_priority(const Seat& seat) {
 }  // namespace
 
 Processor::~Processor() {
-  if (decision.in_list()) scheduler->cancel(decision);
+  if (decision.in_list()) cancel(*scheduler, decision);
 }
 
 void set_seat(Task& task, Seat& seat) {
@@ -79,7 +81,7 @@ void set_seat(Task& task, Seat& seat) {
 }
 
 bool is_shared(const Processor& processor) {
-  for (const Task* task = running->scheduler->first_task(); task != nullptr; task = task->next)
+  for (const Task* task = first_task(*running->scheduler); task != nullptr; task = task->next)
     if (task->seat != nullptr && task->seat->processor == &processor) return true;
   return false;
 }
@@ -87,7 +89,7 @@ bool is_shared(const Processor& processor) {
 void vacate(Task& task) {
   if (task.seat == nullptr) return;
   Processor& processor = *task.seat->processor;
-  if (!task.scheduler->unwinding()) {
+  if (!is_unwinding(*task.scheduler)) {
     leave_processor(task);
     for (Seat** at = &processor.first_seat; *at != nullptr; at = &(*at)->next)
       if (*at == task.seat) {
@@ -102,7 +104,7 @@ void vacate(Task& task) {
 bool take_processor(Task& task) {
   Seat& seat = *task.seat;
   Processor& processor = *seat.processor;
-  if (task.scheduler->enter(processor.object)) {
+  if (enter(processor.object)) {
     processor.scheduler = task.scheduler;
     processor.first_seat = processor.user = nullptr;
     processor.arrivals = 0;
@@ -116,7 +118,7 @@ bool take_processor(Task& task) {
   seat.ready = true;
   seat.arrival = ++processor.arrivals;
   decide_later(processor);
-  return task.scheduler->suspend(processor.object);
+  return suspend(processor.object);
 }
 
 void leave_processor(Task& task) {
@@ -134,7 +136,7 @@ bool use_processor(Task& task, Duration cost) {
   seat.computing = true;
   seat.remaining = cost;
   go_on_computing(seat);
-  return task.scheduler->suspend(seat.processor->object);
+  return suspend(seat.processor->object);
 }
 
 void hold(Task& task, PriorityLock& lock) {
@@ -179,14 +181,14 @@ void take_back_priority(const Task& task, const Object& object) {
 }
 
 Task* wake_most_urgent(Scheduler& scheduler, Object& object) {
-  if (scheduler.unwinding()) return nullptr;
+  if (is_unwinding(scheduler)) return nullptr;
   Task* best = nullptr;
   for (Task* waiter = object.first_waiter; waiter != nullptr; waiter = waiter->next_waiter) {
     if (best == nullptr ||
         (waiter->seat != nullptr && (best->seat == nullptr || waiter->seat->priority > best->seat->priority)))
       best = waiter;
   }
-  if (best != nullptr) scheduler.wake(*best);
+  if (best != nullptr) wake(scheduler, *best);
   return best;
 }
 

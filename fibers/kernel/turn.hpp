@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The turn of the running task: the digest that its events are hashed into, and the state of its fast path
 // (fast_path.hpp). The thread's own, as is `running`: the most frequent calls, inline in the task's frame, need only
-// these two, the task's record and the object.
+// these two, the task's record and the object (waitpoint_calls.hpp).
 #pragma once
 
 #include <cstdint>
 
 #include "core/digest.hpp"
 #include "core/time.hpp"
+#include "fibers/kernel/limits.hpp"
 #include "fibers/kernel/task.hpp"
 
 namespace waitpoint::kernel {
@@ -21,8 +22,13 @@ struct Turn {
   PairDigest* digest = nullptr;         ///< the digest of the task that runs or ran last
   bool transferred = false;             ///< see note_transfer(); reset at each check of progress
   std::uint64_t blocks = 0;             ///< number of basic blocks of instrumented code executed (block_calls.cpp)
+  std::uint64_t epoch = no_epoch;       ///< the epoch of the run that is executed, or was executed last
 
   [[gnu::always_inline]] bool is_fast() const { return __builtin_expect(fast_epoch != no_epoch, 1); }
+  /// True if `task`, the running one, passes its next waitpoint without a search of the event list.
+  bool holds_for(const Task& task) const { return task.local_time == at && task.waitpoints < waitpoints_max; }
+  /// To be called when the local time of the running task leaves the present instant, and when anything else could
+  /// come before its next waitpoint.
   void close() {
     at = never;
     fast_epoch = no_epoch;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Visits to parked tasks: the task itself is resumed, calls the visit's function, and switches back.
+// The task itself is resumed, calls the visit's function, and switches back.
 #include "fibers/kernel/visit.hpp"
 
 #include <utility>
@@ -26,36 +26,37 @@ void capture_in_task(Visit& visit) {
 
 }  // namespace
 
-// Called by a resumed task while the run is interrupted: serves visits until its turn has come. False if the run is
-// over.
-bool Scheduler::answer_interrupt() {
-  while (Visit* const visit = std::exchange(visit_, nullptr)) {
+bool answer_interrupt(Scheduler& scheduler) {
+  Interruption& interruption = scheduler.interruption;
+  while (Visit* const visit = std::exchange(interruption.visit, nullptr)) {
     visit->act(*visit);
-    exit_run(state_);
+    leave_run(scheduler, scheduler.window.state);
   }
-  return !unwinding_;
+  return !interruption.is_unwinding;
 }
 
-void Scheduler::visit(Task& task, Visit& visit) {
+void visit(Task& task, Visit& visit) {
   WAITPOINT_CHECK(running == nullptr && task.state != TaskState::ended && task.sequence > 0,
                   "a task is visited that runs, has ended or never ran");
+  Scheduler& scheduler = *task.scheduler;
+  Interruption& interruption = scheduler.interruption;
   const TaskState state = task.state;
-  const RunState run_state = state_;
-  const bool interrupted = interrupted_;
-  visit_ = &visit;
-  interrupted_ = true;
-  fast_allowed_ = false;  // until the next run_before()
-  enter_run(resume(task));
-  WAITPOINT_CHECK(visit_ == nullptr, "a visited task did not call the visit's function");
-  interrupted_ = interrupted;
+  const RunState run_state = scheduler.window.state;
+  const bool was_pending = interruption.is_pending;
+  interruption.visit = &visit;
+  interruption.is_pending = true;
+  scheduler.fast_path.allow_short_cuts(false);  // until the next run_before()
+  enter_run(scheduler, resume(scheduler, task));
+  WAITPOINT_CHECK(interruption.visit == nullptr, "a visited task did not call the visit's function");
+  interruption.is_pending = was_pending;
   task.state = state;
-  state_ = run_state;
+  scheduler.window.state = run_state;
 }
 
 std::size_t call_stack(Task& task, void** frames, std::size_t room) {
   if (task.sequence == 0) return 0;
   CallStackVisit request{{capture_in_task}, frames, room};
-  task.scheduler->visit(task, request);
+  visit(task, request);
   return request.found;
 }
 

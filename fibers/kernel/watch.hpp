@@ -20,4 +20,13 @@ struct Watch {
   void (*event)(Watch&, const EventRecord&) = nullptr;
 };
 
+struct Watching {
+  Watch* watch = nullptr;
+  bool is_on = false;  ///< events are shown: to the watch, a debugger or a sanitizer
+};
+
+/// Shows the events from now on to `watch`; null: to none.
+void set_watch(Scheduler& scheduler, Watch* watch);
+Watch* watch(const Scheduler& scheduler);
+
 }  // namespace waitpoint::kernel

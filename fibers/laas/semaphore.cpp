@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fibers/laas/semaphore.hpp"
 
+#include "fibers/kernel/waiting_calls.hpp"
+
 #include <cerrno>
 #include <limits>
 
@@ -9,7 +11,7 @@ namespace waitpoint::laas {
 using kernel::Operation;
 
 void Semaphore::create(Kind kind, int initial) {
-  robot_.scheduler->enter(object_);
+  kernel::enter(object_);
   kind_ = kind;
   if (kind == Kind::mutex) object_.kind = "mutex semaphore";
   if (kind == Kind::count) object_.kind = "semaphore";
@@ -21,7 +23,7 @@ void Semaphore::destroy() {
   ++generation_;
   kind_ = Kind::none;
   object_.owner = nullptr;
-  robot_.scheduler->wake_all(object_);
+  kernel::wake_all(*robot_.scheduler, object_);
 }
 
 TakeResult Semaphore::take(int ticks) {
@@ -59,21 +61,21 @@ int Semaphore::give() {
 void Semaphore::hand_over() {
   kernel::Scheduler& scheduler = *robot_.scheduler;
   if (kind_ == Kind::mutex)
-    object_.owner = scheduler.wake_first(object_);
-  else if (scheduler.wake_one(object_) == nullptr)
+    object_.owner = kernel::wake_first(scheduler, object_);
+  else if (kernel::wake_one(scheduler, object_) == nullptr)
     ++count;
   else
     kernel::note_transfer();
 }
 
 void Semaphore::flush() {
-  if (sync::before_releasing(Operation::notify_all, object_)) robot_.scheduler->wake_all(object_);
+  if (sync::before_releasing(Operation::notify_all, object_)) kernel::wake_all(*robot_.scheduler, object_);
 }
 
 void Semaphore::set(int units) {
   if (!sync::before_releasing(Operation::release, object_)) return;
   for (count = units; count > 0; --count)
-    if (robot_.scheduler->wake_one(object_) == nullptr) break;
+    if (kernel::wake_one(*robot_.scheduler, object_) == nullptr) break;
 }
 
 }  // namespace waitpoint::laas

@@ -4,6 +4,7 @@
 #include <cerrno>
 #include <string>
 
+#include "fibers/kernel/waiting_calls.hpp"
 #include "fibers/laas/tasks.hpp"
 #include "fibers/laas/ticks.hpp"
 #include "fibers/sync/thread.hpp"
@@ -87,7 +88,7 @@ STATUS taskSuspend(long tid) {
   TaskControlBlock& self = tasks.self();
   if (tasks.find(tid) == nullptr) return fail(S_portLib_INVALID_TASKID);
   if (tid != 0 && tid != self.id) return fail(S_portLib_NOT_IMPLEMENTED);
-  sync::running_task().scheduler->enter(self.suspended);
+  sync::enter_run(self.suspended);
   if (sync::before_blocking(kernel::Operation::wait, tasks.object())) sync::block(self.suspended);
   return OK;
 }
@@ -97,7 +98,7 @@ STATUS taskResume(long tid) {
   if (!sync::before_releasing(kernel::Operation::release, tasks.object())) return OK;
   TaskControlBlock* const task = tasks.find(tid);
   if (task == nullptr) return fail(S_portLib_INVALID_TASKID);
-  sync::running_task().scheduler->wake_all(task->suspended);
+  kernel::wake_all(*sync::running_task().scheduler, task->suspended);
   return OK;
 }
 

@@ -18,6 +18,8 @@
 #include <cstring>
 #include <type_traits>
 
+#include "fibers/kernel/waiting_calls.hpp"
+#include "fibers/kernel/waitpoint_calls.hpp"
 #include "fibers/sync/clock.hpp"
 #include "fibers/sync/ignored_accesses.hpp"
 #include "fibers/sync/object.hpp"
@@ -191,19 +193,19 @@ class atomic {
     if (kernel::running == nullptr) return;
     before_changing(kernel::Operation::notify_one);
     const sync::IgnoredAccesses ignored_accesses;
-    if (kernel::running->scheduler->wake_one(object_) != nullptr) kernel::note_transfer();
+    if (kernel::wake_one(*kernel::running->scheduler, object_) != nullptr) kernel::note_transfer();
   }
   void notify_all() {
     if (kernel::running == nullptr) return;
     before_changing(kernel::Operation::notify_all);
     if (object_.first_waiter != nullptr) kernel::note_transfer();
-    kernel::running->scheduler->wake_all(object_);
+    kernel::wake_all(*kernel::running->scheduler, object_);
   }
 
  private:
   void refresh() const {
     const sync::IgnoredAccesses ignored_accesses;
-    if (kernel::running->scheduler->enter(object_)) value_ = initial_;
+    if (kernel::enter(object_)) value_ = initial_;
   }
   void before_looking(kernel::Operation operation) const {
     if (kernel::running == nullptr) return;
@@ -274,7 +276,7 @@ class atomic_flag {
 
 /// A waitpoint; all operations are sequentially consistent already.
 inline void atomic_thread_fence(memory_order) {
-  (void)sync::running_task().scheduler->waitpoint(kernel::Operation::fence, nullptr);
+  (void)kernel::waitpoint(*sync::running_task().scheduler, kernel::Operation::fence, nullptr);
 }
 /// No effect: signals are delivered at waitpoints.
 inline void atomic_signal_fence(memory_order) {}

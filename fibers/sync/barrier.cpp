@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fibers/sync/barrier.hpp"
 
+#include "fibers/kernel/interruption.hpp"
+#include "fibers/kernel/waiting_calls.hpp"
 #include "fibers/switch/sanitizer.hpp"
 
 namespace waitpoint::sync {
 
 void BarrierCore::refresh() {
-  if (!running_task().scheduler->enter(object_)) return;
+  if (!enter_run(object_)) return;
   expected_ = missing_ = initial_;
   phase_ = 0;
 }
@@ -22,13 +24,13 @@ BarrierCore::Arrival BarrierCore::arrive(std::ptrdiff_t count, std::ptrdiff_t dr
 
 void BarrierCore::end_phase() {
   // The run may have ended in the completion function.
-  if (kernel::running->scheduler->unwinding()) return;
+  if (kernel::is_unwinding(*kernel::running->scheduler)) return;
   missing_ = expected_;
   ++phase_;
   // The completion function ran after the last arrival's waitpoint.
   kernel::sanitizer::release(&object_);
   kernel::note_transfer();
-  kernel::running->scheduler->wake_all(object_);
+  kernel::wake_all(*kernel::running->scheduler, object_);
 }
 
 bool BarrierCore::wait_before(std::uint64_t phase, Time deadline) {

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fibers/sync/blocking.hpp"
 
+#include "fibers/kernel/waiting_calls.hpp"
+#include "fibers/kernel/waitpoint_calls.hpp"
+
 namespace waitpoint::sync {
 
 bool waitpoint_unseen(kernel::Operation operation, kernel::Object& object) {
-  return running_task().scheduler->waitpoint(operation, &object);
+  return kernel::waitpoint(*running_task().scheduler, operation, &object);
 }
 
-kernel::Task* wake_one_unseen(kernel::Object& object) { return running_task().scheduler->wake_one(object); }
+kernel::Task* wake_one_unseen(kernel::Object& object) { return kernel::wake_one(*running_task().scheduler, object); }
 
 bool block_unseen(kernel::Object& object, Time deadline) { return block_here(object, deadline); }
 

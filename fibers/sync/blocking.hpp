@@ -9,7 +9,9 @@
 
 #include "core/time.hpp"
 #include "fibers/kernel/local_clock.hpp"
-#include "fibers/kernel/scheduler.hpp"
+#include "fibers/kernel/task.hpp"
+#include "fibers/kernel/waiting_calls.hpp"
+#include "fibers/kernel/waitpoint_calls.hpp"
 #include "fibers/sync/ignored_accesses.hpp"
 
 namespace waitpoint::sync {
@@ -21,6 +23,12 @@ struct Unwind {};
 inline kernel::Task& running_task() {
   WAITPOINT_REQUIRE(kernel::running != nullptr, "a simulated primitive is used outside a simulated task");
   return *kernel::running;
+}
+
+/// Makes `object` belong to the caller's run. True if it did not yet: the primitive must then take its initial state.
+inline bool enter_run(kernel::Object& object) {
+  (void)running_task();
+  return kernel::enter(object);
 }
 
 /// Called when the kernel reports the end of the run.
@@ -39,7 +47,7 @@ inline bool before_releasing(kernel::Operation operation, kernel::Object& object
   return waitpoint_unseen(operation, object);
 #else
   if (kernel::try_fast_waitpoint(operation, object)) return true;
-  return running_task().scheduler->waitpoint_slow(operation, &object);
+  return kernel::waitpoint_slow(*running_task().scheduler, operation, &object);
 #endif
 }
 
@@ -56,7 +64,7 @@ inline kernel::Task* wake_one(kernel::Object& object) {
 #ifdef WAITPOINT_SEEN_BY_THREAD_SANITIZER
   return wake_one_unseen(object);
 #else
-  return object.first_waiter == nullptr ? nullptr : kernel::running->scheduler->wake_one(object);
+  return object.first_waiter == nullptr ? nullptr : kernel::wake_one(*kernel::running->scheduler, object);
 #endif
 }
 
@@ -68,7 +76,7 @@ inline kernel::Task* wake_one(kernel::Object& object) {
     const IgnoredAccesses ignored_accesses;
     ++object.users;
   }
-  const kernel::Wake wake = kernel::running->scheduler->block(object, deadline);
+  const kernel::Wake wake = kernel::block(*kernel::running->scheduler, object, deadline);
   // At the end of a run objects may be destroyed before their waiters: do not touch this one.
   if (__builtin_expect(wake == kernel::Wake::unwinding, 0)) {
     unwind();

@@ -16,6 +16,7 @@
 #include <limits>
 
 #include "core/time.hpp"
+#include "fibers/kernel/waitpoint_calls.hpp"
 #include "fibers/sync/blocking.hpp"
 
 namespace waitpoint {
@@ -24,7 +25,7 @@ namespace waitpoint {
 /// in time, the run ends with no progress.
 inline Time now() {
   Time local;
-  if (!sync::running_task().scheduler->read_clock(local)) sync::unwind();
+  if (!kernel::read_clock(*sync::running_task().scheduler, local)) sync::unwind();
   return local;
 }
 

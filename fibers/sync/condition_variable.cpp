@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fibers/sync/condition_variable.hpp"
 
+#include "fibers/kernel/run.hpp"
+#include "fibers/kernel/waiting_calls.hpp"
 #include "fibers/switch/sanitizer.hpp"
 
 namespace waitpoint {
@@ -8,7 +10,7 @@ namespace waitpoint {
 void condition_variable::notify_all() {
   if (!sync::before_releasing(kernel::Operation::notify_all, object_)) return;
   if (object_.first_waiter != nullptr) kernel::note_transfer();
-  kernel::running->scheduler->wake_all(object_);
+  kernel::wake_all(*kernel::running->scheduler, object_);
 }
 
 condition_variable::Start condition_variable::start_waiting(std::unique_lock<mutex>& lock) {
@@ -21,7 +23,7 @@ condition_variable::Start condition_variable::start_waiting(std::unique_lock<mut
   // An unlock without a waitpoint of its own.
   if (kernel::sanitizer::present) kernel::sanitizer::release(&lock.mutex()->core_.object());
   lock.mutex()->core_.release();
-  return kernel::running->scheduler->chooser().is_spurious(*kernel::running) ? Start::spurious : Start::waits;
+  return kernel::chooser(*kernel::running->scheduler).is_spurious(*kernel::running) ? Start::spurious : Start::waits;
 }
 
 }  // namespace waitpoint

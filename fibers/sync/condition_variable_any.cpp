@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fibers/sync/condition_variable_any.hpp"
 
+#include "fibers/kernel/interruption.hpp"
+#include "fibers/kernel/run.hpp"
+#include "fibers/kernel/waiting_calls.hpp"
 #include "fibers/sync/report/misuse.hpp"
 
 namespace waitpoint {
@@ -10,7 +13,7 @@ void condition_variable_any::notify_a_waiter() {
   for (const Waiter* waiter = first_; waiter != nullptr; waiter = waiter->next) ++count;
   if (count == 0) return;
   Waiter* chosen = first_;
-  for (std::uint32_t i = kernel::running->scheduler->chooser().waiter(*kernel::running, count); i > 0; --i)
+  for (std::uint32_t i = kernel::chooser(*kernel::running->scheduler).waiter(*kernel::running, count); i > 0; --i)
     chosen = chosen->next;
   notify(*chosen);
 }
@@ -24,7 +27,7 @@ void condition_variable_any::notify(Waiter& waiter) {
   remove_waiter(waiter);
   waiter.notified = true;
   kernel::note_transfer();
-  if (waiter.blocked) kernel::running->scheduler->wake(*waiter.task);
+  if (waiter.blocked) kernel::wake(*kernel::running->scheduler, *waiter.task);
 }
 
 bool condition_variable_any::enlist(Waiter& waiter) {
@@ -47,13 +50,14 @@ void condition_variable_any::remove_waiter(Waiter& waiter) {
 void condition_variable_any::leave(Waiter& waiter) {
   if (waiter.stop != nullptr) waiter.stop->waiter = nullptr;
   // After the end of the run, the list may be gone.
-  if (kernel::running->scheduler->unwinding()) return;
+  if (kernel::is_unwinding(*kernel::running->scheduler)) return;
   if (!waiter.notified) remove_waiter(waiter);
   --object_.users;
 }
 
 bool condition_variable_any::sleep(Waiter& waiter, Time deadline) {
-  const bool is_spurious = !waiter.notified && kernel::running->scheduler->chooser().is_spurious(*kernel::running);
+  const bool is_spurious =
+      !waiter.notified && kernel::chooser(*kernel::running->scheduler).is_spurious(*kernel::running);
   if (!waiter.notified && !is_spurious) {
     waiter.blocked = true;
     sync::block(object_, deadline);

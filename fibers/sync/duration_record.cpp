@@ -4,6 +4,7 @@
 #include <charconv>
 
 #include "core/printable_line.hpp"
+#include "fibers/kernel/run.hpp"
 
 namespace waitpoint {
 namespace {
@@ -106,7 +107,7 @@ DurationRecorder::DurationRecorder(Simulation& simulation, std::string run) {
     self.record_.entries.push_back({at->second, cost.ns()});
     return cost;
   };
-  simulation.scheduler().hooks().durations = this;
+  kernel::hooks(simulation.scheduler()).durations = this;
 }
 
 DurationReplay::DurationReplay(Simulation& simulation, const DurationRecord& record, const std::string& run,
@@ -117,7 +118,7 @@ DurationReplay::DurationReplay(Simulation& simulation, const DurationRecord& rec
   pass = [](kernel::Durations& durations, const kernel::Task& task, Duration) {
     return static_cast<DurationReplay&>(durations).next(task);
   };
-  simulation.scheduler().hooks().durations = this;
+  kernel::hooks(simulation.scheduler()).durations = this;
 }
 
 Duration DurationReplay::next(const kernel::Task& task) {
@@ -133,8 +134,8 @@ Duration DurationReplay::next(const kernel::Task& task) {
     return Duration::from_ns(entry.ns);
   }
   Simulation::of(*task.scheduler)
-      .fail(std::make_exception_ptr(BadInput(
-          file_, "the record of durations " + wrong + ", at " + to_string(task.scheduler->global_time()) + " s")));
+      .fail(std::make_exception_ptr(BadInput(file_, "the record of durations " + wrong + ", at " +
+                                                        to_string(kernel::global_time(*task.scheduler)) + " s")));
   return Duration();
 }
 

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fibers/sync/latch.hpp"
 
+#include "fibers/kernel/waiting_calls.hpp"
+
 namespace waitpoint {
 
 void latch::refresh() {
-  if (sync::running_task().scheduler->enter(object_)) count_ = expected_;
+  if (sync::enter_run(object_)) count_ = expected_;
 }
 
 void latch::count_down(std::ptrdiff_t by) {
@@ -13,7 +15,7 @@ void latch::count_down(std::ptrdiff_t by) {
   WAITPOINT_REQUIRE(by >= 0, sync::about(object_, "a latch is counted down by a negative number"));
   WAITPOINT_REQUIRE(by <= count_, sync::about(object_, "a latch is counted down below zero"));
   count_ -= by;
-  if (count_ == 0) kernel::running->scheduler->wake_all(object_);
+  if (count_ == 0) kernel::wake_all(*kernel::running->scheduler, object_);
 }
 
 bool latch::try_wait() {

@@ -2,7 +2,10 @@
 #include "fibers/sync/object.hpp"
 
 #include "fibers/kernel/fault_reports.hpp"
-#include "fibers/kernel/scheduler.hpp"
+#include "fibers/kernel/interruption.hpp"
+#include "fibers/kernel/task.hpp"
+#include "fibers/kernel/waiting_calls.hpp"
+#include "fibers/kernel/waitpoint_calls.hpp"
 #include "fibers/switch/sanitizer.hpp"
 #include "fibers/sync/post_mortem.hpp"
 #include "fibers/sync/report/misuse.hpp"
@@ -12,7 +15,7 @@ namespace waitpoint::sync {
 void check_destroyed(const kernel::Object& object) {
   if (kernel::running == nullptr) return;
   const kernel::Scheduler& scheduler = *kernel::running->scheduler;
-  if (scheduler.unwinding() || !scheduler.has_entered(object)) return;
+  if (kernel::is_unwinding(scheduler) || !kernel::has_entered(scheduler, object)) return;
   WAITPOINT_REQUIRE(object.owner == nullptr && object.holder_count == 0, about(object, "destroyed while it is held"));
   WAITPOINT_REQUIRE(object.users == 0, about(object, "destroyed while tasks wait for it"));
 }
@@ -20,8 +23,8 @@ void check_destroyed(const kernel::Object& object) {
 void drain_woken_waiters(const kernel::Object& object) {
   if (kernel::running == nullptr) return;
   kernel::Scheduler& scheduler = *kernel::running->scheduler;
-  while (scheduler.has_entered(object) && object.users != 0 && object.first_waiter == nullptr)
-    if (!scheduler.yield()) return;
+  while (kernel::has_entered(scheduler, object) && object.users != 0 && object.first_waiter == nullptr)
+    if (!kernel::yield(scheduler)) return;
 }
 
 }  // namespace waitpoint::sync

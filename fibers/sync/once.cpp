@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fibers/sync/once.hpp"
 
+#include "fibers/kernel/waiting_calls.hpp"
+
 namespace waitpoint {
 
 bool once_flag::begin() {
-  if (sync::running_task().scheduler->enter(object_)) done_ = false;
+  if (sync::enter_run(object_)) done_ = false;
   if (!sync::before_blocking(kernel::Operation::call_once, object_)) return false;
   while (!done_) {
     if (object_.owner == nullptr) {
@@ -21,9 +23,9 @@ void once_flag::end(bool returned) {
   object_.owner = nullptr;
   done_ = returned;
   if (returned)
-    kernel::running->scheduler->wake_all(object_);
+    kernel::wake_all(*kernel::running->scheduler, object_);
   else
-    kernel::running->scheduler->wake_one(object_);
+    kernel::wake_one(*kernel::running->scheduler, object_);
 }
 
 }  // namespace waitpoint

@@ -1,17 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fibers/sync/periodic_timer.hpp"
 
+#include "fibers/kernel/timers.hpp"
+#include "fibers/kernel/waiting_calls.hpp"
 #include "fibers/sync/report/misuse.hpp"
 
 namespace waitpoint {
 
 periodic_timer::~periodic_timer() {
-  if (event_.in_list()) scheduler_->cancel(event_);
+  if (event_.in_list()) kernel::cancel(*scheduler_, event_);
 }
 
 void periodic_timer::enter() {
   scheduler_ = sync::running_task().scheduler;
-  if (!scheduler_->enter(object_)) return;
+  if (!kernel::enter(object_)) return;
   running_ = true;
   next_ = -1;  // not started: the first waitpoint starts it
   missed_ = pending_ = 0;
@@ -26,8 +28,9 @@ void periodic_timer::tick(kernel::EventNode& node) {
   periodic_timer& self = *static_cast<Event&>(node).timer;
   ++self.pending_;
   self.last_ = self.time_of(self.next_++);
-  self.scheduler_->wake_first(self.object_);
-  if (self.object_.first_waiter != nullptr) self.scheduler_->schedule(node, self.time_of(self.next_), self.object_);
+  kernel::wake_first(*self.scheduler_, self.object_);
+  if (self.object_.first_waiter != nullptr)
+    kernel::schedule(*self.scheduler_, node, self.time_of(self.next_), self.object_);
 }
 
 // Counts the ticks that passed without a waiter.
@@ -48,10 +51,10 @@ std::int64_t periodic_timer::wait_before(Time deadline) {
   catch_up();
   // Another tick may have passed between the wake-up and the task's turn.
   while (pending_ == 0 && running_ && deadline > kernel::running->local_time) {
-    if (!event_.in_list()) scheduler_->schedule(event_, time_of(next_), object_);
+    if (!event_.in_list()) kernel::schedule(*scheduler_, event_, time_of(next_), object_);
     // Without waiters, its event is removed from the list.
     if (!sync::block(object_, deadline) && object_.first_waiter == nullptr && event_.in_list())
-      scheduler_->cancel(event_);
+      kernel::cancel(*scheduler_, event_);
   }
   const std::int64_t ticks = pending_;
   pending_ = 0;
@@ -70,8 +73,8 @@ void periodic_timer::set_period(Period period, Duration phase) {
   phase_ = phase;
   running_ = true;
   start();
-  if (event_.in_list()) scheduler_->cancel(event_);
-  if (object_.first_waiter != nullptr) scheduler_->schedule(event_, time_of(next_), object_);
+  if (event_.in_list()) kernel::cancel(*scheduler_, event_);
+  if (object_.first_waiter != nullptr) kernel::schedule(*scheduler_, event_, time_of(next_), object_);
 }
 
 void periodic_timer::stop() {
@@ -80,8 +83,8 @@ void periodic_timer::stop() {
   if (next_ < 0) start();
   catch_up();
   running_ = false;
-  if (event_.in_list()) scheduler_->cancel(event_);
-  scheduler_->wake_all(object_);
+  if (event_.in_list()) kernel::cancel(*scheduler_, event_);
+  kernel::wake_all(*scheduler_, object_);
 }
 
 }  // namespace waitpoint

@@ -5,7 +5,8 @@
 #include <chrono>
 #include <exception>
 
-#include "fibers/kernel/scheduler.hpp"
+#include "fibers/kernel/run.hpp"
+#include "fibers/kernel/task.hpp"
 
 namespace waitpoint::sync {
 
@@ -13,7 +14,7 @@ class RunContext {
  public:
   /// The context of the run that `scheduler` executes.
   static RunContext& of(const kernel::Scheduler& scheduler) {
-    return *static_cast<RunContext*>(scheduler.hooks().client);
+    return *static_cast<RunContext*>(kernel::hooks(scheduler).client);
   }
 
   /// From within a task: ends the run with an exception. `how` and the task's name begin the run's report.

@@ -3,6 +3,9 @@
 
 #include <algorithm>
 
+#include "fibers/kernel/interruption.hpp"
+#include "fibers/kernel/run.hpp"
+#include "fibers/kernel/waiting_calls.hpp"
 #include "fibers/sync/mutex_core.hpp"
 
 namespace waitpoint {
@@ -13,7 +16,7 @@ using kernel::Task;
 
 // Drops the state left by another run.
 void shared_mutex::refresh() {
-  if (sync::running_task().scheduler->enter(object_)) readers_.clear();
+  if (sync::enter_run(object_)) readers_.clear();
 }
 
 bool shared_mutex::is_reader(const Task& task) const {
@@ -42,7 +45,7 @@ bool shared_mutex::acquire(Time deadline) {
   }
   if (deadline <= running->local_time) return false;
   if (sync::block(object_, deadline)) return true;
-  if (running->scheduler->unwinding()) return false;
+  if (kernel::is_unwinding(*running->scheduler)) return false;
   // The readers that waited because of this writer.
   const Task* waiter = object_.first_waiter;
   while (waiter != nullptr && waiter->shared_wait) waiter = waiter->next_waiter;
@@ -119,7 +122,7 @@ void shared_mutex::admit_readers() {
     waiter = waiter->next_waiter;
     if (!task.shared_wait) continue;
     add_reader(task);
-    running->scheduler->wake(task);
+    kernel::wake(*running->scheduler, task);
   }
 }
 
@@ -130,12 +133,12 @@ void shared_mutex::hand_over(bool readers_first) {
     ++(waiter->shared_wait ? readers : writers);
   if (writers + readers == 0) return;
   const bool with_readers = readers != 0;
-  std::uint32_t chosen = running->scheduler->chooser().waiter(*running, writers + with_readers);
+  std::uint32_t chosen = kernel::chooser(*running->scheduler).waiter(*running, writers + with_readers);
   if (with_readers && chosen == (readers_first ? 0 : writers)) return admit_readers();
   if (with_readers && readers_first) --chosen;
   Task* writer = object_.first_waiter;
   while (writer->shared_wait || chosen-- != 0) writer = writer->next_waiter;
-  running->scheduler->wake(*writer);
+  kernel::wake(*running->scheduler, *writer);
   kernel::own(object_, *writer);
 }
 

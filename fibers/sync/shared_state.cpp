@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fibers/sync/shared_state.hpp"
 
+#include "fibers/kernel/interruption.hpp"
+#include "fibers/kernel/waiting_calls.hpp"
 #include "fibers/switch/sanitizer.hpp"
 #include "fibers/sync/thread.hpp"
 
@@ -26,7 +28,7 @@ future_status SharedState::wait_before(Time deadline) {
 }
 
 void SharedState::own() {
-  running_task().scheduler->enter(object_);
+  enter_run(object_);
   object_.owner = kernel::running;
 }
 
@@ -48,7 +50,7 @@ void SharedState::fail(std::exception_ptr failure, Ready when) {
 }
 
 void SharedState::break_promise() {
-  if (stored_ || kernel::running == nullptr || kernel::running->scheduler->unwinding()) return;
+  if (stored_ || kernel::running == nullptr || kernel::is_unwinding(*kernel::running->scheduler)) return;
   fail(std::make_exception_ptr(future_error(future_errc::broken_promise)));
 }
 
@@ -67,7 +69,7 @@ void SharedState::publish() {
   object_.owner = nullptr;
   // The result was stored after the preceding waitpoint.
   kernel::sanitizer::release(&object_);
-  kernel::running->scheduler->wake_all(object_);
+  kernel::wake_all(*kernel::running->scheduler, object_);
 }
 
 }  // namespace waitpoint::sync

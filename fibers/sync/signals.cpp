@@ -5,6 +5,9 @@
 #include <utility>
 
 #include "core/digest.hpp"
+#include "fibers/kernel/interruption.hpp"
+#include "fibers/kernel/run.hpp"
+#include "fibers/kernel/waitpoint_calls.hpp"
 #include "fibers/switch/sanitizer.hpp"
 #include "fibers/sync/robot_state.hpp"
 #include "fibers/sync/run_context.hpp"
@@ -43,7 +46,7 @@ ThreadState& running_thread() {
 
 void set_attention(kernel::Task& task, const TaskSignals& signals) {
   const bool deliverable = !(signals.pending - signals.blocked).empty();
-  task.scheduler->attend(task, kernel::attention::signal, deliverable);
+  kernel::attend(task, kernel::attention::signal, deliverable);
 }
 
 signal_sent post(ThreadState& to, int signal) {
@@ -61,7 +64,7 @@ void handle(kernel::Task& task, TaskSignals& signals, int signal) {
   if (!handler) handler = slot(state_of<RobotSignals>(*task.robot).handlers, signal);
   WAITPOINT_REQUIRE(handler, "a signal is delivered to a task that has no handler for it");
   static constexpr std::uint64_t delivered = 0x7369676E616C;  // "signal"
-  task.scheduler->record_output(delivered, static_cast<std::uint64_t>(signal));
+  kernel::record_output(delivered, static_cast<std::uint64_t>(signal));
   handler(signal);
 }
 
@@ -85,7 +88,7 @@ void deliver_signals(kernel::Task& task) {
   } catch (const Unwind&) {
     // The call at this waitpoint rethrows it, if it may.
   } catch (...) {
-    if (!task.scheduler->unwinding()) RunContext::of(*task.scheduler).fail(std::current_exception());
+    if (!kernel::is_unwinding(*task.scheduler)) RunContext::of(*task.scheduler).fail(std::current_exception());
   }
   set_attention(task, signals);
 }
@@ -102,8 +105,8 @@ signal_sent send_signal(const thread& to, int signal) {
 signal_sent send_signal(thread::id to, int signal) {
   WAITPOINT_REQUIRE(signal >= 1 && signal <= signals_max, "no signal has this number");
   kernel::Scheduler& scheduler = *sync::running_task().scheduler;
-  if (!scheduler.waitpoint(kernel::Operation::signal, nullptr)) return signal_sent::task_ended;
-  for (kernel::Task* task = scheduler.first_task(); task != nullptr; task = task->next)
+  if (!kernel::waitpoint(scheduler, kernel::Operation::signal, nullptr)) return signal_sent::task_ended;
+  for (kernel::Task* task = kernel::first_task(scheduler); task != nullptr; task = task->next)
     if (thread::id(task->id) == to) {
       sync::ThreadState* state = sync::thread_of(*task);
       return state != nullptr ? sync::post(*state, signal) : signal_sent::task_ended;

@@ -12,6 +12,10 @@
 #include "core/number_text.hpp"
 #include "core/spin_lock.hpp"
 #include "fibers/kernel/fault_reports.hpp"
+#include "fibers/kernel/interruption.hpp"
+#include "fibers/kernel/run.hpp"
+#include "fibers/kernel/run_window.hpp"
+#include "fibers/kernel/scheduler.hpp"
 #include "fibers/sync/blocking.hpp"
 #include "fibers/sync/report/object_names.hpp"
 #include "fibers/sync/signals.hpp"
@@ -62,13 +66,14 @@ std::uint64_t instant_limit_of_environment(std::uint64_t usual) {
 }
 
 Simulation::Simulation(SimulationOptions options)
-    : options_(checked(std::move(options))), scheduler_(options_.order, options_.seed) {
-  scheduler_.hooks().client = static_cast<sync::RunContext*>(this);
-  scheduler_.roster().set_most_tasks(options_.most_tasks);
-  if (!options_.fast_paths || !are_fast_paths_enabled()) scheduler_.use_fast_paths(false);
-  scheduler_.set_instant_limit(instant_limit_of_environment(options_.instant_limit));
-  scheduler_.hooks().replay = options_.replay.c_str();
-  scheduler_.hooks().deliver_signals = sync::deliver_signals;
+    : options_(checked(std::move(options))),
+      scheduler_(std::make_unique<kernel::Scheduler>(options_.order, options_.seed)) {
+  kernel::hooks(*scheduler_).client = static_cast<sync::RunContext*>(this);
+  kernel::roster(*scheduler_).set_most_tasks(options_.most_tasks);
+  if (!options_.fast_paths || !are_fast_paths_enabled()) kernel::use_fast_paths(*scheduler_, false);
+  kernel::set_instant_limit(*scheduler_, instant_limit_of_environment(options_.instant_limit));
+  kernel::hooks(*scheduler_).replay = options_.replay.c_str();
+  kernel::hooks(*scheduler_).deliver_signals = sync::deliver_signals;
   add(environment_, "environment");
 }
 
@@ -81,7 +86,7 @@ void Simulation::restart(std::uint64_t seed) {
   names_.clear();
   robots_.clear();
   robot_states_.clear();
-  scheduler_.restart(seed);
+  scheduler_->restart(seed);
   add(environment_, "environment");
 }
 
@@ -94,39 +99,41 @@ kernel::Robot& Simulation::add_robot(const std::string& name) {
 }
 
 void Simulation::add(kernel::Robot& robot, const char* name) {
-  scheduler_.add(robot, name);
+  kernel::add_robot(*scheduler_, robot, name);
   robot.client = &robot_states_.emplace_back();
 }
 
 void Simulation::spawn(kernel::Robot& robot, const kernel::SpawnOptions& options, std::function<void()> body) {
-  sync::start_thread(scheduler_, robot, options, sync::make_call(std::move(body)));
+  sync::start_thread(*scheduler_, robot, options, sync::make_call(std::move(body)));
 }
 
 RunEnd Simulation::run_before(Time until) {
-  const kernel::FaultReports reports(&scheduler_);
+  const kernel::FaultReports reports(scheduler_.get());
   const sync::SystemCalls calls;
-  const kernel::RunState state = scheduler_.run_before(until);
+  const kernel::RunState state = kernel::run_before(*scheduler_, until);
   if (failure_ != nullptr) std::rethrow_exception(failure_);
-  const bool was_told = state == kernel::RunState::stopped && scheduler_.stop_cause() == kernel::StopCause::requested;
+  const bool was_told =
+      state == kernel::RunState::stopped && kernel::stop_cause(*scheduler_) == kernel::StopCause::requested;
   if (state == kernel::RunState::reached || was_told) {
-    if (!was_told && until == Time::max()) trouble_ = sync::describe_endless(scheduler_, places_);
+    if (!was_told && until == Time::max()) trouble_ = sync::describe_endless(*scheduler_, places_);
     return RunEnd::time_reached;
   }
-  if (state == kernel::RunState::stopped && scheduler_.stop_cause() == kernel::StopCause::ended) return RunEnd::ended;
-  if (state == kernel::RunState::stopped && scheduler_.stop_cause() == kernel::StopCause::no_progress) {
-    trouble_ = sync::describe_spinning(scheduler_, places_);
+  if (state == kernel::RunState::stopped && kernel::stop_cause(*scheduler_) == kernel::StopCause::ended)
+    return RunEnd::ended;
+  if (state == kernel::RunState::stopped && kernel::stop_cause(*scheduler_) == kernel::StopCause::no_progress) {
+    trouble_ = sync::describe_spinning(*scheduler_, places_);
     return RunEnd::no_progress;
   }
   // Services that wait for each other are a deadlock, too, whichever tasks are left.
-  if (scheduler_.roster().live_tasks() == 0 && scheduler_.stop_cause() != kernel::StopCause::deadlock)
+  if (kernel::roster(*scheduler_).live_tasks() == 0 && kernel::stop_cause(*scheduler_) != kernel::StopCause::deadlock)
     return RunEnd::ended;
-  trouble_ = sync::describe_deadlock(scheduler_, places_);
+  trouble_ = sync::describe_deadlock(*scheduler_, places_);
   return RunEnd::deadlock;
 }
 
 bool Simulation::go_on_with_services() {
-  if (scheduler_.stop_cause() != kernel::StopCause::ended) return false;
-  scheduler_.go_on_after_end();
+  if (kernel::stop_cause(*scheduler_) != kernel::StopCause::ended) return false;
+  kernel::go_on_after_end(*scheduler_);
   return true;
 }
 
@@ -155,9 +162,9 @@ class TerminateHandler {
 }  // namespace
 
 void Simulation::unwind() {
-  const kernel::FaultReports reports(&scheduler_);
+  const kernel::FaultReports reports(scheduler_.get());
   const TerminateHandler handler(terminate_task);
-  scheduler_.unwind();
+  kernel::unwind(*scheduler_);
 }
 
 // Unwind reached a noexcept frame: a destructor in which the task waited at the end of the run.
@@ -166,7 +173,7 @@ void Simulation::terminate_task() {
     try {
       throw;
     } catch (const sync::Unwind&) {
-      kernel::running->scheduler->abandon();
+      kernel::abandon();
     } catch (...) {
     }
   }
@@ -176,7 +183,7 @@ void Simulation::terminate_task() {
 
 std::vector<std::string> Simulation::abandoned() const {
   std::vector<std::string> names;
-  for (const kernel::Task* task = scheduler_.roster().first_abandoned(); task != nullptr; task = task->next)
+  for (const kernel::Task* task = kernel::roster(*scheduler_).first_abandoned(); task != nullptr; task = task->next)
     names.push_back(std::string(task->name) + " of " + task->robot->name);
   return names;
 }
@@ -204,7 +211,7 @@ void Simulation::fail(std::exception_ptr failure, const char* how) {
       trouble_ += std::string(", in ") + work.what + " of " + work.of;
     trouble_ += ": " + what(failure_);
   }
-  scheduler_.stop(kernel::StopCause::requested);
+  kernel::stop(*scheduler_, kernel::StopCause::requested);
 }
 
 std::ostream& operator<<(std::ostream& out, const Report& report) {
@@ -246,7 +253,7 @@ Report simulate(std::function<void()> body, SimulationOptions options) {
   report.text = simulation.trouble();
   report.digest = simulation.digest();
   report.end_time = simulation.global_time();
-  report.events = simulation.scheduler().events();
+  report.events = kernel::events(simulation.scheduler());
   simulation.unwind();
   report.abandoned = simulation.abandoned();
   report.passed = report.text.empty();

@@ -11,6 +11,7 @@
 #include <exception>
 #include <functional>
 #include <iosfwd>
+#include <memory>
 #include <set>
 #include <string>
 #include <string_view>
@@ -18,7 +19,9 @@
 
 #include "core/digest.hpp"
 #include "core/time.hpp"
-#include "fibers/kernel/scheduler.hpp"
+#include "fibers/kernel/run.hpp"
+#include "fibers/kernel/spawn_options.hpp"
+#include "fibers/kernel/task.hpp"
 #include "fibers/sync/report/blocked_report.hpp"
 #include "fibers/sync/robot_state.hpp"
 #include "fibers/sync/run_context.hpp"
@@ -103,9 +106,9 @@ class Simulation final : public sync::RunContext {
   /// Combines the robots' digests in the order of their names, then the environment's.
   Digest digest() const;
   const SimulationOptions& options() const { return options_; }
-  Time global_time() const { return scheduler_.global_time(); }
-  kernel::Scheduler& scheduler() { return scheduler_; }
-  const kernel::Scheduler& scheduler() const { return scheduler_; }
+  Time global_time() const { return kernel::global_time(*scheduler_); }
+  kernel::Scheduler& scheduler() { return *scheduler_; }
+  const kernel::Scheduler& scheduler() const { return *scheduler_; }
 
   static Simulation& of(kernel::Scheduler& scheduler) { return static_cast<Simulation&>(RunContext::of(scheduler)); }
   std::chrono::sys_time<std::chrono::nanoseconds> start_date() const override { return options_.start_date; }
@@ -115,7 +118,7 @@ class Simulation final : public sync::RunContext {
 
  private:
   SimulationOptions options_;
-  kernel::Scheduler scheduler_;
+  std::unique_ptr<kernel::Scheduler> scheduler_;
   kernel::Robot environment_;
   std::deque<kernel::Robot> robots_;
   std::set<std::string_view> names_;            // the robots' names

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fibers/sync/stop_token.hpp"
 
+#include "fibers/kernel/interruption.hpp"
+#include "fibers/kernel/waiting_calls.hpp"
+
 namespace waitpoint::sync {
 
 void StopState::refresh() {
-  if (!running_task().scheduler->enter(object_)) return;
+  if (!enter_run(object_)) return;
   requested_ = false;
   first_ = last_ = called_ = nullptr;
 }
@@ -42,7 +45,7 @@ void StopState::call(StopCallback& callback) {
     callback.invoke(callback);
     before_releasing(kernel::Operation::release, object_);
   }
-  kernel::running->scheduler->wake_all(object_);
+  kernel::wake_all(*kernel::running->scheduler, object_);
 }
 
 bool StopState::add(StopCallback& callback) {
@@ -77,7 +80,7 @@ void StopState::remove(StopCallback& callback) {
   kernel::Scheduler& scheduler = *kernel::running->scheduler;
   while (called_ == &callback)
     // The callback is still running: returning would destroy it during its call.
-    if (scheduler.block(object_, Time::max()) == kernel::Wake::unwinding) scheduler.abandon();
+    if (kernel::block(scheduler, object_, Time::max()) == kernel::Wake::unwinding) kernel::abandon();
 }
 
 }  // namespace waitpoint::sync

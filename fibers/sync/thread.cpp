@@ -5,6 +5,10 @@
 #include <ostream>
 #include <system_error>
 
+#include "fibers/kernel/interruption.hpp"
+#include "fibers/kernel/run.hpp"
+#include "fibers/kernel/tasks.hpp"
+#include "fibers/kernel/waiting_calls.hpp"
 #include "fibers/sync/report/misuse.hpp"
 #include "fibers/sync/run_context.hpp"
 
@@ -34,37 +38,37 @@ void run_thread(void* argument) {
     const LocalsEnd locals_end{state};
     const std::unique_ptr<Call> call = std::move(state.call);
     // The function's captures are destroyed while an exception is in flight, so that their destructors need not wait.
-    if (scheduler.unwinding()) throw Unwind();
+    if (kernel::is_unwinding(scheduler)) throw Unwind();
     call->run();
-    if (!scheduler.unwinding()) check_holds_nothing(*kernel::running);
+    if (!kernel::is_unwinding(scheduler)) check_holds_nothing(*kernel::running);
   } catch (const Unwind&) {
   } catch (...) {
     // While unwinding, this is an exception that the task made of Unwind.
-    if (!scheduler.unwinding()) RunContext::of(scheduler).fail(std::current_exception());
+    if (!kernel::is_unwinding(scheduler)) RunContext::of(scheduler).fail(std::current_exception());
   }
   for (const std::function<void()>& make_ready : std::exchange(state.at_end, {})) make_ready();
   if (before_releasing(kernel::Operation::release, state.ended)) {
     state.ended.owner = nullptr;
-    scheduler.wake_all(state.ended);
+    kernel::wake_all(scheduler, state.ended);
   }
   // These are destroyed with the state.
   kernel::vacate(*kernel::running);
   kernel::set_clock(*kernel::running, nullptr);
   state.task = nullptr;
   kernel::running->argument = nullptr;
-  state.run_over = scheduler.unwinding();
+  state.run_over = kernel::is_unwinding(scheduler);
 }
 
 // As std::thread does.
 [[noreturn]] void refuse(const kernel::Scheduler& scheduler, const kernel::Robot& robot,
                          const kernel::SpawnOptions& options) {
-  const bool all_made = scheduler.roster().is_full();
-  throw std::system_error(
-      std::make_error_code(std::errc::resource_unavailable_try_again),
-      std::string("thread ") + options.name + " of " + robot.name + " cannot be created: " +
-          (all_made ? "the run has " + std::to_string(scheduler.roster().tasks()) + " tasks, the most allowed at once"
-                    : "no stack of " + std::to_string(kernel::bytes(options.stack) / 1024) +
-                          " KiB is left, their address space is used up"));
+  const bool all_made = kernel::roster(scheduler).is_full();
+  throw std::system_error(std::make_error_code(std::errc::resource_unavailable_try_again),
+                          std::string("thread ") + options.name + " of " + robot.name + " cannot be created: " +
+                              (all_made ? "the run has " + std::to_string(kernel::roster(scheduler).tasks()) +
+                                              " tasks, the most allowed at once"
+                                        : "no stack of " + std::to_string(kernel::bytes(options.stack) / 1024) +
+                                              " KiB is left, their address space is used up"));
 }
 
 }  // namespace
@@ -87,9 +91,9 @@ std::shared_ptr<ThreadState> start_thread(kernel::Scheduler& scheduler, kernel::
   state->call = std::move(call);
   if (!computing.clock.plain()) options.clock = &state->clock.emplace(computing.clock);
   if (computing.on != nullptr) options.seat = &state->seat.emplace(computing.on->core(), computing.priority);
-  state->task = scheduler.spawn(robot, options, run_thread, state.get());
+  state->task = kernel::spawn(scheduler, robot, options, run_thread, state.get());
   if (state->task == nullptr) {
-    if (!scheduler.unwinding()) refuse(scheduler, robot, options);
+    if (!kernel::is_unwinding(scheduler)) refuse(scheduler, robot, options);
     return state;
   }
   state->share = state;
@@ -116,14 +120,15 @@ thread& thread::operator=(thread&& other) noexcept {
 thread::~thread() {
   if (!joinable()) return;
   // Outside any task, a thread that ended with its run is detached already.
-  const bool let_go = kernel::running != nullptr ? kernel::running->scheduler->unwinding() : state_->task == nullptr;
+  const bool let_go =
+      kernel::running != nullptr ? kernel::is_unwinding(*kernel::running->scheduler) : state_->task == nullptr;
   WAITPOINT_REQUIRE(let_go, "a thread that is joinable is destroyed");
 }
 
 namespace {
 
 // At the end of a run threads are unwound in no order of the program's: nothing is a misuse then.
-bool run_is_over() { return kernel::running != nullptr && kernel::running->scheduler->unwinding(); }
+bool run_is_over() { return kernel::running != nullptr && kernel::is_unwinding(*kernel::running->scheduler); }
 
 }  // namespace
 
@@ -158,7 +163,7 @@ void thread::await_end() noexcept {
   sync::ThreadState& state = *state_;
   if (sync::before_releasing(kernel::Operation::join, state.ended) && state.task != nullptr) {
     state.ended.owner = state.task;
-    kernel::running->scheduler->block(state.ended, Time::max());
+    kernel::block(*kernel::running->scheduler, state.ended, Time::max());
   }
   state_ = nullptr;
 }

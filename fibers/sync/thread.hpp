@@ -14,6 +14,8 @@
 #include <vector>
 
 #include "fibers/clocks/task_clock.hpp"
+#include "fibers/kernel/spawn_options.hpp"
+#include "fibers/kernel/waitpoint_calls.hpp"
 #include "fibers/sync/call.hpp"
 #include "fibers/sync/clock.hpp"
 #include "fibers/sync/local_values.hpp"
@@ -156,11 +158,11 @@ inline void set_work(const char* what, const char* of) { sync::running_task().wo
 
 /// Moves the caller behind all tasks of this instant.
 inline void yield() {
-  if (!sync::running_task().scheduler->yield()) sync::unwind();
+  if (!kernel::yield(*sync::running_task().scheduler)) sync::unwind();
 }
 
 [[gnu::always_inline]] inline void sleep_until(Time time) {
-  if (!sync::running_task().scheduler->sleep_until(time)) sync::unwind();
+  if (!kernel::sleep_until(*sync::running_task().scheduler, time)) sync::unwind();
 }
 template <class Clock, class Span>
 [[gnu::always_inline]] inline void sleep_until(const std::chrono::time_point<Clock, Span>& time) {

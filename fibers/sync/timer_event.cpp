@@ -5,6 +5,10 @@
 #include <cstring>
 
 #include "core/digest.hpp"
+#include "fibers/kernel/run.hpp"
+#include "fibers/kernel/run_window.hpp"
+#include "fibers/kernel/timers.hpp"
+#include "fibers/kernel/waitpoint_calls.hpp"
 #include "fibers/switch/sanitizer.hpp"
 #include "fibers/sync/robot_state.hpp"
 
@@ -21,7 +25,8 @@ struct RunTimers : RobotState {
 };
 
 struct RobotTimers : RobotState {
-  explicit RobotTimers(kernel::Robot& robot) : run(state_of<RunTimers>(*robot.scheduler->roster().first_robot())) {
+  explicit RobotTimers(kernel::Robot& robot)
+      : run(state_of<RunTimers>(*kernel::roster(*robot.scheduler).first_robot())) {
     task.scheduler = robot.scheduler;
     task.robot = &robot;
     task.id = Digest::mix(~robot.id);
@@ -43,14 +48,14 @@ void TimerEvent::schedule(Time time, kernel::Object& timer) {
   cancel();
   timer_ = &timer;
   kernel::Scheduler& scheduler = *timer.robot->scheduler;
-  due_ = std::max(time, scheduler.global_time());
-  scheduler.schedule(event_, due_, timer);
+  due_ = std::max(time, kernel::global_time(scheduler));
+  kernel::schedule(scheduler, event_, due_, timer);
   ++state_of<RobotTimers>(*timer.robot).run.pending;
 }
 
 void TimerEvent::cancel() {
   if (!event_.in_list()) return;
-  timer_->robot->scheduler->cancel(event_);
+  kernel::cancel(*timer_->robot->scheduler, event_);
   --state_of<RobotTimers>(*timer_->robot).run.pending;
 }
 
@@ -60,14 +65,14 @@ void TimerEvent::fire(kernel::EventNode& node) {
   kernel::Scheduler& scheduler = *timers.task.scheduler;
   RunTimers& run = timers.run;
   --run.pending;
-  run.barren = scheduler.pending_events() == run.pending ? run.barren + 1 : 0;
+  run.barren = kernel::pending_events(scheduler) == run.pending ? run.barren + 1 : 0;
   if (run.barren > idle_firings_max) return;
 
   run.firings = run.instant == self.due_ ? run.firings + 1 : 0;
   run.instant = self.due_;
   if (run.firings > firings_max) {
     timers.task.at = self.timer_;
-    return scheduler.stop_between_events(kernel::StopCause::no_progress, timers.task);
+    return kernel::stop_between_events(scheduler, kernel::StopCause::no_progress, timers.task);
   }
 
   void* const left = kernel::sanitizer::enter_timer(timers.known_as);
@@ -76,7 +81,7 @@ void TimerEvent::fire(kernel::EventNode& node) {
   kernel::running = &timers.task;
   timers.task.local_time = self.due_;
   // A firing is part of the robot's digest, like a task's event.
-  scheduler.waitpoint(kernel::Operation::timer_tick, self.timer_);
+  kernel::waitpoint(scheduler, kernel::Operation::timer_tick, self.timer_);
   try {
     self.function_(self.of_);
   } catch (...) {

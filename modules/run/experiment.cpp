@@ -7,6 +7,9 @@
 
 #include "core/error.hpp"
 #include "fibers/kernel/fetch_ahead.hpp"
+#include "fibers/kernel/run.hpp"
+#include "fibers/kernel/run_window.hpp"
+#include "fibers/kernel/watch.hpp"
 #include "fibers/sync/report/blocked_report.hpp"
 #include "fibers/sync/thread.hpp"
 #include "fibers/sync/threads.hpp"
@@ -45,17 +48,17 @@ class FirstInFirstOut final : public kernel::Decisions {
 
 void decide_in_the_explored_order(kernel::Scheduler& scheduler) {
   static FirstInFirstOut usual;  // stateless
-  scheduler.set_decisions(usual);
+  kernel::set_decisions(scheduler, usual);
 }
 
 /// Evaluates a pause condition after each event, in addition to the present watch.
 class PauseWatch : private kernel::Watch {
  public:
   PauseWatch(kernel::Scheduler& scheduler, const std::function<bool(const kernel::EventRecord&)>& enough)
-      : Watch{&PauseWatch::see}, scheduler_(scheduler), other_(scheduler.watch()), enough_(enough) {
-    scheduler_.set_watch(this);
+      : Watch{&PauseWatch::see}, scheduler_(scheduler), other_(kernel::watch(scheduler)), enough_(enough) {
+    kernel::set_watch(scheduler_, this);
   }
-  ~PauseWatch() { scheduler_.set_watch(other_); }
+  ~PauseWatch() { kernel::set_watch(scheduler_, other_); }
   PauseWatch(const PauseWatch&) = delete;
   PauseWatch& operator=(const PauseWatch&) = delete;
 
@@ -67,7 +70,7 @@ class PauseWatch : private kernel::Watch {
     if (self.other_ != nullptr) self.other_->event(*self.other_, record);
     if (self.paused_ || !self.enough_(record)) return;
     self.paused_ = true;
-    self.scheduler_.pause();
+    kernel::pause(self.scheduler_);
   }
 
   kernel::Scheduler& scheduler_;
@@ -175,7 +178,7 @@ void Experiment::spawn(bridge::Robot& robot) {
   if (robot.presence() == bridge::Presence::elsewhere) return;
   simulation_.spawn(lane, {.name = "bridge", .phase = kernel::Phase::world, .service = true},
                     [&robot] { robot.bridge().run(); });
-  bridges_.back() = simulation_.scheduler().roster().last_task();
+  bridges_.back() = kernel::roster(simulation_.scheduler()).last_task();
   const genom::TaskComputing& computing = robot.computing();
   // Planning needs a large stack, of which there are 16 384; crowds of more have no mission. A script that recurses to
   // Tcl's bound on its levels needs more.
@@ -243,9 +246,9 @@ RunEnd Experiment::run_to_end_of_step(Time until) {
       last_end_ = simulation_.global_time();
       continue;
     }
-    const bool is_at_stop = last_end_ && simulation_.scheduler().next_event_time() >= stop;
+    const bool is_at_stop = last_end_ && kernel::next_event_time(simulation_.scheduler()) >= stop;
     if (end != RunEnd::time_reached || !is_at_stop) return end;
-    if (simulation_.scheduler().roster().live_tasks() == 0) return RunEnd::ended;
+    if (kernel::roster(simulation_.scheduler()).live_tasks() == 0) return RunEnd::ended;
     last_end_.reset();  // a service has made another task
   }
 }
@@ -299,7 +302,7 @@ void Experiment::gather_records() const {
 }
 
 std::uint64_t Experiment::events() const {
-  return simulation_.scheduler().events() + (ranked_ ? ranked_->events_after_ends_elsewhere() : 0);
+  return kernel::events(simulation_.scheduler()) + (ranked_ ? ranked_->events_after_ends_elsewhere() : 0);
 }
 
 bridge::RunTotals Experiment::figures() const {

@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "fibers/io/network.hpp"
+#include "fibers/kernel/watch.hpp"
 #include "fibers/sync/simulation.hpp"
 #include "modules/bridge/run_result.hpp"
 #include "modules/run/assembly.hpp"

@@ -4,6 +4,8 @@
 #include <algorithm>
 
 #include "core/nearest_name.hpp"
+#include "fibers/kernel/run.hpp"
+#include "fibers/kernel/waitpoint_calls.hpp"
 #include "fibers/sync/thread.hpp"
 #include "modules/genom/client.hpp"
 
@@ -56,7 +58,7 @@ void Operator::act(Time now) {
     if (!is_frequent(intervention)) outcomes_.push_back({now, outcome});
     Digest digest;
     digest.add(std::string_view(outcome));
-    kernel::running->scheduler->record_output(by_the_operator, digest.value());
+    kernel::record_output(by_the_operator, digest.value());
   }
   for (const auto& [robot, external] : external_) external->before_step(now);
 }
@@ -187,7 +189,7 @@ std::string Operator::carry_out(const PublishedPose& published, const Interventi
 
 // Streams have no state but these seeds; links and programs that begin later ask the chooser for its own.
 std::string Operator::carry_out(const SeedChange& change, const Intervention&) {
-  kernel::running->scheduler->chooser().reseed(change.seed);
+  kernel::chooser(*kernel::running->scheduler).reseed(change.seed);
   network_.reseed();
   world_.reseed(change.seed);
   for (const auto& robot : robots_) robot->reseed(change.seed);

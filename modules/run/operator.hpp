@@ -18,7 +18,7 @@
 
 #include "core/time.hpp"
 #include "fibers/io/network.hpp"
-#include "fibers/kernel/scheduler.hpp"
+#include "fibers/kernel/task.hpp"
 #include "modules/bridge/robot.hpp"
 #include "modules/run/intervention.hpp"
 #include "modules/tcl/shell.hpp"

@@ -10,6 +10,8 @@
 #include <utility>
 
 #include "fibers/io/letter.hpp"
+#include "fibers/kernel/messages.hpp"
+#include "fibers/kernel/run.hpp"
 #include "modules/run/ranks/processor_time.hpp"
 
 namespace waitpoint::run {
@@ -48,7 +50,7 @@ void RankWindows::send_elsewhere() {
 
 Time RankWindows::end_of_window() const {
   const Time begun = parts_.steps.last(reached_), step = parts_.steps.next(reached_);
-  const Duration lookahead = parts_.simulation.scheduler().lookahead();
+  const Duration lookahead = kernel::lookahead(parts_.simulation.scheduler());
   if (lookahead >= parts_.steps.period()) return step;
   return std::min(step, begun + lookahead * ((reached_ - begun) / lookahead + 1));
 }
@@ -73,7 +75,7 @@ Window RankWindows::run_window(Time end) {
   messages_.clear();
   Window window;
   window.failure = failure_in(end);
-  window.live_tasks = parts_.simulation.scheduler().roster().live_tasks();
+  window.live_tasks = kernel::roster(parts_.simulation.scheduler()).live_tasks();
   window.last_end = last_end_here_;
   window.environment = parts_.simulation.environment().digest.value();
   bodies_.clear();
@@ -113,7 +115,7 @@ Failure RankWindows::failure_in(Time end) {
 
 // Since the first window each bridge waits for the world's step.
 void RankWindows::note_steps(Window& window) const {
-  const kernel::Task* task = parts_.simulation.scheduler().first_task();
+  const kernel::Task* task = kernel::first_task(parts_.simulation.scheduler());
   for (; task != nullptr; task = task->next) {
     if (task->phase != kernel::Phase::world || task->blocked_on == nullptr ||
         task->blocked_on->label != std::string_view(step_label))

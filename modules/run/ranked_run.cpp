@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "modules/run/ranked_run.hpp"
 
+#include "fibers/kernel/run.hpp"
+
 #include <algorithm>
 #include <exception>
 #include <iterator>
@@ -92,7 +94,7 @@ void RankedRun::gather_records() {
 
 Records RankedRun::records_here() const {
   Records own;
-  own.pairs_after_ends = parts_.simulation.scheduler().roster().pairs_after_ends();
+  own.pairs_after_ends = kernel::roster(parts_.simulation.scheduler()).pairs_after_ends();
   for (std::size_t i = 0; i < parts_.lanes.size(); ++i) {
     const kernel::Robot& lane = *parts_.lanes[i];
     if (is_here(i))

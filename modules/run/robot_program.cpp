@@ -7,6 +7,9 @@
 #include <filesystem>
 #include <utility>
 
+#include "fibers/kernel/common_order.hpp"
+#include "fibers/kernel/run.hpp"
+#include "fibers/kernel/timers.hpp"
 #include "fibers/posix/host/in_process_host.hpp"
 #include "fibers/posix/host/process_host.hpp"
 
@@ -83,7 +86,8 @@ void RobotPrograms::add(const scenario::ProgramScenario& program, const kernel::
   if (program.after.empty()) return start_if_due(programs_->size() - 1);
   look_.node.fire = look;
   look_.programs = this;
-  if (!look_.node.in_list()) scheduler_.schedule(look_.node, {scheduler_.global_time(), order_of_looks});
+  if (!look_.node.in_list())
+    kernel::schedule(scheduler_, look_.node, {kernel::global_time(scheduler_), order_of_looks});
 }
 
 void RobotPrograms::start_if_due(std::size_t program) {
@@ -102,11 +106,11 @@ void RobotPrograms::start_those_due() {
   for (std::size_t i = 0; i < programs_->size(); ++i) start_if_due(i);
   kernel::running = task;
   if (!programs_->have_all_started())
-    scheduler_.schedule(look_.node, {scheduler_.global_time() + between_looks, order_of_looks});
+    kernel::schedule(scheduler_, look_.node, {kernel::global_time(scheduler_) + between_looks, order_of_looks});
 }
 
 void RobotPrograms::take_away() {
-  if (look_.node.in_list()) scheduler_.cancel(look_.node);
+  if (look_.node.in_list()) kernel::cancel(scheduler_, look_.node);
   programs_.reset();
   scenarios_.clear();
   host_.reset();

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "modules/run/task_list.hpp"
 
+#include "fibers/kernel/run.hpp"
+
 #include <fmt/format.h>
 
 namespace waitpoint::run {
@@ -19,7 +21,7 @@ const char* state_name(kernel::TaskState state) {
 
 std::string list_tasks(const kernel::Scheduler& scheduler, const kernel::Robot& robot) {
   std::string lines;
-  for (const kernel::Task* task = scheduler.roster().first_task(); task != nullptr; task = task->next) {
+  for (const kernel::Task* task = kernel::roster(scheduler).first_task(); task != nullptr; task = task->next) {
     if (task->robot != &robot) continue;
     lines += fmt::format("  {:<24} {:<12} {:<8} {} s, {}", task->name, robot.name, state_name(task->state),
                          to_string(task->local_time), kernel::name(task->operation));

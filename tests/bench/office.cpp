@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <map>
 
+#include "fibers/kernel/watch.hpp"
 #include "modules/run/experiment.hpp"
 #include "tests/bench/floors.hpp"
 #include "tests/bench/program.hpp"
@@ -85,7 +86,7 @@ struct Speed {
 Speed carry_out(const scenario::Scenario& scenario, const std::string& what, Costs* costs) {
   const std::vector<genom::ModuleType> types = tools::papers_modules();
   run::Experiment experiment(scenario, types, {1, kernel::Order::fifo, ""});
-  if (costs != nullptr) experiment.simulation().scheduler().set_watch(costs);
+  if (costs != nullptr) kernel::set_watch(experiment.simulation().scheduler(), costs);
   const std::int64_t wall_ns = clock_ns(CLOCK_MONOTONIC), processor_ns = clock_ns(CLOCK_PROCESS_CPUTIME_ID);
   const Time until = Time() + scenario.until;
   RunEnd end = RunEnd::time_reached;

@@ -90,7 +90,7 @@ class Looking(unittest.TestCase):
                       fiber)
         self.assertRegex(fiber, r"#\d+ .*make_clock \(.*number=2")
         functions = " ".join(trace.splitlines())
-        self.assertRegex(functions, r"waitpoint::kernel::Scheduler::block.*waitpoint::mutex::lock.*make_clock.*run_entry")
+        self.assertRegex(functions, r"waitpoint::kernel::block.*waitpoint::mutex::lock.*make_clock.*run_entry")
         self.assertNotRegex(trace, r"debugger_stop|corrupt|\?\?")
         self.assertRegex(above, r"^#\d+ ")
         self.assertIn("lock = ", local)

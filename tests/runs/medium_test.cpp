@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "fibers/io/datagram_socket.hpp"
+#include "fibers/kernel/messages.hpp"
 #include "modules/genom/module.hpp"
 #include "modules/posters/base.hpp"
 #include "modules/run/experiment.hpp"
@@ -146,7 +147,7 @@ Transmission transmit(const std::string& medium, std::uint64_t seed = 1, const s
   const bridge::RunResult result = experiment.result();
   for (const bridge::RobotResult& robot : result.robots) outcome.digests.push_back(to_string(robot.digest));
   outcome.digest = to_string(result.digest);
-  outcome.lookahead = experiment.simulation().scheduler().lookahead();
+  outcome.lookahead = kernel::lookahead(experiment.simulation().scheduler());
   const auto position = [&](std::uint32_t i) { return experiment.world().body(world::BodyId(i)).pose.position(); };
   outcome.distance_m = length(position(0) - position(1));
   return outcome;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <string>
 
+#include "fibers/kernel/watch.hpp"
 #include "tests/runs/shipped.hpp"
 #include "tools/papers_modules.hpp"
 
@@ -69,7 +70,7 @@ Duration worst_response(const std::string& task, Duration period, Duration delay
   const scenario::Scenario scenario = shipped("office-one-processor.yaml", assignments);
   run::Experiment experiment(scenario, types, {usual_seed, kernel::Order::fifo, ""});
   ResponseTime response(task, period, delay);
-  experiment.simulation().scheduler().set_watch(&response);
+  kernel::set_watch(experiment.simulation().scheduler(), &response);
   experiment.run_before(Time() + Duration(10s));
   return response.worst;
 }

@@ -111,7 +111,7 @@ TEST(Process, HundredDebuggerStopsDoNotChangeTheRun) {
   if (outcome_of({{"gdb", "--version"}}).status != 0) GTEST_SKIP() << "there is no gdb here";
   const tools::Folder folder;
   folder.write("stops.gdb",
-               "break waitpoint::kernel::Scheduler::start_sleep\n"
+               "break waitpoint::kernel::start_sleep\n"
                "run\n"
                "set $stops = 0\n"
                "while $stops < 100\n"

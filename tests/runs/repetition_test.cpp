@@ -6,7 +6,8 @@
 #include <thread>
 
 #include "core/random.hpp"
-#include "fibers/kernel/scheduler.hpp"
+#include "fibers/kernel/task.hpp"
+#include "fibers/kernel/watch.hpp"
 #include "tests/project.hpp"
 #include "tests/runs/shipped.hpp"
 #include "tools/papers_modules.hpp"
@@ -90,7 +91,7 @@ TEST(Repetition, ObserversDoNotChangeTheRun) {
     std::uint64_t events = 0;
   } counter;
   counter.event = [](kernel::Watch& watch, const kernel::EventRecord&) { ++static_cast<Counter&>(watch).events; };
-  experiment.simulation().scheduler().set_watch(&counter);
+  kernel::set_watch(experiment.simulation().scheduler(), &counter);
   std::size_t segments = 0;
   for (Time until; until < Time() + first_seconds; until += 100ms) {
     experiment.run_before(until + 100ms);

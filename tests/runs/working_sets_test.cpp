@@ -3,6 +3,7 @@
 // other tasks need next.
 #include <gtest/gtest.h>
 
+#include "fibers/kernel/run.hpp"
 #include "modules/run/experiment.hpp"
 #include "tests/runs/shipped.hpp"
 #include "tools/papers_modules.hpp"
@@ -23,7 +24,7 @@ TEST(WorkingSets, TasksHaveSmallOnes) {
   run::Experiment experiment(scenario, types, {usual_seed, kernel::Order::fifo, ""});
   experiment.run_before(Time() + std::chrono::seconds(1));
   int declared = 0;
-  for (const kernel::Task* task = experiment.simulation().scheduler().roster().first_task(); task != nullptr;
+  for (const kernel::Task* task = kernel::roster(experiment.simulation().scheduler()).first_task(); task != nullptr;
        task = task->next) {
     if (task->working_set_size > 0) ++declared;
     EXPECT_LE(lines_of(*task), lines_max) << task->robot->name << " " << task->name;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/check/event_comparison.hpp"
 
+#include "fibers/kernel/run_window.hpp"
+
 namespace waitpoint::tools {
 namespace {
 
@@ -46,7 +48,7 @@ void EventComparison::compare(kernel::Watch& watch, const kernel::EventRecord& r
   } catch (...) {
     self.failure_ = std::current_exception();
   }
-  record.task->scheduler->pause();
+  kernel::pause(*record.task->scheduler);
 }
 
 std::optional<Difference> EventComparison::finish(const Digest& digest, const std::string& end) {

@@ -5,6 +5,7 @@
 
 #include <exception>
 
+#include "fibers/kernel/watch.hpp"
 #include "tools/check/event_log.hpp"
 
 namespace waitpoint::tools {
@@ -14,7 +15,7 @@ class EventComparison : private kernel::Watch {
   /// Reads the log of that file from its start; borrows the descriptor. Each task calls `started`, if given, at its
   /// first event, on its own stack.
   explicit EventComparison(int log, void (*started)(const kernel::Task&) = nullptr);
-  void watch(Simulation& simulation) { simulation.scheduler().set_watch(this); }
+  void watch(Simulation& simulation) { kernel::set_watch(simulation.scheduler(), this); }
 
   /// True if the runs have differed; later events are not compared.
   bool parted() const { return difference_.has_value(); }

@@ -16,6 +16,7 @@
 #include <string>
 #include <vector>
 
+#include "fibers/kernel/watch.hpp"
 #include "fibers/sync/simulation.hpp"
 #include "tools/check/difference.hpp"
 #include "tools/check/event_names.hpp"
@@ -70,7 +71,7 @@ class EventLog : private kernel::Watch {
   EventLog(const EventLog&) = delete;
   EventLog& operator=(const EventLog&) = delete;
 
-  void watch(Simulation& simulation) { simulation.scheduler().set_watch(this); }
+  void watch(Simulation& simulation) { kernel::set_watch(simulation.scheduler(), this); }
   /// After the run: its digest and its end. BadInput if the file could not be written.
   void finish(const Digest& digest, const std::string& end);
   /// The file's descriptor, open during the lifetime of this object.

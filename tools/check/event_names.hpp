@@ -8,7 +8,8 @@
 #include <unordered_map>
 
 #include "core/digest.hpp"
-#include "fibers/kernel/scheduler.hpp"
+#include "fibers/kernel/task.hpp"
+#include "fibers/kernel/watch.hpp"
 
 namespace waitpoint::tools {
 

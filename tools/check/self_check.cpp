@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "core/number_text.hpp"
+#include "fibers/kernel/run.hpp"
 #include "fibers/sync/duration_record.hpp"
 #include "fibers/sync/system_calls/system_calls.hpp"
 #include "modules/scenario/scenario_reader.hpp"
@@ -122,7 +123,7 @@ Carried SelfCheck::carry_out(CheckedRun& checked, const EventComparison* compari
     run.end = std::string("it failed: ") + error.what();
   }
   run.digest = checked.simulation().digest();
-  run.events = checked.simulation().scheduler().events();
+  run.events = kernel::events(checked.simulation().scheduler());
   run.wall_s = wall_clock_s() - start_s;
   return run;
 }

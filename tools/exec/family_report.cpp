@@ -9,6 +9,7 @@
 #include <algorithm>
 
 #include "core/number_text.hpp"
+#include "fibers/kernel/run.hpp"
 #include "fibers/posix/family/processes.hpp"
 
 namespace waitpoint::tools {
@@ -64,12 +65,14 @@ Digest digest_of(const posix::Record& record) {
 
 std::uint64_t events_of(const posix::Record& record) {
   const Family& family = family_of(record);
-  std::uint64_t events = record.scheduler.events() + family.events_of_ended;
+  std::uint64_t events = kernel::events(record.scheduler()) + family.events_of_ended;
   for_each_other(family, [&events](const Process& process) { events += process.digest.pairs(); });
   return events;
 }
 
-Time time_of(const posix::Record& record) { return std::max(record.scheduler.global_time(), family_of(record).now); }
+Time time_of(const posix::Record& record) {
+  return std::max(kernel::global_time(record.scheduler()), family_of(record).now);
+}
 
 pid_t process_in_turn(const posix::Record& record) {
   const Family& family = family_of(record);
@@ -86,7 +89,7 @@ RunCounts counts_in(const posix::Record& record) {
           .threads = record.threads_made + family.threads_made,
           .threads_at_once = record.threads_most,
           .events = events_of(record),
-          .switches = record.scheduler.switches() + family.hand_overs,
+          .switches = kernel::switches(record.scheduler()) + family.hand_overs,
           .time = time_of(record)};
 }
 

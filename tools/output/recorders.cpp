@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/output/recorders.hpp"
 
+#include "fibers/kernel/run.hpp"
+
 namespace waitpoint::tools {
 
 void DigestRecorder::record(const Simulation& simulation, std::int64_t second) {
-  for (const kernel::Robot* robot = simulation.scheduler().roster().first_robot(); robot != nullptr;
+  for (const kernel::Robot* robot = kernel::roster(simulation.scheduler()).first_robot(); robot != nullptr;
        robot = robot->next) {
     char line[160];
     const int length = std::snprintf(line, sizeof line, "%lld %s %s %llu\n", static_cast<long long>(second),

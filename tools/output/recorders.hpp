@@ -7,6 +7,7 @@
 
 #include <string>
 
+#include "fibers/kernel/watch.hpp"
 #include "fibers/sync/simulation.hpp"
 #include "tools/output/output_file.hpp"
 
@@ -32,7 +33,7 @@ std::string event_text(const kernel::EventRecord& record);
 class EventRecorder : private kernel::Watch {
  public:
   explicit EventRecorder(const std::filesystem::path& path);
-  void watch(Simulation& simulation) { simulation.scheduler().set_watch(this); }
+  void watch(Simulation& simulation) { kernel::set_watch(simulation.scheduler(), this); }
   /// A line from elsewhere.
   void add(const std::string& event_text) { file_.write(event_text + "\n"); }
   void finish() { file_.commit(); }

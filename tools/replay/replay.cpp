@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/printable_line.hpp"
+#include "fibers/kernel/run.hpp"
 #include "modules/playback/playback.hpp"
 #include "tools/command/interruption.hpp"
 #include "tools/output/json_document.hpp"
@@ -78,7 +79,7 @@ ReplayResult result_of(const PlayOptions& options, playback::Playback& playback,
   ReplayResult result;
   result.relations = std::move(relations);
   result.digest = playback.simulation().digest();
-  result.events = playback.simulation().scheduler().events();
+  result.events = kernel::events(playback.simulation().scheduler());
   const PoseSource source = source_of(options, playback);
   result.pose_source = names_of_sources[static_cast<std::size_t>(source)];
   result.trajectory = playback.trajectory(source);

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <utility>
 
+#include "fibers/kernel/watch.hpp"
 #include "modules/run/ranks/archive.hpp"
 #include "tools/output/recorders.hpp"
 
@@ -37,7 +38,7 @@ RankOutputs::RankOutputs(const scenario::Scenario& scenario, run::Experiment& ex
     : experiment_(experiment) {
   if (options.events) {
     events_.emplace(options.write_event != nullptr, options.write_event);
-    experiment.simulation().scheduler().set_watch(&*events_);
+    kernel::set_watch(experiment.simulation().scheduler(), &*events_);
     experiment.add(*events_);
   }
   if (options.paths) {
@@ -53,7 +54,7 @@ RankOutputs::RankOutputs(const scenario::Scenario& scenario, run::Experiment& ex
 }
 
 RankOutputs::~RankOutputs() {
-  if (events_) experiment_.simulation().scheduler().set_watch(nullptr);
+  if (events_) kernel::set_watch(experiment_.simulation().scheduler(), nullptr);
 }
 
 RankOutputs::Events::Events(bool with_environment, std::function<void(const std::string&)> write)

@@ -9,6 +9,7 @@
 #include <optional>
 #include <system_error>
 
+#include "fibers/kernel/run.hpp"
 #include "fibers/kernel/unfinished_run.hpp"
 #include "fibers/sync/system_calls/system_calls.hpp"
 #include "modules/run/experiment.hpp"
@@ -96,9 +97,8 @@ bridge::RunResult repeat(const RunOptions& options, const scenario::Scenario& sc
   else if (experiment.ranks() > 1)
     stop = session.carry_on(end->time);
   else if (end->events > 0)
-    stop = session.carry_on(until, [seen = scheduler.events(), last = end->events](const kernel::EventRecord&) mutable {
-      return ++seen == last;
-    });
+    stop = session.carry_on(until, [seen = kernel::events(scheduler),
+                                    last = end->events](const kernel::EventRecord&) mutable { return ++seen == last; });
   const bool interrupted = stop == Session::Stop::interrupted;
   const run::JournalEnd here = session.here();
   same = interrupted || !end || (here.events == end->events && here.digest == end->digest);

@@ -17,6 +17,7 @@
 
 #include "core/doing.hpp"
 #include "fibers/kernel/fault_reports.hpp"
+#include "fibers/kernel/task.hpp"
 #include "tools/command/interruption.hpp"
 
 namespace waitpoint::tools {

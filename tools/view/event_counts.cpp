@@ -5,6 +5,7 @@
 
 #include <utility>
 
+#include "fibers/kernel/run.hpp"
 #include "modules/genom/module.hpp"
 #include "tools/view/view_json.hpp"
 
@@ -41,7 +42,7 @@ void EventCounts::take(Time now) {
   note_collisions(now);
   if (now.since_start() < period_ * static_cast<std::int64_t>(periods_ + 1)) return;
   const Missed missed = missed_deadlines(experiment_);
-  const kernel::Roster& roster = experiment_.simulation().scheduler().roster();
+  const kernel::Roster& roster = kernel::roster(experiment_.simulation().scheduler());
   for (const kernel::Task* task = roster.first_task(); task != nullptr; task = task->next) {
     OfTask& counts = tasks_[task->number];
     if (counts.head.empty()) {

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <iterator>
 
+#include "fibers/kernel/run.hpp"
+#include "fibers/kernel/watch.hpp"
 #include "tools/view/view_json.hpp"
 
 namespace waitpoint::tools::view {
@@ -27,13 +29,13 @@ void append_list(std::string& text, std::string_view name, const Items& items, s
 EventTrace::EventTrace(kernel::Scheduler& scheduler, std::size_t most)
     : Watch{&EventTrace::see},
       scheduler_(scheduler),
-      before_(scheduler.watch()),
+      before_(kernel::watch(scheduler)),
       most_(most),
-      first_(scheduler.events() + 1) {
-  scheduler_.set_watch(this);
+      first_(kernel::events(scheduler) + 1) {
+  kernel::set_watch(scheduler_, this);
 }
 
-EventTrace::~EventTrace() { scheduler_.set_watch(before_); }
+EventTrace::~EventTrace() { kernel::set_watch(scheduler_, before_); }
 
 void EventTrace::see(kernel::Watch& watch, const kernel::EventRecord& record) {
   EventTrace& self = static_cast<EventTrace&>(watch);

@@ -9,7 +9,8 @@
 #include <unordered_map>
 #include <vector>
 
-#include "fibers/kernel/scheduler.hpp"
+#include "fibers/kernel/task.hpp"
+#include "fibers/kernel/watch.hpp"
 
 namespace waitpoint::tools::view {
 

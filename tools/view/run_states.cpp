@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/view/run_states.hpp"
 
+#include "fibers/kernel/run.hpp"
+#include "fibers/kernel/waiting_calls.hpp"
 #include "modules/genom/module.hpp"
 
 namespace waitpoint::tools::view {
@@ -31,7 +33,7 @@ Json task_state(const kernel::Task& task, const kernel::Scheduler& scheduler) {
                {"work", task.work.what != nullptr ? std::string(task.work.what) + " " + task.work.of : ""},
                {"events", task.sequence}};
   const kernel::Object* const at = task.blocked_on != nullptr ? task.blocked_on : task.at;
-  if (at != nullptr && scheduler.has_entered(*at)) json["object"] = object_state(*at);
+  if (at != nullptr && kernel::has_entered(scheduler, *at)) json["object"] = object_state(*at);
   return json;
 }
 
@@ -68,8 +70,8 @@ Json poster_state(const genom::PosterBase& poster) {
 
 Json task_states(run::Experiment& experiment) {
   const kernel::Scheduler& scheduler = experiment.simulation().scheduler();
-  Json json = {{"kind", "tasks"}, {"time", scheduler.global_time().ns()}, {"tasks", Json::array()}};
-  for (const kernel::Task* task = scheduler.roster().first_task(); task != nullptr; task = task->next)
+  Json json = {{"kind", "tasks"}, {"time", kernel::global_time(scheduler).ns()}, {"tasks", Json::array()}};
+  for (const kernel::Task* task = kernel::roster(scheduler).first_task(); task != nullptr; task = task->next)
     json["tasks"].push_back(task_state(*task, scheduler));
   return json;
 }

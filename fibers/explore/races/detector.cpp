@@ -5,7 +5,9 @@
 #include <cstring>
 
 #include "fibers/kernel/access.hpp"
-#include "fibers/kernel/scheduler.hpp"
+#include "fibers/kernel/interruption.hpp"
+#include "fibers/kernel/run.hpp"
+#include "fibers/kernel/task.hpp"
 
 namespace waitpoint::races {
 
@@ -13,7 +15,7 @@ constinit Detector detector;
 
 namespace {
 
-bool is_unwound(const kernel::Task* task) { return task != nullptr && task->scheduler->unwinding(); }
+bool is_unwound(const kernel::Task* task) { return task != nullptr && kernel::is_unwinding(*task->scheduler); }
 
 }  // namespace
 
@@ -246,7 +248,7 @@ void Detector::report(Cell& cell, const MemoryAccess& first, const MemoryAccess&
   describe(race.second, second);
   race.address = cell.word * 8 + static_cast<std::uint64_t>(__builtin_ctz(first.bytes() & second.bytes()));
   const char* address = reinterpret_cast<const char*>(race.address);
-  for (const kernel::Task* task = kernel::running->scheduler->first_task(); task != nullptr; task = task->next)
+  for (const kernel::Task* task = kernel::first_task(*kernel::running->scheduler); task != nullptr; task = task->next)
     if (address >= task->fiber.stack.low && address < task->fiber.stack.high)
       std::memcpy(race.stack_of, task->name, sizeof race.stack_of);
   if (listener_ != nullptr) listener_->found(race);

@@ -5,7 +5,8 @@
 
 #include "fibers/explore/races/detector.hpp"
 #include "fibers/explore/races/memory_order.hpp"
-#include "fibers/kernel/scheduler.hpp"
+#include "fibers/kernel/interruption.hpp"
+#include "fibers/kernel/task.hpp"
 
 namespace waitpoint::races {
 namespace {
@@ -139,7 +140,7 @@ void Detector::end(Context& context) {
 
 void Detector::update_watching() {
   watching_ = current_->is_task && current_->ignoring == 0 &&
-              (kernel::running == nullptr || !kernel::running->scheduler->unwinding());
+              (kernel::running == nullptr || !kernel::is_unwinding(*kernel::running->scheduler));
 }
 
 // --- happens-before ---

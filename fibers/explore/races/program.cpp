@@ -9,7 +9,8 @@
 #include <cstdint>
 
 #include "fibers/explore/races/detector.hpp"
-#include "fibers/kernel/scheduler.hpp"
+#include "fibers/kernel/task.hpp"
+#include "fibers/kernel/waitpoint_calls.hpp"
 
 // In glibc: allows libstdc++ to count references without atomics.
 extern "C" char __libc_single_threaded;
@@ -90,7 +91,7 @@ int __cxa_guard_acquire(std::uint64_t* guard) {
     if (waitpoint::kernel::running == nullptr)
       sched_yield();
     else
-      waitpoint::kernel::running->scheduler->yield();
+      kernel::yield(*waitpoint::kernel::running->scheduler);
   }
 }
 void __cxa_guard_release(std::uint64_t* guard) { leave(guard, true); }

@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "core/number_text.hpp"
+#include "fibers/kernel/run.hpp"
 #include "fibers/sync/report/object_names.hpp"
 
 namespace waitpoint::exploration {
@@ -37,7 +38,8 @@ void Narrator::tell(std::size_t decisions_before, const Words& words) {
   const bool is_answer = asked_ && *asked_ + 1 == decisions();
   if (!is_answer && !decision.is_switch()) return;
   const ChoiceText text = words(decision);
-  keep({scheduler_.global_time(), scheduler_.events(), text.words, text.place}, decision.is_switch(), is_answer);
+  keep({kernel::global_time(scheduler_), kernel::events(scheduler_), text.words, text.place}, decision.is_switch(),
+       is_answer);
 }
 
 std::uint32_t Narrator::next(Task* const* ready, std::uint32_t count) {

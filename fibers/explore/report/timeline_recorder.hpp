@@ -6,6 +6,7 @@
 
 #include "fibers/explore/report/timeline.hpp"
 #include "fibers/explore/schedules/explorer.hpp"
+#include "fibers/kernel/watch.hpp"
 
 namespace waitpoint::exploration {
 

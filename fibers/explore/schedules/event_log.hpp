@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "fibers/explore/schedules/explorer.hpp"
+#include "fibers/kernel/watch.hpp"
 
 namespace waitpoint::exploration {
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "fibers/explore/schedules/explorer.hpp"
+#include "fibers/kernel/run_window.hpp"
 
 namespace waitpoint::exploration {
 
@@ -18,7 +19,7 @@ class EventStop final : public kernel::Decisions {
     const std::uint32_t chosen = explorer_.next(ready, count);
     if (chosen >= count || event_of(*ready[chosen]) != event_) return chosen;
     stopped_before_ = ready[chosen];
-    scheduler_.stop_between_events(kernel::StopCause::requested, *stopped_before_);
+    kernel::stop_between_events(scheduler_, kernel::StopCause::requested, *stopped_before_);
     return chosen;
   }
   std::uint32_t among(Choice choice, const Task& task, std::uint32_t count) override {

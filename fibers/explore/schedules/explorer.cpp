@@ -6,6 +6,8 @@
 
 #include "core/error.hpp"
 #include "fibers/explore/strategies/operations.hpp"
+#include "fibers/kernel/run.hpp"
+#include "fibers/kernel/run_window.hpp"
 
 namespace waitpoint::exploration {
 namespace {
@@ -103,9 +105,10 @@ inline void Explorer::record_choice(Task* const* ready, const Decision& decision
 }
 
 std::uint32_t Explorer::next(Task* const* ready, std::uint32_t count) {
-  if (const Time now = scheduler_.global_time(); now != instant_) begin_instant(now);
+  if (const Time now = kernel::global_time(scheduler_); now != instant_) begin_instant(now);
   if (__builtin_expect(plays_ || spinning_ != 0, 0)) return next_with_care(ready, count);
-  if (++step_of_instant_ > steps_max_) scheduler_.stop_between_events(kernel::StopCause::no_progress, *ready[0]);
+  if (++step_of_instant_ > steps_max_)
+    kernel::stop_between_events(scheduler_, kernel::StopCause::no_progress, *ready[0]);
   const std::uint32_t last = place_of_last({ready, count});
   const bool can_continue = last != count;
   const std::uint32_t chosen = strategy_->next({{ready, count}, last_, can_continue, step_});
@@ -118,11 +121,13 @@ std::uint32_t Explorer::next(Task* const* ready, std::uint32_t count) {
 
 // Called if a schedule is played, or some tasks spin.
 std::uint32_t Explorer::next_with_care(Task* const* ready, std::uint32_t count) {
-  if (spinning_ != 0 && polls_only({ready, count}) && ++idle_turns_ > idle_yields_max && scheduler_.is_due_later()) {
+  if (spinning_ != 0 && polls_only({ready, count}) && ++idle_turns_ > idle_yields_max &&
+      kernel::is_due_later(scheduler_)) {
     schedule_.cuts_polls_short = left_out_.turns = true;
     return later;
   }
-  if (++step_of_instant_ > steps_max_) scheduler_.stop_between_events(kernel::StopCause::no_progress, *ready[0]);
+  if (++step_of_instant_ > steps_max_)
+    kernel::stop_between_events(scheduler_, kernel::StopCause::no_progress, *ready[0]);
   const bool chooses = count > 1;
   const bool some_spin = spinning_ != 0 && chooses;
   const std::span<Task* const> offered = some_spin ? leave_spinning_out({ready, count}) : std::span(ready, count);
@@ -151,14 +156,14 @@ std::uint32_t Explorer::next_with_care(Task* const* ready, std::uint32_t count) 
 
 std::uint32_t Explorer::stop(std::span<Task* const> ready, std::uint32_t usual) {
   stopped_before_.assign(ready.begin(), ready.end());
-  scheduler_.stop_between_events(kernel::StopCause::requested, *ready[usual]);
+  kernel::stop_between_events(scheduler_, kernel::StopCause::requested, *ready[usual]);
   return usual;
 }
 
 // The run ends here: the returned task is not entered.
 std::uint32_t Explorer::abandon_schedule(Task& task) {
   was_cut_ = true;
-  scheduler_.stop_between_events(kernel::StopCause::requested, task);
+  kernel::stop_between_events(scheduler_, kernel::StopCause::requested, task);
   return 0;
 }
 
@@ -272,7 +277,7 @@ std::uint32_t Explorer::process(const Task& task, std::uint32_t count, std::uint
 }
 
 bool Explorer::spin(std::span<Task* const> ready) const {
-  return spinning_ != 0 && instant_ == scheduler_.global_time() && polls_only(ready);
+  return spinning_ != 0 && instant_ == kernel::global_time(scheduler_) && polls_only(ready);
 }
 
 void Explorer::note_effect_elsewhere() {

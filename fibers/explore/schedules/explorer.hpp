@@ -17,7 +17,7 @@
 #include "fibers/explore/schedules/trace_hash.hpp"
 #include "fibers/explore/strategies/schedule.hpp"
 #include "fibers/explore/strategies/strategy.hpp"
-#include "fibers/kernel/scheduler.hpp"
+#include "fibers/kernel/task.hpp"
 
 namespace waitpoint::exploration {
 

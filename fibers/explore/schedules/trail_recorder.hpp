@@ -3,7 +3,9 @@
 #pragma once
 
 #include "fibers/explore/schedules/trail.hpp"
-#include "fibers/kernel/scheduler.hpp"
+#include "fibers/kernel/run.hpp"
+#include "fibers/kernel/task.hpp"
+#include "fibers/kernel/watch.hpp"
 #include "fibers/sync/simulation.hpp"
 
 namespace waitpoint::exploration {
@@ -19,7 +21,7 @@ class TrailRecorder final : public kernel::Watch {
   static void add(kernel::Watch& watch, const kernel::EventRecord&) {
     TrailRecorder& self = static_cast<TrailRecorder&>(watch);
     if (self.trail_.marks.size() == Trail::marks_max) return;
-    self.seen_ = self.seen_ == 0 ? self.simulation_.scheduler().events() : self.seen_ + 1;
+    self.seen_ = self.seen_ == 0 ? kernel::events(self.simulation_.scheduler()) : self.seen_ + 1;
     if (self.seen_ % self.trail_.spacing() == 0) self.trail_.add(self.simulation_.digest().value());
   }
 

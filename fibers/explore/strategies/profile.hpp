@@ -8,7 +8,8 @@
 #include <vector>
 
 #include "fibers/explore/strategies/memory_option.hpp"
-#include "fibers/kernel/scheduler.hpp"
+#include "fibers/kernel/task.hpp"
+#include "fibers/kernel/watch.hpp"
 
 namespace waitpoint::exploration {
 

@@ -4,7 +4,9 @@
 #include "fibers/explore/report/choice_text.hpp"
 #include "fibers/explore/report/reordered_events.hpp"
 #include "fibers/explore/target/evidence_text.hpp"
+#include "fibers/kernel/run.hpp"
 #include "fibers/kernel/visit.hpp"
+#include "fibers/kernel/watch.hpp"
 #include "fibers/sync/report/source_lines.hpp"
 
 namespace waitpoint::exploration {
@@ -18,20 +20,20 @@ EvidenceRecorder::EvidenceRecorder(const WantedEvidence& wanted, Simulation& sim
       narrator_(simulation.scheduler(), explorer),
       trail_{wanted.trail.value_or(0), {}} {
   kernel::Scheduler& scheduler = simulation.scheduler();
-  if (wanted.profile) scheduler.set_watch(&profiling_.emplace(finding.lesson.profile));
-  if (wanted.events) scheduler.set_watch(&recorder_.emplace(timeline_, &explorer, wanted.events->from));
-  if (wanted.log_from) scheduler.set_watch(&log_.emplace(finding.evidence.log, explorer, *wanted.log_from));
-  if (wanted.trail) scheduler.set_watch(&trail_recorder_.emplace(trail_, simulation));
-  if (wanted.words || wanted.decision) scheduler.set_decisions(narrator_);
+  if (wanted.profile) kernel::set_watch(scheduler, &profiling_.emplace(finding.lesson.profile));
+  if (wanted.events) kernel::set_watch(scheduler, &recorder_.emplace(timeline_, &explorer, wanted.events->from));
+  if (wanted.log_from) kernel::set_watch(scheduler, &log_.emplace(finding.evidence.log, explorer, *wanted.log_from));
+  if (wanted.trail) kernel::set_watch(scheduler, &trail_recorder_.emplace(trail_, simulation));
+  if (wanted.words || wanted.decision) kernel::set_decisions(scheduler, narrator_);
   if (wanted.decision) narrator_.ask_for(*wanted.decision, wanted.instead);
-  if (wanted.stop_before) scheduler.set_decisions(stop_.emplace(scheduler, explorer, *wanted.stop_before));
+  if (wanted.stop_before) kernel::set_decisions(scheduler, stop_.emplace(scheduler, explorer, *wanted.stop_before));
 }
 
 EvidenceRecorder::~EvidenceRecorder() { release(); }
 
 void EvidenceRecorder::release() {
-  simulation_.scheduler().set_watch(nullptr);
-  simulation_.scheduler().set_decisions(explorer_);
+  kernel::set_watch(simulation_.scheduler(), nullptr);
+  kernel::set_decisions(simulation_.scheduler(), explorer_);
 }
 
 void EvidenceRecorder::finish() {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "fibers/kernel/waiting_calls.hpp"
 #include "fibers/laas/include/h2devLib.h"
 
 namespace waitpoint::laas {
@@ -26,7 +27,7 @@ Mailbox& Mailboxes::open(int device, const char* name, int size, long owner) {
   if (closed_.empty()) closed_.push_back(&all_.emplace_back());
   Mailbox& mailbox = *closed_.back();
   closed_.pop_back();
-  sync::running_task().scheduler->enter(mailbox.object);
+  sync::enter_run(mailbox.object);
   mailbox.name = name;
   mailbox.object.label = mailbox.name.c_str();
   mailbox.device = device;
@@ -41,7 +42,7 @@ void Mailboxes::close(Mailbox& mailbox) {
   mailbox.clear();
   ++mailbox.generation;
   closed_.push_back(&mailbox);
-  sync::running_task().scheduler->wake_all(mailbox.object);
+  kernel::wake_all(*sync::running_task().scheduler, mailbox.object);
 }
 
 Mailbox* Mailboxes::find(int device) {

@@ -13,6 +13,8 @@
 #include <cstring>
 
 #include "core/error.hpp"
+#include "fibers/kernel/run_window.hpp"
+#include "fibers/kernel/waiting_calls.hpp"
 #include "fibers/posix/base/error_number.hpp"
 #include "fibers/posix/base/interposed.hpp"
 #include "fibers/posix/base/real_waits.hpp"
@@ -68,7 +70,7 @@ bool wake_ready(bool outside_too, family::Changes changes) {
     // is_ready() may have woken it.
     if (waiter->task->state == kernel::TaskState::blocked) {
       thread_of(*waiter->task).woken_by_timer = is_timer_firing;
-      waiter->task->scheduler->wake(*waiter->task);
+      kernel::wake(*waiter->task->scheduler, *waiter->task);
     }
     any = true;
   }
@@ -137,14 +139,14 @@ int wait_for(pollfd* descriptors, nfds_t count, Time deadline, Restart restart) 
     if (const int ready = poll_counted(descriptors, count); ready != 0) return ready;
   for (;;) {
     if (deadline <= task.local_time) return poll_now(descriptors, count);
-    task.scheduler->enter(descriptors_object);
+    kernel::enter(descriptors_object);
     Waiter waiter{&task, descriptors, count, outside, awaited_at(descriptors, count)};
     for (nfds_t i = 0; i < count && outside; ++i)
       waiter.partner = std::max(waiter.partner, partner_at(descriptors[i].fd));
     if (waiter.partner >= Partner::possible && before_partner != nullptr) before_partner();
     add(waiter);
     // While a thread waits outside, the run pauses at the end of each instant.
-    if (outside) task.scheduler->pause();
+    if (outside) kernel::pause(*task.scheduler);
     const Wait ended = wait_on(descriptors_object, deadline);
     remove(waiter);
     // Another thread may have taken the data.
@@ -163,7 +165,7 @@ namespace {
 
 // At the end of the instant the top room looks outside; a host does not.
 void pause_to_look() {
-  if (!has_host) kernel::running->scheduler->pause();
+  if (!has_host) kernel::pause(*kernel::running->scheduler);
 }
 
 }  // namespace
@@ -177,7 +179,7 @@ WaitsOutside::~WaitsOutside() { count_signal_waits(-1); }
 int wait_outside(bool (*is_ready)(const void*), const void* what, Restart restart) {
   kernel::Task& task = *kernel::running;
   while (!is_ready(what)) {
-    task.scheduler->enter(outside_object);
+    kernel::enter(outside_object);
     Waiter waiter{&task, nullptr, 0, true, family::of_anything, Partner::none, is_ready, what};
     add(waiter);
     pause_to_look();

@@ -12,6 +12,10 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "fibers/kernel/run.hpp"
+#include "fibers/kernel/run_window.hpp"
+#include "fibers/kernel/timers.hpp"
+#include "fibers/kernel/waiting_calls.hpp"
 #include "fibers/posix/base/bounded_text.hpp"
 #include "fibers/posix/base/error_number.hpp"
 #include "fibers/posix/base/interposed.hpp"
@@ -61,8 +65,8 @@ struct Look {
 // From now on the run pauses at the end of each instant.
 void prepare_to_look() {
   next_look.event.fire = look;
-  kernel::running->scheduler->enter(next_look.object);
-  kernel::running->scheduler->pause();
+  kernel::enter(next_look.object);
+  kernel::pause(*kernel::running->scheduler);
 }
 
 }  // namespace
@@ -85,7 +89,7 @@ void note_native_child(pid_t child) {
 
 void forget_native_children() {
   child_count = 0;
-  if (next_look.event.in_list()) kernel::running->scheduler->cancel(next_look.event);
+  if (next_look.event.in_list()) kernel::cancel(*kernel::running->scheduler, next_look.event);
 }
 
 void prepare_to_keep_pace() { prepare_to_look(); }
@@ -100,7 +104,7 @@ bool is_paced(const kernel::Scheduler& scheduler) {
   if (!is_needed)
     pace().has_begun = false;
   else if (!pace().has_begun)
-    begin(scheduler.global_time());
+    begin(kernel::global_time(scheduler));
   return is_needed;
 }
 
@@ -113,11 +117,11 @@ void report_if_ahead(const kernel::Scheduler& scheduler) {
   const bool waited = std::exchange(waits, anybody_awaits_stream());
   if (!waits) return;
   if (!waited) {
-    virtual_at = scheduler.global_time();
+    virtual_at = kernel::global_time(scheduler);
     real_at_ns = real_ns();
     return;
   }
-  const std::int64_t ahead_ns = (scheduler.global_time() - virtual_at).ns() - (real_ns() - real_at_ns);
+  const std::int64_t ahead_ns = (kernel::global_time(scheduler) - virtual_at).ns() - (real_ns() - real_at_ns);
   const double ahead_s = static_cast<double>(ahead_ns) * 1e-9;
   if (ahead_s < far_s) return;
   is_told = true;
@@ -135,12 +139,13 @@ Duration left_until(Time time) {
 }
 
 Time look_at_pace(kernel::Scheduler& scheduler, Time next) {
-  WAITPOINT_CHECK(pace().has_begun && scheduler.has_entered(next_look.object), "the check for input is not prepared");
+  WAITPOINT_CHECK(pace().has_begun && kernel::has_entered(scheduler, next_look.object),
+                  "the check for input is not prepared");
   Time now = later(pace().virtual_begin, Duration::from_ns(passed_ns()));
-  if (now < scheduler.global_time()) now = scheduler.global_time();
+  if (now < kernel::global_time(scheduler)) now = kernel::global_time(scheduler);
   if (now >= next) return next;
-  if (next_look.event.in_list()) scheduler.cancel(next_look.event);
-  scheduler.schedule(next_look.event, now, next_look.object);
+  if (next_look.event.in_list()) kernel::cancel(scheduler, next_look.event);
+  kernel::schedule(scheduler, next_look.event, now, next_look.object);
   return now;
 }
 

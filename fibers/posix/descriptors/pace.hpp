@@ -8,7 +8,7 @@
 
 #include <sys/types.h>
 
-#include "fibers/kernel/scheduler.hpp"
+#include "fibers/kernel/task.hpp"
 
 namespace waitpoint::posix {
 

@@ -11,6 +11,7 @@
 #include <new>
 
 #include "core/error.hpp"
+#include "fibers/kernel/run.hpp"
 #include "fibers/posix/base/argument_memory.hpp"
 #include "fibers/posix/base/error_number.hpp"
 #include "fibers/posix/base/interposed.hpp"
@@ -39,7 +40,7 @@ SignalDescriptor* find_descriptor(int descriptor) {
 // For any thread of the program: a reader takes the signals pending for itself.
 SignalSet pending_anywhere_in(const Program& program) {
   SignalSet set = program.signals.pending.set();
-  for (const kernel::Task* task = program.robot->scheduler->first_task(); task != nullptr; task = task->next)
+  for (const kernel::Task* task = kernel::first_task(*program.robot->scheduler); task != nullptr; task = task->next)
     if (is_thread(*task) && thread_of(*task).program == &program) set |= thread_of(*task).pending.set();
   return set;
 }

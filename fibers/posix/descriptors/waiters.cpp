@@ -4,7 +4,8 @@
 #include <algorithm>
 
 #include "core/error.hpp"
-#include "fibers/kernel/scheduler.hpp"
+#include "fibers/kernel/run.hpp"
+#include "fibers/kernel/task.hpp"
 #include "fibers/posix/descriptors/connections.hpp"
 #include "fibers/posix/family/order.hpp"
 #include "fibers/posix/family/processes.hpp"
@@ -114,7 +115,7 @@ namespace {
 // True if a thread of this process could act on an end inside before input from outside comes.
 bool can_others_act(const kernel::Scheduler& scheduler) {
   if (family::has_others()) return true;
-  for (const kernel::Task* task = scheduler.first_task(); task != nullptr; task = task->next) {
+  for (const kernel::Task* task = kernel::first_task(scheduler); task != nullptr; task = task->next) {
     if (task->state == kernel::TaskState::blocked && !task->finite_wait) continue;
     const Waiter* waiter = head;
     while (waiter != nullptr && waiter->task != task) waiter = waiter->next;

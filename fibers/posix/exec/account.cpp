@@ -44,7 +44,7 @@ void write_account() {
   if (family::family == nullptr || !record->began) return;
   Account& account = family::family->account;
   BoundedText text(account.states, sizeof account.states);
-  add_states(text, record->scheduler);
+  add_states(text, record->scheduler());
   BoundedText running(account.running, sizeof account.running);
   account.place_count = 0;
   if (kernel::running != nullptr && is_thread(*kernel::running) && kernel::running->blocked_on == nullptr) {

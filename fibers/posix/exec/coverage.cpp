@@ -5,6 +5,7 @@
 // another thread or a signal's handler sets.
 #include <cstdint>
 
+#include "fibers/kernel/waitpoint_calls.hpp"
 #include "fibers/posix/base/interposed.hpp"
 #include "fibers/posix/program/program.hpp"
 #include "fibers/posix/program/waiting.hpp"
@@ -26,7 +27,7 @@ bool is_counted() { return record->settings.has_clock && record->settings.clock.
   if (spins) {
     if (!is_counted()) spend(cost_of_blocks);
     const InKernel within;
-    task.scheduler->yield();
+    kernel::yield(*task.scheduler);
   }
   looked_at_task = task.id;
   looked_at_event = task.sequence;

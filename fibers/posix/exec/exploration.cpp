@@ -8,6 +8,8 @@
 #include "fibers/explore/report/choice_text.hpp"
 #include "fibers/explore/report/reordered_events.hpp"
 #include "fibers/explore/schedules/course.hpp"
+#include "fibers/kernel/run.hpp"
+#include "fibers/kernel/watch.hpp"
 #include "fibers/posix/exec/program_calls.hpp"
 #include "fibers/posix/family/processes.hpp"
 #include "fibers/posix/program/program.hpp"
@@ -110,13 +112,13 @@ void Explored::watch(kernel::Scheduler& scheduler, const Asked& asked) {
     processes.emplace(scheduler, explorer, narrator, begin_in_process, &narrator);
   else
     processes.emplace(scheduler, explorer, explorer, begin_in_process);
-  scheduler.set_decisions(*processes);
+  kernel::set_decisions(scheduler, *processes);
   if (asked.profile)
-    scheduler.set_watch(&profiling_.emplace(profile));
+    kernel::set_watch(scheduler, &profiling_.emplace(profile));
   else if (asked.events)
-    scheduler.set_watch(&recorder.emplace(&explorer, asked.events_from));
+    kernel::set_watch(scheduler, &recorder.emplace(&explorer, asked.events_from));
   else if (asked.log_from != Asked::none)
-    scheduler.set_watch(&log_.emplace(log, explorer, asked.log_from));
+    kernel::set_watch(scheduler, &log_.emplace(log, explorer, asked.log_from));
 }
 
 void Explored::note_stop() {

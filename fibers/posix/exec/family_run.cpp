@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <span>
 
+#include "fibers/kernel/run.hpp"
+#include "fibers/kernel/run_window.hpp"
 #include "fibers/posix/descriptors/descriptors.hpp"
 #include "fibers/posix/descriptors/pace.hpp"
 #include "fibers/posix/exec/exploration.hpp"
@@ -34,8 +36,8 @@ bool is_in_real_time() {
 // Notes whether a thread of this process has run since the last call: it may have acted on a socket, say.
 void note_actions(const kernel::Scheduler& scheduler) {
   static std::uint64_t switches_before = 0;
-  if (scheduler.switches() == switches_before) return;
-  switches_before = scheduler.switches();
+  if (kernel::switches(scheduler) == switches_before) return;
+  switches_before = kernel::switches(scheduler);
   ++family::family->actions;
   // Alone it may have acted by the C library's output, which is not noticed.
   if (!family::has_others()) family::own->is_to_look = true;
@@ -147,9 +149,9 @@ bool step_in_family(kernel::Scheduler& scheduler, Time& until) {
     if (const family::Changes changes = family::take_ring(scheduler); changes != 0) look_outside(false, changes);
     if (anybody_listens() && has_unnoticed_output()) family::ring(family::of_descriptors);
     const Time ring = family::own->is_rung ? family::own->rung_at : Time::max();
-    const Time own = std::min(scheduler.next_event_time(), ring);
+    const Time own = std::min(kernel::next_event_time(scheduler), ring);
     const Time next = std::min(own, family::least_of_others().time);
-    const Time now = std::max(all.now, scheduler.global_time());
+    const Time now = std::max(all.now, kernel::global_time(scheduler));
     if (next > now && let_all_look(now)) break;
     if (wait_for_pace(scheduler, next, now)) break;
     if (const Time end = end_of_left_over(); end != Time::max() && next >= end) {
@@ -169,11 +171,11 @@ bool step_in_family(kernel::Scheduler& scheduler, Time& until) {
       all.is_over = true;
       return false;
     }
-  } while ((family::own->is_rung && family::own->rung_at <= scheduler.next_event_time()) ||
-           must_wait(scheduler, scheduler.next_event_time(), std::max(all.now, scheduler.global_time())));
+  } while ((family::own->is_rung && family::own->rung_at <= kernel::next_event_time(scheduler)) ||
+           must_wait(scheduler, kernel::next_event_time(scheduler), std::max(all.now, kernel::global_time(scheduler))));
   until = record->settings.until;
   if (next_waiting_outside() != nullptr || (anybody_listens() && may_have_unnoticed_output()))
-    until = std::min(until, later(std::max(scheduler.next_event_time(), all.now), nanosecond));
+    until = std::min(until, later(std::max(kernel::next_event_time(scheduler), all.now), nanosecond));
   return true;
 }
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "core/time.hpp"
-#include "fibers/kernel/scheduler.hpp"
+#include "fibers/kernel/task.hpp"
 
 namespace waitpoint::posix {
 

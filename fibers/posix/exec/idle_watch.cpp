@@ -10,6 +10,9 @@
 #include <cstring>
 #include <utility>
 
+#include "fibers/kernel/run.hpp"
+#include "fibers/kernel/run_window.hpp"
+#include "fibers/kernel/watch.hpp"
 #include "fibers/posix/base/interposed.hpp"
 #include "fibers/posix/family/order.hpp"
 #include "fibers/posix/family/processes.hpp"
@@ -42,7 +45,7 @@ Idleness& idleness() { return family::family->idleness; }
 
 void note_wake_up(kernel::Scheduler& scheduler, Time now) {
   idleness() = {.woken_at = now, .acted_at = now};
-  if (std::exchange(observes, false)) scheduler.set_watch(observer.next);
+  if (std::exchange(observes, false)) kernel::set_watch(scheduler, observer.next);
   check_at = later(now, unobserved());
 }
 
@@ -96,34 +99,34 @@ bool anybody_outside() {
 // True if only a timer could let a thread continue.
 bool can_nobody_continue(const kernel::Scheduler& scheduler) {
   if (family::least_of_others().time != Time::max()) return false;
-  for (const kernel::Task* task = scheduler.first_task(); task != nullptr; task = task->next)
+  for (const kernel::Task* task = kernel::first_task(scheduler); task != nullptr; task = task->next)
     if (task->state != kernel::TaskState::blocked || task->finite_wait) return false;
   return true;
 }
 
 void begin_to_observe(kernel::Scheduler& scheduler, Time now) {
-  for (const kernel::Task* task = scheduler.first_task(); task != nullptr; task = task->next)
+  for (const kernel::Task* task = kernel::first_task(scheduler); task != nullptr; task = task->next)
     if (is_thread(*task)) thread_of(*task).woken_by_timer = false;
   observes = true;
   observes_since = now;
   fired_before = timers_fired;
   observer.event = observe;
-  observer.next = scheduler.watch();
-  scheduler.set_watch(&observer);
+  observer.next = kernel::watch(scheduler);
+  kernel::set_watch(scheduler, &observer);
   family::own->written = written_by(*family::own);
 }
 
 }  // namespace
 
 void begin_idle_watch(const kernel::Scheduler& scheduler) {
-  idleness().woken_at = std::max(idleness().woken_at, scheduler.global_time());
-  check_at = limit() > Duration() ? later(scheduler.global_time(), unobserved()) : Time::max();
+  idleness().woken_at = std::max(idleness().woken_at, kernel::global_time(scheduler));
+  check_at = limit() > Duration() ? later(kernel::global_time(scheduler), unobserved()) : Time::max();
 }
 
 Time next_idle_check() { return check_at; }
 
 bool is_idle(kernel::Scheduler& scheduler) {
-  const Time now = scheduler.next_event_time();
+  const Time now = kernel::next_event_time(scheduler);
   if (now < check_at || now == Time::max() || check_at == Time::max()) return false;
   check_at = later(now, between_checks());
   if (!observes) {

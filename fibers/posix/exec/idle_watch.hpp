@@ -8,7 +8,7 @@
 // to the next one: a program that works is not slowed down.
 #pragma once
 
-#include "fibers/kernel/scheduler.hpp"
+#include "fibers/kernel/task.hpp"
 
 namespace waitpoint::posix {
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "fibers/kernel/run.hpp"
 #include "fibers/posix/exec/memory.hpp"
 #include "fibers/posix/exec/program_calls.hpp"
 #include "fibers/posix/family/family.hpp"
@@ -47,7 +48,8 @@ void log_waits(const kernel::Scheduler& scheduler) {
   std::vector<LastCalls>* const all = logged();
   if (all == nullptr) return;
   const NewInFamily in_family;
-  for (kernel::Task* task = scheduler.first_task(); task != nullptr && all->size() < threads_max; task = task->next)
+  for (kernel::Task* task = kernel::first_task(scheduler); task != nullptr && all->size() < threads_max;
+       task = task->next)
     all->push_back({name_of(*task), program_calls(*task)});
 }
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "fibers/kernel/scheduler.hpp"
+#include "fibers/kernel/task.hpp"
 #include "fibers/sync/report/source_lines.hpp"
 
 namespace waitpoint::posix {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <new>
 
-#include "fibers/kernel/scheduler.hpp"
+#include "fibers/kernel/task.hpp"
 #include "fibers/posix/exec/memory.hpp"
 #include "fibers/posix/exec/program_calls.hpp"
 #include "fibers/posix/family/family.hpp"

@@ -5,6 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "fibers/kernel/common_order.hpp"
+#include "fibers/kernel/run.hpp"
 #include "fibers/posix/exec/snapshot.hpp"
 #include "fibers/posix/family/order.hpp"
 #include "fibers/posix/family/processes.hpp"
@@ -77,7 +79,7 @@ void ProcessChoices::note_spinning(std::span<kernel::Task* const> ready) {
   SharedSchedule& shared = shared_schedule();
   if (effects_ != shared.effects) explorer_.note_effect_elsewhere();
   effects_ = shared.effects;
-  shared.spinning[family::index_of(*family::own)] = {scheduler_.global_time(),
+  shared.spinning[family::index_of(*family::own)] = {kernel::global_time(scheduler_),
                                                      explorer_.spin(ready) ? shared.effects + 1 : 0};
 }
 
@@ -86,7 +88,7 @@ Process* ProcessChoices::choose(bool can_stay) {
   Process& own = *family::own;
   SharedSchedule& shared = shared_schedule();
   const Process& last = family::family->processes[shared.last];
-  const Time now = can_stay ? scheduler_.global_time() : family::least_of_others().time;
+  const Time now = can_stay ? kernel::global_time(scheduler_) : family::least_of_others().time;
   std::vector<Process*> candidates, spinning;
   for (Process& process : family::entries()) {
     const kernel::EventKey key =
@@ -110,7 +112,7 @@ Process* ProcessChoices::choose(bool can_stay) {
   }
   const auto left = static_cast<std::uint32_t>(spinning.size());
   candidates.insert(candidates.end(), spinning.begin(), spinning.end());
-  const kernel::Task* const task = scheduler_.first_task();
+  const kernel::Task* const task = kernel::first_task(scheduler_);
   if (candidates.size() < 2 || task == nullptr) return candidates.empty() ? nullptr : candidates[0];
   const SharedChoice choice(explorer_);
   const bool can_continue = candidates[0] == &last;
@@ -158,7 +160,8 @@ Process* ProcessChoices::take_chosen() {
   if (chosen_ != nullptr) return std::exchange(chosen_, nullptr);
   family::remove_limit(scheduler_);  // it is no event of this process
   const kernel::EventKey least = family::least_of_others();
-  if (least.time == Time::max() || !is_of_tasks(least) || scheduler_.next_key().time <= least.time) return nullptr;
+  if (least.time == Time::max() || !is_of_tasks(least) || kernel::next_key(scheduler_).time <= least.time)
+    return nullptr;
   if (family::family->now < least.time) family::family->now = least.time;
   return choose(false);
 }

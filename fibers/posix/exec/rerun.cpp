@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include "core/error.hpp"
+#include "fibers/kernel/scheduler.hpp"
 #include "fibers/posix/base/direct_call.hpp"
 #include "fibers/posix/base/stack_switch.hpp"
 #include "fibers/posix/exec/memory_image.hpp"

@@ -12,6 +12,11 @@
 
 #include "core/error.hpp"
 #include "fibers/clocks/clock_text.hpp"
+#include "fibers/kernel/common_order.hpp"
+#include "fibers/kernel/run.hpp"
+#include "fibers/kernel/run_window.hpp"
+#include "fibers/kernel/scheduler.hpp"
+#include "fibers/kernel/watch.hpp"
 #include "fibers/posix/base/import_binding.hpp"
 #include "fibers/posix/base/interposed.hpp"
 #include "fibers/posix/base/preload.hpp"
@@ -68,12 +73,12 @@ void* run_body(void*) { std::exit(program_body()); }
 // At the end of an instant: takes in external input; returns the end of the run's next window.
 Time keep_pace(kernel::Scheduler& scheduler) {
   // What is there by now, as from the program itself over the loopback, is of this instant.
-  if (look_outside(false)) return later(scheduler.global_time(), nanosecond);
-  const Time next = scheduler.next_event_time();
+  if (look_outside(false)) return later(kernel::global_time(scheduler), nanosecond);
+  const Time next = kernel::next_event_time(scheduler);
   const Duration left = next == Time::max() ? Duration::max() : left_until(next);
   if (left == Duration()) {
     look_outside(false);
-    return later(scheduler.next_event_time(), nanosecond);
+    return later(kernel::next_event_time(scheduler), nanosecond);
   }
   wait_outside_for(left);
   return later(look_at_pace(scheduler, next), nanosecond);
@@ -165,13 +170,14 @@ kernel::Scheduler& begin_run() {
   begin_misuse_log();
   if (!kernel::Scheduler::has_address_space())
     refuse("there is no address space for the run's tables (a limit such as ulimit -v)");
+  static_assert(sizeof(kernel::Scheduler) <= scheduler_bytes);
   kernel::Scheduler& scheduler =
-      *new (&record->scheduler) kernel::Scheduler(record->settings.order, record->settings.seed);
-  if (!record->settings.fast_paths) scheduler.use_fast_paths(false);
-  if (family::is_joined()) scheduler.advance(family::own->next.time);
-  scheduler.hooks().deliver_signals = deliver_signals;
-  scheduler.hooks().continues_after_cycle = continues_after_cycle;
-  scheduler.hooks().computes_long = spend_for_computing;
+      *new (record->scheduler_memory) kernel::Scheduler(record->settings.order, record->settings.seed);
+  if (!record->settings.fast_paths) kernel::use_fast_paths(scheduler, false);
+  if (family::is_joined()) kernel::advance(scheduler, family::own->next.time);
+  kernel::hooks(scheduler).deliver_signals = deliver_signals;
+  kernel::hooks(scheduler).continues_after_cycle = continues_after_cycle;
+  kernel::hooks(scheduler).computes_long = spend_for_computing;
   if (asked != nullptr) {
     record->explored = new Explored(scheduler, *asked);
     if (!family::is_joined()) family::family->settings.asked = shared_copy(*asked);
@@ -179,7 +185,7 @@ kernel::Scheduler& begin_run() {
   names_waitables =
       record->settings.traced ||
       (asked != nullptr && (asked->words || asked->events || asked->stops || asked->decision != Asked::none));
-  if (record->settings.traced) scheduler.set_watch(record->recorder = new HistoryRecorder(nullptr));
+  if (record->settings.traced) kernel::set_watch(scheduler, record->recorder = new HistoryRecorder(nullptr));
   if (record->explored != nullptr && record->explored->recorder) record->recorder = &*record->explored->recorder;
   begin_idle_watch(scheduler);
   before_partner = prepare_to_keep_pace;
@@ -192,7 +198,8 @@ Ending run_to_end(kernel::Scheduler& scheduler) {
   const Time end = record->settings.until;
   for (Time until = end;;) {
     family::limit_window(scheduler);
-    const kernel::RunState state = scheduler.run_before(std::min({until, next_idle_check(), end_of_left_over()}));
+    const kernel::RunState state =
+        kernel::run_before(scheduler, std::min({until, next_idle_check(), end_of_left_over()}));
     if (state == kernel::RunState::stopped) break;
     report_if_ahead(scheduler);
     if (is_idle(scheduler)) {
@@ -215,26 +222,26 @@ Ending run_to_end(kernel::Scheduler& scheduler) {
       // All wait for each other, at sockets: a deadlock, unless something is still under way.
       wait_outside_for(time_under_way);
       if (!look_outside(false)) break;
-      until = later(scheduler.global_time(), nanosecond);
+      until = later(kernel::global_time(scheduler), nanosecond);
     } else if (look_outside(is_idle)) {
-      until = later(scheduler.global_time(), nanosecond);
+      until = later(kernel::global_time(scheduler), nanosecond);
     } else if (is_idle) {
       break;
-    } else if (scheduler.next_event_time() >= end) {
+    } else if (kernel::next_event_time(scheduler) >= end) {
       return record->ending = Ending::cut_off;
     } else {
-      until = anybody_waits_outside() ? later(scheduler.next_event_time(), nanosecond) : end;
+      until = anybody_waits_outside() ? later(kernel::next_event_time(scheduler), nanosecond) : end;
     }
   }
   if (family::family->is_cut_off) end_process(0);
   if (family::family->is_idle) return record->ending = Ending::idle;
-  if (scheduler.stop_cause() == kernel::StopCause::ended) return record->ending = Ending::own;
-  if (scheduler.stop_cause() == kernel::StopCause::requested) {
+  if (kernel::stop_cause(scheduler) == kernel::StopCause::ended) return record->ending = Ending::own;
+  if (kernel::stop_cause(scheduler) == kernel::StopCause::requested) {
     WAITPOINT_CHECK(record->explored != nullptr, "a run is stopped without an exploration");
     record->explored->note_stop();
     return record->ending = Ending::cut_off;
   }
-  const bool stuck = scheduler.stop_cause() != kernel::StopCause::no_progress;
+  const bool stuck = kernel::stop_cause(scheduler) != kernel::StopCause::no_progress;
   return record->ending = stuck ? Ending::deadlock : Ending::no_progress;
 }
 
@@ -262,12 +269,12 @@ const char* failure_in_words(Ending ending) {
 // The first program has the first process's name; further ones, by exec too, names with their process's number.
 void begin_robot(kernel::Scheduler& scheduler, const char* name) {
   if (!family::is_joined()) {
-    scheduler.add(record->robot, name);
+    kernel::add_robot(scheduler, record->robot, name);
     return kernel::copy_name(family::own->name, name);
   }
   // A session has given it one.
   if (const char* const given = getenv(name_variable); given != nullptr) {
-    scheduler.add(record->robot, given);
+    kernel::add_robot(scheduler, record->robot, given);
     kernel::copy_name(family::own->name, given);
     unsetenv(name_variable);
     record->robot.digest_in_use = &family::own->digest;
@@ -275,7 +282,7 @@ void begin_robot(kernel::Scheduler& scheduler, const char* name) {
   }
   char numbered[kernel::name_size];
   std::snprintf(numbered, sizeof numbered, "%.36s#%d", name, static_cast<int>(family::own->id));
-  scheduler.add(record->robot, numbered);
+  kernel::add_robot(scheduler, record->robot, numbered);
   kernel::copy_name(family::own->name, numbered);
   record->robot.digest_in_use = &family::own->digest;
 }

@@ -4,7 +4,7 @@
 #include <cstdio>
 
 #include "core/lasting_wait.hpp"
-#include "fibers/kernel/scheduler.hpp"
+#include "fibers/kernel/task.hpp"
 #include "fibers/posix/family/family.hpp"
 #include "fibers/posix/family/processes.hpp"
 #include "fibers/posix/family/task_names.hpp"

@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fibers/posix/family/order.hpp"
 
+#include "fibers/kernel/common_order.hpp"
+#include "fibers/kernel/run.hpp"
+#include "fibers/kernel/run_window.hpp"
+#include "fibers/kernel/timers.hpp"
 #include "fibers/posix/program/program.hpp"
 
 namespace waitpoint::posix::family {
 namespace {
 
 // Ends the window of the run: the event of another process, or a ring of this one, is the least.
-void end_window(kernel::EventNode&) { record->scheduler.pause(); }
+void end_window(kernel::EventNode&) { kernel::pause(record->scheduler()); }
 kernel::EventNode limit{kernel::EventNode::absent, end_window};
 
 // Just before the least event of another process. Equal keys are in the order of the table.
@@ -19,7 +23,7 @@ kernel::EventKey limit_before(const Process& other, const kernel::Scheduler& sch
   const bool is_explored = record->settings.order == kernel::Order::explored;
   if (is_explored && kernel::phase_of(key.order) >= kernel::Phase::tasks)
     key.order = kernel::make_order(kernel::Phase::processors, kernel::tie_mask);
-  if (key.time < scheduler.global_time()) key.time = scheduler.global_time();
+  if (key.time < kernel::global_time(scheduler)) key.time = kernel::global_time(scheduler);
   return key;
 }
 
@@ -41,7 +45,7 @@ kernel::EventKey least_of_others() {
 bool has_others() { return family != nullptr && family->alive > 1; }
 
 void remove_limit(kernel::Scheduler& scheduler) {
-  if (limit.in_list()) scheduler.cancel(limit);
+  if (limit.in_list()) kernel::cancel(scheduler, limit);
 }
 
 void limit_window(kernel::Scheduler& scheduler) {
@@ -50,12 +54,12 @@ void limit_window(kernel::Scheduler& scheduler) {
   kernel::EventKey key = kernel::EventKey::never();
   if (least != nullptr) key = limit_before(*least, scheduler);
   if (own->is_rung && key_of_ring(*family, *own) < key) key = key_of_ring(*family, *own);
-  if (key.time != Time::max()) scheduler.schedule(limit, key);
+  if (key.time != Time::max()) kernel::schedule(scheduler, limit, key);
 }
 
 void ring(Process& process, Changes changes) {
   process.rung_for |= changes;
-  const Time now = kernel::running != nullptr ? kernel::running->local_time : record->scheduler.global_time();
+  const Time now = kernel::running != nullptr ? kernel::running->local_time : kernel::global_time(record->scheduler());
   if (process.is_rung && process.rung_at <= now) return;
   process.is_rung = true;
   process.rung_at = now;

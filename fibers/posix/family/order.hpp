@@ -9,7 +9,7 @@
 
 #include <cstdint>
 
-#include "fibers/kernel/scheduler.hpp"
+#include "fibers/kernel/task.hpp"
 #include "fibers/posix/family/keys.hpp"
 
 namespace waitpoint::posix::family {

@@ -12,6 +12,9 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "fibers/kernel/common_order.hpp"
+#include "fibers/kernel/run.hpp"
+#include "fibers/kernel/run_window.hpp"
 #include "fibers/posix/base/direct_call.hpp"
 #include "fibers/posix/base/error_number.hpp"
 #include "fibers/posix/base/interposed.hpp"
@@ -32,7 +35,7 @@ long futex(std::atomic<std::uint32_t>& word, int operation, std::uint32_t value,
 void sleep_really(const timespec& span) { call_directly(SYS_nanosleep, reinterpret_cast<long>(&span)); }
 
 void note_time(const kernel::Scheduler& scheduler) {
-  if (family->now < scheduler.global_time()) family->now = scheduler.global_time();
+  if (family->now < kernel::global_time(scheduler)) family->now = kernel::global_time(scheduler);
 }
 
 void give_turn(Process& to) {
@@ -50,7 +53,7 @@ bool take_from_killed() {
   if (!family->holder.compare_exchange_strong(index, index_of(*own))) return false;
   if (holder.state == Process::State::ended || holder.state == Process::State::none) return true;
   // The same follows, at the same time, whichever process has found it.
-  if (record->scheduler.global_time() < family->now) record->scheduler.advance(family->now);
+  if (kernel::global_time(record->scheduler()) < family->now) kernel::advance(record->scheduler(), family->now);
   const bool concerns_own = holder.parent == own->id || (own->listens_to & of_anything) != 0;
   note_end_of(holder, status_of_zombie(known_as));
   if (concerns_own && (!own->is_rung || own->rung_at > family->now)) {
@@ -118,7 +121,7 @@ Process* expect_child() {
 
 void let_begin(Process& child) {
   kernel::Task& task = *kernel::running;
-  kernel::Chooser& chooser = task.scheduler->chooser();
+  kernel::Chooser& chooser = kernel::chooser(*task.scheduler);
   const std::uint64_t tie =
       chooser.order() == kernel::Order::seeded ? tie_of_first(chooser.seed(), task.id, child) : kernel::tie_mask;
   child.next = {task.local_time, kernel::make_order(kernel::Phase::tasks, tie)};
@@ -128,7 +131,7 @@ void note_child(Process& child, pid_t real_id) {
   if (real_id <= 0) return remove(child);
   child.real_id = real_id;
   limit_window(*kernel::running->scheduler);
-  kernel::running->scheduler->pause();  // from now on the ends of windows depend on the other processes
+  kernel::pause(*kernel::running->scheduler);  // from now on the ends of windows depend on the other processes
 }
 
 void begin_as_child(Process& child) {
@@ -141,11 +144,12 @@ void begin_as_child(Process& child) {
 bool hand_over_if_due(kernel::Scheduler& scheduler) {
   remove_limit(scheduler);
   note_time(scheduler);
-  own->next = scheduler.next_key();
+  own->next = kernel::next_key(scheduler);
   Process* const least = least_other();
   if (least == nullptr || key_of(*least).time == Time::max()) return false;
   if (precedes(*own, *least)) return false;
-  const bool ties = scheduler.chooser().order() == kernel::Order::explored && own->next.time == key_of(*least).time;
+  const bool ties =
+      kernel::chooser(scheduler).order() == kernel::Order::explored && own->next.time == key_of(*least).time;
   if (ties && kernel::phase_of(key_of(*least).order) >= kernel::Phase::tasks) return false;
   if (family->now < key_of(*least).time) family->now = key_of(*least).time;
   ++family->hand_overs;
@@ -157,16 +161,16 @@ bool hand_over_if_due(kernel::Scheduler& scheduler) {
 void hand_over_to(kernel::Scheduler& scheduler, Process& process) {
   remove_limit(scheduler);
   note_time(scheduler);
-  own->next = scheduler.next_key();
+  own->next = kernel::next_key(scheduler);
   ++family->hand_overs;
   give_turn(process);
   await_turn();
 }
 
 Changes take_ring(kernel::Scheduler& scheduler) {
-  if (!own->is_rung || scheduler.next_event_time() < own->rung_at) return 0;
+  if (!own->is_rung || kernel::next_event_time(scheduler) < own->rung_at) return 0;
   own->is_rung = false;
-  if (scheduler.global_time() < own->rung_at) scheduler.advance(own->rung_at);
+  if (kernel::global_time(scheduler) < own->rung_at) kernel::advance(scheduler, own->rung_at);
   return std::exchange(own->rung_for, 0);
 }
 
@@ -176,7 +180,7 @@ void leave(int status) {
   if (own == nullptr || own->state == Process::State::ended) return;
   if (before_leaving != nullptr) before_leaving();
   const bool is_alone = !has_others();
-  note_time(record->scheduler);
+  note_time(record->scheduler());
   note_end_of(*own, status);
   if (is_alone) return;
   // What the system does at a process's end must have happened when another continues: see await_turn().

@@ -4,7 +4,7 @@
 // then has an event at once, to check.
 #pragma once
 
-#include "fibers/kernel/scheduler.hpp"
+#include "fibers/kernel/task.hpp"
 #include "fibers/posix/family/order.hpp"
 #include "fibers/posix/family/processes.hpp"
 

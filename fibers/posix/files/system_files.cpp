@@ -8,6 +8,7 @@
 #include <cstring>
 
 #include "core/digest.hpp"
+#include "fibers/kernel/run.hpp"
 #include "fibers/posix/base/argument_memory.hpp"
 #include "fibers/posix/base/interposed.hpp"
 #include "fibers/posix/family/family.hpp"
@@ -65,7 +66,7 @@ void write_random_uuid(TextFile& text) {
   write_uuid(text, high, low);
 }
 void write_boot_uuid(TextFile& text) {
-  const std::uint64_t seed = kernel::running->scheduler->chooser().seed();
+  const std::uint64_t seed = kernel::chooser(*kernel::running->scheduler).seed();
   write_uuid(text, Digest::mix(seed), Digest::mix(seed + 1));
 }
 void write_entropy(TextFile& text) { text.add("256\n"); }

@@ -3,6 +3,7 @@
 
 #include <dlfcn.h>
 
+#include "fibers/kernel/run.hpp"
 #include "fibers/posix/host/robot_of.hpp"
 #include "fibers/sync/signals.hpp"
 
@@ -43,7 +44,7 @@ void InProcessHost::add(const HostedProgram& program) {
       layer()->load(program.name.c_str(), static_cast<int>(words.size()), words.data(), error);
   if (loaded == nullptr) throw HostingError(error);
   programs_.push_back({loaded, &robot_of(scheduler_, program), program.name});
-  scheduler_.hooks().deliver_signals = deliver_signals_of;
+  kernel::hooks(scheduler_).deliver_signals = deliver_signals_of;
 }
 
 void InProcessHost::start(std::size_t program) {

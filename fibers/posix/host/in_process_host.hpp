@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/hosting/program_host.hpp"
-#include "fibers/kernel/scheduler.hpp"
+#include "fibers/kernel/task.hpp"
 #include "fibers/posix/in_process/layer.hpp"
 
 namespace waitpoint::posix {

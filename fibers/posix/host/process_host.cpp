@@ -18,6 +18,9 @@
 #include <new>
 
 #include "core/program_path.hpp"
+#include "fibers/kernel/common_order.hpp"
+#include "fibers/kernel/run.hpp"
+#include "fibers/kernel/timers.hpp"
 #include "fibers/posix/base/direct_call.hpp"
 #include "fibers/posix/family/keys.hpp"
 #include "fibers/posix/family/system_processes.hpp"
@@ -50,7 +53,7 @@ ProcessHost::ProcessHost(kernel::Scheduler& scheduler, std::filesystem::path lib
   if (memory == MAP_FAILED) return;
   family_ = new (memory) Family;
   // In the explored order the strategy decides between the host's tasks; the programs' order is drawn from the seed.
-  family_->settings.seed = scheduler.chooser().seed();
+  family_->settings.seed = kernel::chooser(scheduler).seed();
   family_->settings.simulates_started = true;
   family_->settings.idle_limit = Duration();
   family_->file = {getpid(), file_};
@@ -63,7 +66,7 @@ ProcessHost::ProcessHost(kernel::Scheduler& scheduler, std::filesystem::path lib
 }
 
 ProcessHost::~ProcessHost() {
-  if (limit_.node.in_list()) scheduler_.cancel(limit_.node);
+  if (limit_.node.in_list()) kernel::cancel(scheduler_, limit_.node);
   const bool is_own =
       family_ != nullptr && family_->file.watcher == getpid();  // else of the process that forked this one
   if (is_own) {
@@ -100,7 +103,7 @@ void ProcessHost::start(std::size_t number) {
   Process* const process = family_ != nullptr ? add_process(&own()) : nullptr;
   if (process == nullptr) fail(program.hosted);
   const std::uint64_t tie = family::tie_of_first(family_->settings.seed, program.robot->id, *process);
-  process->next = {scheduler_.global_time(), kernel::make_order(kernel::Phase::tasks, tie)};
+  process->next = {kernel::global_time(scheduler_), kernel::make_order(kernel::Phase::tasks, tie)};
   program.process = process;
   std::fflush(nullptr);
   const pid_t host = getpid(), child = fork();
@@ -147,23 +150,23 @@ std::optional<ProgramEnd> ProcessHost::end_of(std::size_t program) const {
 }
 
 void ProcessHost::set_limit() {
-  if (limit_.node.in_list()) scheduler_.cancel(limit_.node);
+  if (limit_.node.in_list()) kernel::cancel(scheduler_, limit_.node);
   const Process* const least = family::least_other(*family_, own());
   kernel::EventKey key = least != nullptr ? family::key_of(*family_, *least) : kernel::EventKey::never();
   if (key.time == Time::max()) return;
   // In the explored order, behind the host's tasks of the instant.
-  if (scheduler_.chooser().order() == kernel::Order::explored)
+  if (kernel::chooser(scheduler_).order() == kernel::Order::explored)
     key.order = kernel::make_order(kernel::Phase::processors, kernel::tie_mask);
-  if (key.time < scheduler_.global_time()) key.time = scheduler_.global_time();
-  scheduler_.schedule(limit_.node, key);
+  if (key.time < kernel::global_time(scheduler_)) key.time = kernel::global_time(scheduler_);
+  kernel::schedule(scheduler_, limit_.node, key);
 }
 
 void ProcessHost::fire(kernel::EventNode& node) { reinterpret_cast<Limit&>(node).host->hand_over(); }
 
 void ProcessHost::hand_over() {
   Family& all = *family_;
-  all.now = std::max(all.now, scheduler_.global_time());
-  own().next = scheduler_.next_key();
+  all.now = std::max(all.now, kernel::global_time(scheduler_));
+  own().next = kernel::next_key(scheduler_);
   own().letters = 0;  // their statuses are in the table
   Process* const least = family::least_other(all, own());
   if (least != nullptr && family::key_of(all, *least).time != Time::max()) {

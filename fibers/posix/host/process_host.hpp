@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "core/hosting/program_host.hpp"
-#include "fibers/kernel/scheduler.hpp"
+#include "fibers/kernel/task.hpp"
 #include "fibers/posix/family/family.hpp"
 #include "fibers/posix/host/robot_of.hpp"
 

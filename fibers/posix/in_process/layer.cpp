@@ -9,6 +9,7 @@
 #include <new>
 
 #include "core/error.hpp"
+#include "fibers/kernel/run.hpp"
 #include "fibers/posix/base/interposed.hpp"
 #include "fibers/posix/base/preload.hpp"
 #include "fibers/posix/files/file_records.hpp"
@@ -49,7 +50,7 @@ bool start_program(LoadedProgram& program, kernel::Scheduler& scheduler, kernel:
   WAITPOINT_CHECK(kernel::running == nullptr, "a program starts from within a task");
   program.robot = &robot;
   forget_files();
-  scheduler.hooks().continues_after_cycle = continues_after_cycle;
+  kernel::hooks(scheduler).continues_after_cycle = continues_after_cycle;
   return start(program, scheduler);
 }
 

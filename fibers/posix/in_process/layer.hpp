@@ -9,7 +9,7 @@
 
 #include <cstddef>
 
-#include "fibers/kernel/scheduler.hpp"
+#include "fibers/kernel/task.hpp"
 #include "fibers/posix/links/carrier.hpp"
 
 namespace waitpoint::posix {

@@ -10,6 +10,7 @@
 #include <new>
 
 #include "core/error.hpp"
+#include "fibers/kernel/run.hpp"
 #include "fibers/posix/base/interposed.hpp"
 #include "fibers/posix/input_output/descriptor_table.hpp"
 #include "fibers/posix/ipc/system_v_ends.hpp"
@@ -45,7 +46,7 @@ void end_by_signal(int signal) { end_program(W_EXITCODE(0, signal)); }
 
 void end_with_last_thread() {
   if (!runs_in_loaded_program() || this_loaded_program().exiting) return;
-  for (const kernel::Task* task = kernel::running->scheduler->first_task(); task != nullptr; task = task->next)
+  for (const kernel::Task* task = kernel::first_task(*kernel::running->scheduler); task != nullptr; task = task->next)
     if (task != kernel::running && is_thread(*task) && thread_of(*task).program == &this_program()) return;
   exit_program(0);
 }

@@ -10,6 +10,7 @@
 #include <new>
 
 #include "core/error.hpp"
+#include "fibers/kernel/waiting_calls.hpp"
 #include "fibers/posix/base/chain.hpp"
 #include "fibers/posix/base/error_number.hpp"
 #include "fibers/posix/input_output/input_output.hpp"
@@ -60,7 +61,7 @@ void finish(Queued* request, ssize_t result, int error) {
   RequestBatch* const batch = request->batch;
   WAITPOINT_CHECK(batch == nullptr || batch->left > 0, "a batch has fewer requests than are done");
   std::free(request);
-  kernel::running->scheduler->wake_all(done_object);
+  kernel::wake_all(*kernel::running->scheduler, done_object);
   tell_by(event);
   if (batch == nullptr || --batch->left > 0) return;
   tell_by(batch->event);
@@ -152,7 +153,7 @@ int submit(aiocb& block, Request request, RequestBatch* batch) {
   auto* const queue = static_cast<Queue*>(std::malloc(sizeof(Queue)));
   auto* const queued = static_cast<Queued*>(std::malloc(sizeof(Queued)));
   if (queue != nullptr && queued != nullptr) {
-    kernel::running->scheduler->enter(done_object);
+    kernel::enter(done_object);
     block.__error_code = EINPROGRESS;
     new (queued) Queued{&block, request, batch, nullptr};
     // Its worker begins at once: it cannot be cancelled any more.
@@ -177,7 +178,7 @@ void tell_by(const sigevent& event) {
 }
 
 Wait wait_for_any_request(Time deadline) {
-  kernel::running->scheduler->enter(done_object);
+  kernel::enter(done_object);
   return wait_on(done_object, deadline);
 }
 

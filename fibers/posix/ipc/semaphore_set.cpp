@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "fibers/kernel/run.hpp"
+#include "fibers/kernel/waiting_calls.hpp"
 #include "fibers/posix/base/chain.hpp"
 #include "fibers/posix/descriptors/descriptors.hpp"
 #include "fibers/posix/family/order.hpp"
@@ -81,7 +83,7 @@ void end_waiting(Waiting& waiting, int result) {
   waiting.done = true;
   if (waiting.caller.process != family::this_process()) return family::ring(family::of_objects);
   // A signal may have woken it before: then it finds the result when it runs.
-  if (waiting.task->state == kernel::TaskState::blocked) waiting.task->scheduler->wake(*waiting.task);
+  if (waiting.task->state == kernel::TaskState::blocked) kernel::wake(*waiting.task->scheduler, *waiting.task);
 }
 
 // Applies the adjustments and frees them.
@@ -140,7 +142,8 @@ void let_go_on(Set& set) {
     if (count == 0) return;
     bool any = false;
     // Round-robin from the chosen call until one is done: an attempt may show that many operations are hindered.
-    std::uint32_t chosen = is_simulated() ? kernel::running->scheduler->chooser().waiter(*kernel::running, count) : 0;
+    std::uint32_t chosen =
+        is_simulated() ? kernel::chooser(*kernel::running->scheduler).waiter(*kernel::running, count) : 0;
     WAITPOINT_CHECK(chosen < count, "a call on semaphores is chosen that does not wait");
     for (std::uint32_t tried = 0; tried < count && !any; ++tried, chosen = (chosen + 1) % count) {
       std::uint32_t at = 0;

@@ -5,6 +5,8 @@
 #include <cstring>
 
 #include "core/error.hpp"
+#include "fibers/kernel/run.hpp"
+#include "fibers/kernel/waiting_calls.hpp"
 #include "fibers/posix/base/chain.hpp"
 #include "fibers/posix/descriptors/descriptors.hpp"
 #include "fibers/posix/family/order.hpp"
@@ -57,7 +59,7 @@ void end_receiving(Queue& queue, Receiving& receiving, Message* message, int err
   __atomic_store_n(&receiving.error, error, __ATOMIC_SEQ_CST);
   if (receiving.process != family::this_process()) return family::ring(family::of_objects);
   // A signal or a cancellation may have woken it before: then it finds the result when it runs.
-  if (receiving.task->state == kernel::TaskState::blocked) receiving.task->scheduler->wake(*receiving.task);
+  if (receiving.task->state == kernel::TaskState::blocked) kernel::wake(*receiving.task->scheduler, *receiving.task);
 }
 
 // Drops the waiting calls of killed processes.
@@ -76,7 +78,8 @@ bool give(Queue& queue, Message& message) {
     for (const Receiving* each = queue.first_receiving; each != nullptr; each = each->next)
       if (is_wanted(each->wanted, message.type)) ++count;
     if (count == 0) return false;
-    std::uint32_t chosen = is_simulated() ? kernel::running->scheduler->chooser().waiter(*kernel::running, count) : 0;
+    std::uint32_t chosen =
+        is_simulated() ? kernel::chooser(*kernel::running->scheduler).waiter(*kernel::running, count) : 0;
     WAITPOINT_CHECK(chosen < count, "a receiver is chosen that does not wait for such a message");
     Receiving* each = queue.first_receiving;
     while (!is_wanted(each->wanted, message.type) || chosen-- > 0) each = each->next;
@@ -98,7 +101,7 @@ bool has_room(const Queue& queue, std::size_t size) {
 }  // namespace
 
 void wake_senders(const Queue& queue) {
-  if (is_simulated()) kernel::running->scheduler->wake_all(object_of_room(queue));
+  if (is_simulated()) kernel::wake_all(*kernel::running->scheduler, object_of_room(queue));
   family::ring(family::of_objects);
 }
 
@@ -149,7 +152,7 @@ int send_message(Queue& queue, long type, const char* bytes, std::size_t size, i
     }
     if ((flags & IPC_NOWAIT) != 0) return fail(EAGAIN);
     if (!is_simulated()) refuse("a thread waits before main() begins");
-    kernel::running->scheduler->enter(object_of_room(queue));
+    kernel::enter(object_of_room(queue));
     Wait ended = Wait::interrupted;
     if (!point.was_cancelled()) ended = wait_on_shared(object_of_room(queue), Time::max(), may_send, &sending);
     if (point.was_cancelled()) return fail(ECANCELED);

@@ -11,6 +11,9 @@
 
 #include "core/error.hpp"
 #include "core/random.hpp"
+#include "fibers/kernel/messages.hpp"
+#include "fibers/kernel/run.hpp"
+#include "fibers/kernel/timers.hpp"
 #include "fibers/posix/base/error_number.hpp"
 #include "fibers/posix/base/interposed.hpp"
 #include "fibers/posix/descriptors/descriptors.hpp"
@@ -75,7 +78,7 @@ Air* take_air() {
 }
 
 Time time_of_sender() {
-  return kernel::running != nullptr ? kernel::local_time(*kernel::running) : record->scheduler.global_time();
+  return kernel::running != nullptr ? kernel::local_time(*kernel::running) : kernel::global_time(record->scheduler());
 }
 
 bool is_between_robots(int to) { return own_robot != 0 && to != 0 && to != own_robot; }
@@ -120,7 +123,7 @@ Transmission transmit(int to, std::size_t bytes, Time from) {
 
 void look_after_event() {
   look_at_descriptors();
-  family::limit_window(record->scheduler);
+  family::limit_window(record->scheduler());
 }
 
 void end_flight(AirFlight& flight, bool arrives) {
@@ -134,13 +137,13 @@ void end_flight(AirFlight& flight, bool arrives) {
 void land(kernel::EventNode& node) {
   auto& flight = static_cast<AirFlight&>(node);
   end_flight(flight, flight.sender == family::own);
-  family::limit_window(record->scheduler);
+  family::limit_window(record->scheduler());
 }
 
 void launch(AirFlight& flight, Time arrives) {
   flights.add(flight);
   flight.fire = land;
-  record->scheduler.deliver(flight, arrives, record->robot);
+  kernel::deliver(record->scheduler(), flight, arrives, record->robot);
 }
 
 void launch_in_order(int to, AirFlight& flight) {
@@ -159,7 +162,7 @@ void check_range(kernel::EventNode& node) {
   auto& route = static_cast<AirRoute&>(node);
   const auto to = static_cast<int>(&route - routes);
   if (!is_in_range(to))
-    return record->scheduler.deliver(route, later(time_of_sender(), air->medium.range_check), record->robot);
+    return kernel::deliver(record->scheduler(), route, later(time_of_sender(), air->medium.range_check), record->robot);
   while (AirFlight* const flight = route.waiting.first) {
     route.waiting.remove(*flight);
     launch_in_order(to, *flight);
@@ -216,7 +219,7 @@ bool carry_in_order_by_air(void*, const kernel::Robot&, const void* robot, std::
     route.waiting.add(*flight);
     route.fire = check_range;
     if (!route.in_list())
-      record->scheduler.deliver(route, later(time_of_sender(), air->medium.range_check), record->robot);
+      kernel::deliver(record->scheduler(), route, later(time_of_sender(), air->medium.range_check), record->robot);
   }
   return true;
 }
@@ -236,7 +239,8 @@ const void* find_by_port(const SocketAddress& address, int) {
 
 void look_for_room_later() {
   room.fire = [](kernel::EventNode&) { look_after_event(); };
-  if (!room.in_list()) record->scheduler.deliver(room, later(time_of_sender(), look_for_room), record->robot);
+  if (!room.in_list())
+    kernel::deliver(record->scheduler(), room, later(time_of_sender(), look_for_room), record->robot);
 }
 
 void let_all_arrive() {
@@ -246,7 +250,7 @@ void let_all_arrive() {
       flights.add(*flight);
     }
   while (AirFlight* const flight = flights.first) {
-    if (flight->in_list()) record->scheduler.cancel(*flight);
+    if (flight->in_list()) kernel::cancel(record->scheduler(), *flight);
     end_flight(*flight, flight->sender == family::own);
   }
 }

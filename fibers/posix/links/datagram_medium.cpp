@@ -9,6 +9,9 @@
 #include <new>
 
 #include "core/error.hpp"
+#include "fibers/kernel/run.hpp"
+#include "fibers/kernel/timers.hpp"
+#include "fibers/kernel/waiting_calls.hpp"
 #include "fibers/posix/base/error_number.hpp"
 #include "fibers/posix/base/high_descriptor.hpp"
 #include "fibers/posix/base/interposed.hpp"
@@ -99,15 +102,15 @@ void deliver_first() {
 }
 
 void await_first(kernel::Scheduler& scheduler) {
-  if (arrival.event.in_list()) scheduler.cancel(arrival.event);
-  if (first_underway != nullptr) scheduler.schedule(arrival.event, first_underway->arrival, arrival.object);
+  if (arrival.event.in_list()) kernel::cancel(scheduler, arrival.event);
+  if (first_underway != nullptr) kernel::schedule(scheduler, arrival.event, first_underway->arrival, arrival.object);
 }
 
 void arrive(kernel::EventNode&) {
   kernel::Scheduler& scheduler = *arrival.object.robot->scheduler;
-  WAITPOINT_CHECK(first_underway != nullptr && first_underway->arrival <= scheduler.global_time(),
+  WAITPOINT_CHECK(first_underway != nullptr && first_underway->arrival <= kernel::global_time(scheduler),
                   "a datagram arrives that is not under way");
-  while (first_underway != nullptr && first_underway->arrival <= scheduler.global_time()) deliver_first();
+  while (first_underway != nullptr && first_underway->arrival <= kernel::global_time(scheduler)) deliver_first();
   await_first(scheduler);
   look_at_descriptors();
 }
@@ -119,7 +122,7 @@ void put_under_way(Underway& datagram) {
   *link = &datagram;
   kernel::Scheduler& scheduler = *kernel::running->scheduler;
   arrival.event.fire = arrive;
-  scheduler.enter(arrival.object);
+  kernel::enter(arrival.object);
   if (first_underway == &datagram) await_first(scheduler);
 }
 
@@ -149,7 +152,7 @@ bool send_through_medium(int descriptor, const msghdr& message, std::size_t& siz
 void deliver_datagrams() {
   if (first_underway == nullptr) return;
   while (first_underway != nullptr) deliver_first();
-  if (arrival.event.in_list()) arrival.object.robot->scheduler->cancel(arrival.event);
+  if (arrival.event.in_list()) kernel::cancel(*arrival.object.robot->scheduler, arrival.event);
   look_at_descriptors();
 }
 
@@ -160,7 +163,7 @@ void forget_datagrams() {
     WAITPOINT_NEXT(close)(datagram->descriptor);
     std::free(datagram);
   }
-  if (arrival.event.in_list()) kernel::running->scheduler->cancel(arrival.event);
+  if (arrival.event.in_list()) kernel::cancel(*kernel::running->scheduler, arrival.event);
 }
 
 }  // namespace waitpoint::posix

@@ -11,6 +11,7 @@
 #include <new>
 
 #include "core/error.hpp"
+#include "fibers/kernel/waiting_calls.hpp"
 #include "fibers/posix/base/error_number.hpp"
 #include "fibers/posix/base/interposed.hpp"
 #include "fibers/posix/descriptors/descriptors.hpp"
@@ -109,7 +110,7 @@ void deliver(Stream& stream) {
     --arrived_count;
     let_go(*piece);
   }
-  if (stream.object.first_waiter != nullptr) stream.object.first_waiter->scheduler->wake_all(stream.object);
+  if (stream.object.first_waiter != nullptr) kernel::wake_all(*stream.object.first_waiter->scheduler, stream.object);
   --stream.pieces;
   free_if_unused(stream);
 }
@@ -197,7 +198,7 @@ bool has_failed(int descriptor) {
 // Waits for room, even if the socket is non-blocking; false, with EINTR, if a signal interrupted the wait.
 bool wait_for_room(Stream& stream) {
   const CancellationPoint point;
-  kernel::running->scheduler->enter(stream.object);
+  kernel::enter(stream.object);
   while (stream.under_way >= most_under_way) {
     const Wait ended = point.block(stream.object, Time::max());
     leave_if_cancelled();

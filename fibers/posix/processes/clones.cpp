@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "fibers/kernel/turn.hpp"
 #include "fibers/posix/base/argument_memory.hpp"
 #include "fibers/posix/base/error_number.hpp"
 #include "fibers/posix/base/interposed.hpp"
@@ -88,7 +89,7 @@ int lend_memory(const Clone& clone) {
   family::let_begin(*made);
   family::set_native(*made, true);
   await_child_in_system();
-  kernel::running->scheduler->close_fast_path();
+  kernel::turn.close();
   kernel::Task* const task = std::exchange(kernel::running, nullptr);
   const int child = WAITPOINT_NEXT(clone)(clone.function, clone.stack, static_cast<int>(clone.flags | CLONE_VFORK),
                                           clone.argument, clone.parent_id, clone.thread_storage, clone.child_id);

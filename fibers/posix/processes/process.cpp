@@ -10,6 +10,11 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "fibers/kernel/common_order.hpp"
+#include "fibers/kernel/run.hpp"
+#include "fibers/kernel/run_window.hpp"
+#include "fibers/kernel/tasks.hpp"
+#include "fibers/kernel/waiting_calls.hpp"
 #include "fibers/posix/base/error_number.hpp"
 #include "fibers/posix/base/interposed.hpp"
 #include "fibers/posix/descriptors/descriptors.hpp"
@@ -92,18 +97,18 @@ void begin_events() {
   robot.digest = PairDigest();
   robot.outputs = 0;
   robot.digest_in_use = &family::own->digest;
-  scheduler.continue_as(Digest::mix(kernel::running->id + number));
+  kernel::continue_as(scheduler, Digest::mix(kernel::running->id + number));
   family::limit_window(scheduler);
-  scheduler.pause();
+  kernel::pause(scheduler);
 }
 
 void end_other_tasks() {
   kernel::Scheduler& scheduler = *kernel::running->scheduler;
-  for (kernel::Task *task = scheduler.first_task(), *next = nullptr; task != nullptr; task = next) {
+  for (kernel::Task *task = kernel::first_task(scheduler), *next = nullptr; task != nullptr; task = next) {
     next = task->next;
     if (task == kernel::running) continue;
     leave_mutexes_of(*task);
-    scheduler.end_in_place(*task);
+    kernel::end_in_place(*task);
   }
   WAITPOINT_CHECK(first_task() == kernel::running && kernel::running->next == nullptr,
                   "a child has tasks of its parent's");
@@ -167,7 +172,7 @@ void await_return(const family::Process& child) {
            process->state == family::Process::State::ended;
   };
   while (!has_returned(&borrower)) {
-    kernel::running->scheduler->enter(object);
+    kernel::enter(object);
     wait_on_shared(object, Time::max(), has_returned, &borrower);
     if (deliverable(this_thread()) != 0) handle_signals();
   }

@@ -9,6 +9,8 @@
 
 #include <cerrno>
 
+#include "fibers/kernel/waiting_calls.hpp"
+#include "fibers/kernel/waitpoint_calls.hpp"
 #include "fibers/posix/base/error_number.hpp"
 #include "fibers/posix/base/interposed.hpp"
 #include "fibers/posix/descriptors/descriptors.hpp"
@@ -103,7 +105,7 @@ Process* await_news(const Awaited& awaited) {
   const CancellationPoint point;
   pass(kernel::Operation::join, nullptr);
   static constinit kernel::Object object{"child"};
-  kernel::running->scheduler->enter(object);
+  kernel::enter(object);
   const auto is_ready = [](const void* what) {
     const auto& asked = *static_cast<const Awaited*>(what);
     return child_with_news(asked) != nullptr || children_of(asked) == Among::none;
@@ -121,7 +123,7 @@ Process* await_news(const Awaited& awaited) {
     if ((awaited.options & WNOHANG) != 0) {
       spend(cost_of_giving_way);  // a polling loop must end
       const InKernel within;
-      kernel::running->scheduler->yield();
+      kernel::yield(*kernel::running->scheduler);
       errno = 0;
       return child_with_news(awaited);
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Virtual time of instrumented code that computes for long without a call: see waiting.hpp.
+#include "fibers/kernel/run_window.hpp"
 #include "fibers/posix/program/program.hpp"
 #include "fibers/posix/program/waiting.hpp"
 
@@ -14,7 +15,7 @@ void spend_for_computing(kernel::Task& task) {
   thread.spins_at = task.local_time;
   constexpr std::uint32_t spins_at_one_instant = 50;
   if (++thread.spins < spins_at_one_instant) return;
-  const Time next = task.scheduler->next_event_time();
+  const Time next = kernel::next_event_time(*task.scheduler);
   if (next > task.local_time && next != Time::max()) spend(next - task.local_time);
 }
 

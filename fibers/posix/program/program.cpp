@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fibers/posix/program/program.hpp"
 
+#include "fibers/kernel/run.hpp"
 #include "fibers/posix/program/allocator.hpp"
 #include "fibers/posix/program/timer_firing.hpp"
 
@@ -14,8 +15,8 @@ std::uint64_t timers_fired = 0;
 void (*instead_of_ending)(int status) = nullptr;
 
 kernel::Task* first_task() {
-  if (kernel::running != nullptr) return kernel::running->scheduler->first_task();
-  return has_host || record == nullptr || !record->began ? nullptr : record->scheduler.first_task();
+  if (kernel::running != nullptr) return kernel::first_task(*kernel::running->scheduler);
+  return has_host || record == nullptr || !record->began ? nullptr : kernel::first_task(record->scheduler());
 }
 
 Thread* thread_with_id(int id) {

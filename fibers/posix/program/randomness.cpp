@@ -11,6 +11,7 @@
 #include <cstring>
 
 #include "core/digest.hpp"
+#include "fibers/kernel/run.hpp"
 #include "fibers/posix/base/argument_memory.hpp"
 #include "fibers/posix/base/error_number.hpp"
 #include "fibers/posix/base/interposed.hpp"
@@ -35,7 +36,7 @@ std::uint64_t draw_random(Numbers numbers) {
   std::uint64_t* drawn = &drawn_before_main[index];
   if (is_simulated()) {
     Program& program = this_program();
-    stream ^= program.robot->id ^ kernel::running->scheduler->chooser().seed();
+    stream ^= program.robot->id ^ kernel::chooser(*kernel::running->scheduler).seed();
     drawn = &program.numbers_drawn[index];
   } else if (record != nullptr) {
     stream ^= record->settings.seed;

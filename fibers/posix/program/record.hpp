@@ -13,7 +13,8 @@
 #include "core/digest.hpp"
 #include "core/error.hpp"
 #include "fibers/clocks/clock_options.hpp"
-#include "fibers/kernel/scheduler.hpp"
+#include "fibers/kernel/chooser.hpp"
+#include "fibers/kernel/task.hpp"
 #include "fibers/posix/base/arena.hpp"
 
 namespace waitpoint::posix {
@@ -30,6 +31,8 @@ inline constexpr char clock_variable[] = "WAITPOINT_CLOCK";
 inline constexpr int status_of_deadlock = 124, status_of_own_errors = 125;
 
 /// The file's address, which no program uses. Its pages are allocated on first use.
+/// A scheduler fits into it (exec/run.cpp).
+inline constexpr std::size_t scheduler_bytes = 2048;
 inline constexpr std::uintptr_t record_address = 0x2a00'0000'0000;
 inline constexpr std::size_t record_bytes = std::size_t{1} << 34;
 
@@ -104,15 +107,15 @@ struct alignas(Arena::alignment) Record {
   std::uint32_t threads_made = 0;
   std::uint32_t threads_most = 0;  ///< at once
   kernel::Robot robot;
-  union {
-    kernel::Scheduler scheduler;
-  };
+  /// The scheduler, which is never destroyed: the process ends first.
+  alignas(64) std::byte scheduler_memory[scheduler_bytes];
 
+  kernel::Scheduler& scheduler() { return *reinterpret_cast<kernel::Scheduler*>(scheduler_memory); }
+  const kernel::Scheduler& scheduler() const { return *reinterpret_cast<const kernel::Scheduler*>(scheduler_memory); }
   Digest digest() const { return robot.digest.digest(); }
 
   /// Its pointers are valid at the record's address, wherever it is constructed.
   Record() { arena.start(reinterpret_cast<Record*>(record_address) + 1, reinterpret_cast<char*>(control_address)); }
-  ~Record() {}  // the scheduler is never destroyed: the process ends first
 };
 static_assert(record_address % 4096 == 0 && record_bytes % 4096 == 0, "the record's file is mapped in whole pages");
 static_assert(sizeof(Record) % Arena::alignment == 0, "the arena begins behind the record");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fibers/posix/program/thread.hpp"
 
+#include "fibers/kernel/run.hpp"
 #include "fibers/posix/program/thread_area.hpp"
 
 namespace waitpoint::posix {
@@ -17,7 +18,7 @@ Thread* find(pthread_t id) {
 
 Duration spent_by(int id) {
   if (kernel::running == nullptr) return {};
-  for (const kernel::Task* task = kernel::running->scheduler->first_task(); task != nullptr; task = task->next)
+  for (const kernel::Task* task = kernel::first_task(*kernel::running->scheduler); task != nullptr; task = task->next)
     if (is_thread(*task) && thread_of(*task).id == id) return thread_of(*task).spent;
   return {};
 }

@@ -6,7 +6,7 @@
 #include <sched.h>
 
 #include "core/error.hpp"
-#include "fibers/kernel/scheduler.hpp"
+#include "fibers/kernel/task.hpp"
 #include "fibers/posix/program/pending_signals.hpp"
 #include "fibers/posix/program/program_clock.hpp"
 #include "fibers/posix/program/program_state.hpp"

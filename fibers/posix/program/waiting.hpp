@@ -8,6 +8,8 @@
 #pragma once
 
 #include "fibers/kernel/local_clock.hpp"
+#include "fibers/kernel/waiting_calls.hpp"
+#include "fibers/kernel/waitpoint_calls.hpp"
 #include "fibers/posix/program/processor_timers.hpp"
 #include "fibers/posix/program/program.hpp"
 #include "fibers/posix/program/thread.hpp"
@@ -67,7 +69,7 @@ inline void pass(kernel::Operation operation, kernel::Object* object) {
   Thread& thread = thread_of(task);
   if (++thread.operations >= operations_at_once) spend_for_operations(thread);
   const InKernel within;
-  task.scheduler->waitpoint(operation, object);
+  kernel::waitpoint(*task.scheduler, operation, object);
 }
 
 /// The same for the running `task` if no other event can come first: then only a count is needed. Else false, with no
@@ -86,10 +88,10 @@ inline void pass(kernel::Operation operation, kernel::Object* object) {
 /// Blocks the running thread on `object`; false at the deadline. Signals stay pending until it continues.
 inline bool block(kernel::Object& object, Time deadline) {
   const InKernel within;
-  return kernel::running->scheduler->block(object, deadline) == kernel::Wake::woken;
+  return kernel::block(*kernel::running->scheduler, object, deadline) == kernel::Wake::woken;
 }
 
 /// Wakes a waiter selected by the chooser; null without one.
-inline kernel::Task* wake_one(kernel::Object& object) { return kernel::running->scheduler->wake_one(object); }
+inline kernel::Task* wake_one(kernel::Object& object) { return kernel::wake_one(*kernel::running->scheduler, object); }
 
 }  // namespace waitpoint::posix

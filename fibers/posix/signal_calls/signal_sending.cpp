@@ -13,6 +13,7 @@ extern "C" {
 }
 
 #include "core/error.hpp"
+#include "fibers/kernel/run.hpp"
 #include "fibers/posix/base/argument_memory.hpp"
 #include "fibers/posix/base/error_number.hpp"
 #include "fibers/posix/base/interposed.hpp"
@@ -30,7 +31,7 @@ namespace {
 void handle_own() {
   kernel::Task& task = *kernel::running;
   if ((task.attention & kernel::attention::signal) == 0) return;
-  task.scheduler->attend(task, kernel::attention::signal, false);
+  kernel::attend(task, kernel::attention::signal, false);
   handle_signals();
 }
 

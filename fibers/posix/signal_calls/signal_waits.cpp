@@ -6,6 +6,7 @@
 #include <cerrno>
 
 #include "core/error.hpp"
+#include "fibers/kernel/waiting_calls.hpp"
 #include "fibers/posix/base/argument_memory.hpp"
 #include "fibers/posix/base/error_number.hpp"
 #include "fibers/posix/base/interposed.hpp"
@@ -23,7 +24,7 @@ namespace {
 kernel::Object signals_object{"signal"};
 
 Wait wait_for_signal(const CancellationPoint& point, Time deadline) {
-  kernel::running->scheduler->enter(signals_object);
+  kernel::enter(signals_object);
   const WaitsOutside outside;
   return point.block(signals_object, deadline);
 }

@@ -3,6 +3,8 @@
 
 #include <cerrno>
 
+#include "fibers/kernel/run.hpp"
+#include "fibers/kernel/waiting_calls.hpp"
 #include "fibers/posix/base/interposed.hpp"
 #include "fibers/posix/program/computing_watch.hpp"
 #include "fibers/posix/signals/signals.hpp"
@@ -25,7 +27,7 @@ void leave_if_cancelled() {
 
 bool CancellationPoint::wait_until(Time time) const {
   kernel::Task& task = *kernel::running;
-  task.scheduler->enter(sleepers);
+  kernel::enter(sleepers);
   pass(kernel::Operation::sleep, &sleepers);
   bool goes_on = true;
   while (goes_on && time > kernel::local_time(task)) {
@@ -59,9 +61,9 @@ WAITPOINT_INTERPOSED int pthread_cancel(pthread_t id) {
   kernel::Scheduler& scheduler = *kernel::running->scheduler;
   if (is_waiting) {
     thread->woken_early = true;
-    scheduler.wake(*thread->task);
+    kernel::wake(scheduler, *thread->task);
   } else if (thread->cancel_at_once) {
-    scheduler.attend(*thread->task, kernel::attention::signal, true);
+    kernel::attend(*thread->task, kernel::attention::signal, true);
   }
   return 0;
 }

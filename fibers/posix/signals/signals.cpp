@@ -8,6 +8,8 @@
 #include <cstdlib>
 
 #include "core/error.hpp"
+#include "fibers/kernel/run.hpp"
+#include "fibers/kernel/waiting_calls.hpp"
 #include "fibers/posix/base/error_number.hpp"
 #include "fibers/posix/base/stack_switch.hpp"
 #include "fibers/posix/program/program.hpp"
@@ -32,7 +34,7 @@ bool wants(const Thread& thread, int signal) {
 // The program's first thread that accepts it, as in Linux.
 Thread* taker_of(const Program& program, int signal) {
   const kernel::Scheduler* const scheduler = program.robot != nullptr ? program.robot->scheduler : nullptr;
-  for (kernel::Task* task = scheduler != nullptr ? scheduler->first_task() : nullptr; task != nullptr;
+  for (kernel::Task* task = scheduler != nullptr ? kernel::first_task(*scheduler) : nullptr; task != nullptr;
        task = task->next)
     if (is_thread(*task) && thread_of(*task).program == &program && wants(thread_of(*task), signal))
       return &thread_of(*task);
@@ -45,9 +47,9 @@ void tell(Thread& thread) {
   if (task.state == kernel::TaskState::blocked && thread.in_wait) {
     thread.woken_early = true;
     thread.woken_by_timer = is_timer_firing;
-    task.scheduler->wake(task);
+    kernel::wake(*task.scheduler, task);
   } else {
-    task.scheduler->attend(task, kernel::attention::signal, true);
+    kernel::attend(task, kernel::attention::signal, true);
   }
 }
 
@@ -262,7 +264,7 @@ Wait wait_on(kernel::Object& object, Time deadline) {
   WAITPOINT_CHECK(thread.in_wait, "a wait was ended by code within it");
   thread.in_wait = false;
   if (thread.woken_early) return Wait::interrupted;
-  if (thread.delivery_due) task.scheduler->attend(task, kernel::attention::signal, true);
+  if (thread.delivery_due) kernel::attend(task, kernel::attention::signal, true);
   return woken ? Wait::came : Wait::timed_out;
 }
 

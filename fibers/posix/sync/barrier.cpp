@@ -7,6 +7,7 @@
 #include <cerrno>
 #include <cstring>
 
+#include "fibers/kernel/waiting_calls.hpp"
 #include "fibers/posix/base/interposed.hpp"
 #include "fibers/posix/program/program.hpp"
 #include "fibers/posix/program/waitable.hpp"
@@ -79,7 +80,7 @@ WAITPOINT_INTERPOSED int pthread_barrier_wait(pthread_barrier_t* barrier) noexce
     if (bytes.is_shared())
       tell_change(known.object);
     else
-      kernel::running->scheduler->wake_all(known.object);
+      kernel::wake_all(*kernel::running->scheduler, known.object);
     return PTHREAD_BARRIER_SERIAL_THREAD;
   }
   for (;;) {

@@ -6,6 +6,8 @@
 #include <cerrno>
 #include <cstring>
 
+#include "fibers/kernel/run.hpp"
+#include "fibers/kernel/waiting_calls.hpp"
 #include "fibers/posix/base/interposed.hpp"
 #include "fibers/posix/program/program.hpp"
 #include "fibers/posix/signals/cancellation.hpp"
@@ -163,7 +165,7 @@ int wait_before(pthread_cond_t* condition, pthread_mutex_t* bytes, Time deadline
     const Inside inside(known, words);
     if (words.is_shared())
       ended = wait_shared(known, words, ticket, deadline, point);
-    else if (!kernel::running->scheduler->chooser().is_spurious(*kernel::running))
+    else if (!kernel::chooser(*kernel::running->scheduler).is_spurious(*kernel::running))
       ended = deadline > kernel::running->local_time ? point.block(known.object, deadline) : Wait::timed_out;
   }
   if (ended == Wait::interrupted && !point.was_cancelled()) handle_signals();
@@ -181,7 +183,7 @@ int notify(pthread_cond_t* condition, bool all) {
   if (bytes_of(condition).is_shared())
     release_shared(known, bytes_of(condition), all);
   else if (all)
-    kernel::running->scheduler->wake_all(known.object);
+    kernel::wake_all(*kernel::running->scheduler, known.object);
   else
     wake_one(known.object);
   return 0;
@@ -207,7 +209,7 @@ WAITPOINT_INTERPOSED int pthread_cond_destroy(pthread_cond_t* condition) noexcep
   ConditionBytes& bytes = bytes_of(condition);
   while (is_simulated() && is_anybody_leaving(bytes)) {
     kernel::Object& end = bytes.waitable().last_leaves;
-    kernel::running->scheduler->enter(end);
+    kernel::enter(end);
     if (wait_on_shared(end, Time::max(), has_everybody_left, &bytes) == Wait::interrupted) handle_signals();
   }
   bytes.destroy(Waitable::Kind::condition);

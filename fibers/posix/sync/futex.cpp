@@ -6,6 +6,7 @@
 #include <cerrno>
 
 #include "core/error.hpp"
+#include "fibers/kernel/waiting_calls.hpp"
 #include "fibers/posix/base/error_number.hpp"
 #include "fibers/posix/base/interposed.hpp"
 #include "fibers/posix/descriptors/descriptors.hpp"
@@ -89,7 +90,7 @@ long wake(std::uint32_t* address, std::uint32_t most, std::uint32_t mask, Of of)
   for (kernel::Task *task = word.object.first_waiter, *next = nullptr; task != nullptr && woken < most; task = next) {
     next = task->next_waiter;
     if ((thread_of(*task).futex_mask & mask) == 0) continue;
-    kernel::running->scheduler->wake(*task);
+    kernel::wake(*kernel::running->scheduler, *task);
     note_woken(*task);
     ++woken;
   }
@@ -102,12 +103,12 @@ long requeue(std::uint32_t* from, std::uint32_t most_woken, std::uint32_t most_m
   long count = wake(from, most_woken, FUTEX_BITSET_MATCH_ANY, Of::process);
   if (count < 0 || from == to) return count;
   kernel::Object& target = word_at(to).object;
-  kernel::running->scheduler->enter(target);
+  kernel::enter(target);
   WAITPOINT_CHECK(target.owner == nullptr && word_at(from).object.owner == nullptr,
                   "waiters are moved between futexes that have an owner");
   for (kernel::Task* task = word_at(from).object.first_waiter; task != nullptr && most_moved > 0; --most_moved) {
     kernel::Task* const next = task->next_waiter;
-    kernel::running->scheduler->move_waiter(*task, target);
+    kernel::move_waiter(*task, target);
     if (SharedFutex*& shared = thread_of(*task).shared_futex; shared != nullptr && !has_woken(&shared)) {
       end_waiting(*shared, true);
       shared = begin_to_wait(to);

@@ -6,6 +6,7 @@
 #include <cerrno>
 
 #include "core/error.hpp"
+#include "fibers/kernel/waiting_calls.hpp"
 #include "fibers/posix/base/argument_memory.hpp"
 #include "fibers/posix/base/error_number.hpp"
 #include "fibers/posix/base/system_call_words.hpp"
@@ -77,7 +78,7 @@ long wait_for_any_futex(const CallWords& words) {
   }
   if (const int error = error_of(list, count); error != 0) return fail(error);
   const Time deadline = timeout == nullptr ? Time::max() : when(clock, *timeout);
-  kernel::running->scheduler->enter(object);
+  kernel::enter(object);
   pass(kernel::Operation::wait, &object);
   for (;;) {
     Vector vector{kernel::running, list, count, -1, first};
@@ -100,7 +101,7 @@ std::uint32_t wake_vectors(const void* address, std::uint32_t most) {
       WAITPOINT_FAST_CHECK(vector->task->state != kernel::TaskState::blocked || vector->task->blocked_on == &object,
                            "a thread that waits for several futexes is blocked on something else");
       vector->woken = static_cast<int>(i);
-      if (vector->task->state == kernel::TaskState::blocked) vector->task->scheduler->wake(*vector->task);
+      if (vector->task->state == kernel::TaskState::blocked) kernel::wake(*vector->task->scheduler, *vector->task);
       ++woken;
     }
   return woken;

@@ -7,6 +7,7 @@
 
 #include "core/error.hpp"
 #include "fibers/kernel/ownership.hpp"
+#include "fibers/kernel/waiting_calls.hpp"
 #include "fibers/posix/base/interposed.hpp"
 #include "fibers/posix/family/lasting_waits.hpp"
 #include "fibers/posix/family/misuse.hpp"
@@ -54,7 +55,7 @@ void give_up(Mutex& mutex) {
   mutex.robust_state = Mutex::RobustState::unrecoverable;
   take_from_owner(mutex.object);
   show_no_owner(bytes_of(mutex));
-  kernel::running->scheduler->wake_all(mutex.object);
+  kernel::wake_all(*kernel::running->scheduler, mutex.object);
 }
 
 // The result of the new owner's lock.

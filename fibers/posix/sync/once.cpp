@@ -4,6 +4,7 @@
 #include <pthread.h>
 #include <threads.h>
 
+#include "fibers/kernel/waiting_calls.hpp"
 #include "fibers/posix/base/interposed.hpp"
 #include "fibers/posix/program/waiting.hpp"
 #include "fibers/posix/program/word.hpp"
@@ -26,7 +27,7 @@ void end(int* flag, int state) {
   if (kernel::sanitizer::present) kernel::sanitizer::release(&word.object);
   *flag = state;
   pass(kernel::Operation::release, &word.object);
-  kernel::running->scheduler->wake_all(word.object);
+  kernel::wake_all(*kernel::running->scheduler, word.object);
 }
 
 // A function that is left by an exception or a cancellation does not count as called: another thread calls it again.

@@ -8,6 +8,7 @@
 
 #include "core/error.hpp"
 #include "fibers/kernel/ownership.hpp"
+#include "fibers/kernel/waiting_calls.hpp"
 #include "fibers/posix/base/interposed.hpp"
 #include "fibers/posix/family/misuse.hpp"
 #include "fibers/posix/program/waitable.hpp"
@@ -102,7 +103,7 @@ void admit_readers(RwLock& lock) {
     next = task->next_waiter;
     if (!task->shared_wait) continue;
     ++lock.readers;
-    kernel::running->scheduler->wake(*task);
+    kernel::wake(*kernel::running->scheduler, *task);
   }
 }
 
@@ -132,7 +133,7 @@ void hand_on(RwLock& lock, bool prefers_writers) {
   WAITPOINT_CHECK(lock.free(), "a read-write lock is handed over that is held");
   kernel::Task* first = prefers_writers ? lock.first_waiting_writer() : nullptr;
   if (first != nullptr)
-    kernel::running->scheduler->wake(*first);
+    kernel::wake(*kernel::running->scheduler, *first);
   else
     first = wake_one(lock.object);
   if (first == nullptr) return;

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 
+#include "fibers/kernel/waiting_calls.hpp"
 #include "fibers/posix/descriptors/descriptors.hpp"
 #include "fibers/posix/family/misuse.hpp"
 #include "fibers/posix/family/order.hpp"
@@ -67,7 +68,7 @@ inline Wait wait_for_change(kernel::Object& object, const std::uint32_t& changes
 
 /// After a change was made and counted: all waiters check again.
 inline void tell_change(kernel::Object& object) {
-  if (is_simulated()) kernel::running->scheduler->wake_all(object);
+  if (is_simulated()) kernel::wake_all(*kernel::running->scheduler, object);
   family::ring(family::of_objects);
 }
 

@@ -2,7 +2,7 @@
 // Reports of runs that end since no thread continues.
 #pragma once
 
-#include "fibers/kernel/scheduler.hpp"
+#include "fibers/kernel/task.hpp"
 
 namespace waitpoint::posix {
 

@@ -14,6 +14,10 @@
 #include <cstring>
 
 #include "core/error.hpp"
+#include "fibers/kernel/run.hpp"
+#include "fibers/kernel/tasks.hpp"
+#include "fibers/kernel/waiting_calls.hpp"
+#include "fibers/kernel/waitpoint_calls.hpp"
 #include "fibers/posix/base/interposed.hpp"
 #include "fibers/posix/base/stack_switch.hpp"
 #include "fibers/posix/descriptors/descriptors.hpp"
@@ -120,7 +124,7 @@ void count_threads(Program& program) {
   ++program.threads_made;
   if (has_host) return;
   ++(family::is_first() ? record->threads_made : family::family->threads_made);
-  const std::uint32_t now = record->scheduler.roster().tasks();
+  const std::uint32_t now = kernel::roster(record->scheduler()).tasks();
   if (now > record->threads_most) record->threads_most = now;
 }
 
@@ -156,12 +160,12 @@ bool begin(Thread& thread, kernel::Scheduler& scheduler, const char* name) {
   char whole_name[kernel::name_size];
   std::snprintf(whole_name, sizeof whole_name, "%s%s", program.label, name);
   if (record->settings.has_clock && !give_clock(thread)) return false;
-  kernel::Task* const task = scheduler.spawn(*program.robot,
-                                             {.name = whole_name,
-                                              .stack = kernel::StackSize::program,
-                                              .service = program.is_service,
-                                              .clock = thread.clock != nullptr ? &thread.clock->local() : nullptr},
-                                             run_thread, &thread);
+  kernel::Task* const task = kernel::spawn(scheduler, *program.robot,
+                                           {.name = whole_name,
+                                            .stack = kernel::StackSize::program,
+                                            .service = program.is_service,
+                                            .clock = thread.clock != nullptr ? &thread.clock->local() : nullptr},
+                                           run_thread, &thread);
   if (task == nullptr) return false;
   // The area of the process's own thread is the default of all fibers.
   if (thread.area != own_thread_area()) task->fiber.thread_pointer = thread.area;
@@ -210,7 +214,7 @@ Thread* make_main_thread(Program& program, kernel::Scheduler& scheduler, void* (
 }
 
 void end_other_threads(const Program& program, kernel::Scheduler& scheduler) {
-  for (kernel::Task *task = scheduler.first_task(), *next = nullptr; task != nullptr; task = next) {
+  for (kernel::Task *task = kernel::first_task(scheduler), *next = nullptr; task != nullptr; task = next) {
     next = task->next;
     if (task == kernel::running || !is_thread(*task) || thread_of(*task).program != &program) continue;
     WAITPOINT_CHECK(thread_of(*task).task == task, "a task runs a thread that has another task");
@@ -218,9 +222,9 @@ void end_other_threads(const Program& program, kernel::Scheduler& scheduler) {
     forget_vector(*task);
     forget_worker(*task);
     system_v::forget_waiter(*task);
-    scheduler.end_in_place(*task);
+    kernel::end_in_place(*task);
     free_thread(thread_of(*task));
-    scheduler.free_stack(*task);
+    kernel::free_stack(*task);
   }
 }
 
@@ -247,7 +251,7 @@ int create(pthread_t* id, const pthread_attr_t* attributes, StartRoutine start, 
     free_thread(*thread);
     return EAGAIN;
   }
-  scheduler.enter(thread->end);
+  kernel::enter(thread->end);
   thread->end.owner = thread->task;
   __libc_single_threaded = 0;
   *id = reinterpret_cast<pthread_t>(thread->area);
@@ -318,7 +322,7 @@ void end_running_thread() {
   pass(kernel::Operation::release, &thread.end);
   {
     const InKernel within;
-    scheduler.waitpoint(kernel::Operation::end, nullptr);
+    kernel::waitpoint(scheduler, kernel::Operation::end, nullptr);
   }
   WAITPOINT_CHECK(!thread.ended && thread.task == kernel::running, "a thread ends twice, or as another task");
   thread.ended = true;
@@ -328,10 +332,10 @@ void end_running_thread() {
   leave_held_objects();
   thread.end.owner = nullptr;
   thread.task = nullptr;
-  scheduler.wake_all(thread.end);
+  kernel::wake_all(scheduler, thread.end);
   if (thread.program->directory != directory_of_process) return_to_directory_of_process();
   if (thread.detached) let_go(thread);
-  scheduler.end_running_task();
+  kernel::end_running_task();
 }
 
 }  // namespace waitpoint::posix

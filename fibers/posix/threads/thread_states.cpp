@@ -3,6 +3,7 @@
 
 #include <cstring>
 
+#include "fibers/kernel/run.hpp"
 #include "fibers/posix/descriptors/descriptors.hpp"
 #include "fibers/posix/descriptors/partners.hpp"
 #include "fibers/posix/family/task_names.hpp"
@@ -61,7 +62,7 @@ void add_state(BoundedText& text, const kernel::Task& task) {
     add_wait(text, task);
   } else if (&task == kernel::running) {
     text.add(" computes");
-  } else if (task.operation == kernel::Operation::sleep && task.local_time > task.scheduler->global_time()) {
+  } else if (task.operation == kernel::Operation::sleep && task.local_time > kernel::global_time(*task.scheduler)) {
     text.add(" sleeps until ");
     add_time(text, task.local_time);
   } else {
@@ -71,7 +72,7 @@ void add_state(BoundedText& text, const kernel::Task& task) {
 }
 
 void add_states(BoundedText& text, const kernel::Scheduler& scheduler) {
-  for (const kernel::Task* task = scheduler.first_task(); task != nullptr; task = task->next)
+  for (const kernel::Task* task = kernel::first_task(scheduler); task != nullptr; task = task->next)
     if (is_thread(*task)) add_state(text, *task);
 }
 

@@ -3,7 +3,7 @@
 // if it has symbols.
 #pragma once
 
-#include "fibers/kernel/scheduler.hpp"
+#include "fibers/kernel/task.hpp"
 #include "fibers/posix/base/bounded_text.hpp"
 
 namespace waitpoint::posix {

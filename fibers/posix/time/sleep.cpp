@@ -7,6 +7,7 @@
 #include <cerrno>
 
 #include "core/error.hpp"
+#include "fibers/kernel/waitpoint_calls.hpp"
 #include "fibers/posix/base/argument_memory.hpp"
 #include "fibers/posix/base/error_number.hpp"
 #include "fibers/posix/base/interposed.hpp"
@@ -87,7 +88,7 @@ WAITPOINT_INTERPOSED int sched_yield() {
   spend_for_look(cost_of_giving_way);
   {
     const InKernel within;
-    kernel::running->scheduler->yield();
+    kernel::yield(*kernel::running->scheduler);
   }
   if (this_thread().cancel_at_once) leave_if_cancelled();
   return 0;

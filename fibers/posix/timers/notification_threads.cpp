@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "core/error.hpp"
+#include "fibers/kernel/waiting_calls.hpp"
 #include "fibers/posix/descriptors/descriptors.hpp"
 #include "fibers/posix/program/program.hpp"
 #include "fibers/posix/program/timer_firing.hpp"
@@ -86,7 +87,7 @@ bool make_starter(Program& program) {
   NotificationStarter& starter = *program.notification_starter;
   if (starter.is_made) return true;
   starter.is_made = true;
-  kernel::running->scheduler->enter(starter.object);
+  kernel::enter(starter.object);
   return starter.is_made = start_blocking_signals(Notices::start_all, nullptr, nullptr);
 }
 
@@ -147,7 +148,7 @@ void Notice::ring() {
   ++due_;
   for (kernel::Task* task = starter.first_waiter; task != nullptr; task = task->next_waiter)
     thread_of(*task).woken_by_timer = is_timer_firing;
-  starter.robot->scheduler->wake_all(starter);
+  kernel::wake_all(*starter.robot->scheduler, starter);
 }
 
 void expect_ring_from_outside(int by) {
@@ -155,7 +156,7 @@ void expect_ring_from_outside(int by) {
   starter.expected_from_outside += by;
   WAITPOINT_CHECK(starter.expected_from_outside >= 0, "more notices rang from outside than were expected");
   install_bell();
-  kernel::running->scheduler->wake_all(starter.object);
+  kernel::wake_all(*kernel::running->scheduler, starter.object);
 }
 
 bool ring_by_signal(const siginfo_t& information) {

@@ -2,6 +2,9 @@
 #include "fibers/posix/timers/signal_timer.hpp"
 
 #include "core/error.hpp"
+#include "fibers/kernel/run.hpp"
+#include "fibers/kernel/timers.hpp"
+#include "fibers/kernel/waiting_calls.hpp"
 #include "fibers/posix/program/timer_firing.hpp"
 #include "fibers/posix/program/waiting.hpp"
 #include "fibers/posix/time/clocks.hpp"
@@ -14,9 +17,9 @@ void SignalTimer::await() {
   if (due_ == Time::max()) return;
   ++set_count_;
   kernel::Scheduler& scheduler = *kernel::running->scheduler;
-  scheduler.enter(object_);
+  kernel::enter(object_);
   const Time now = kernel::running->local_time;
-  scheduler.schedule(node_.event, due_ > now ? due_ : now, object_);
+  kernel::schedule(scheduler, node_.event, due_ > now ? due_ : now, object_);
 }
 
 void SignalTimer::start(Time due, Duration interval, Duration late) {
@@ -41,7 +44,7 @@ void SignalTimer::start(const Duration& spent, Duration due, Duration interval) 
 }
 
 void SignalTimer::stop() {
-  if (node_.event.in_list()) object_.robot->scheduler->cancel(node_.event);
+  if (node_.event.in_list()) kernel::cancel(*object_.robot->scheduler, node_.event);
   if (processor_.spent != nullptr) unset_processor_timer(processor_);
   WAITPOINT_CHECK(due_ == Time::max() || set_count_ > 0, "more timers are stopped than are set");
   if (due_ != Time::max()) --set_count_;
@@ -60,7 +63,7 @@ Duration SignalTimer::left() const {
 void SignalTimer::expire(kernel::EventNode& node) {
   SignalTimer& timer = *reinterpret_cast<Node&>(node).timer;
   kernel::Scheduler& scheduler = *timer.object_.robot->scheduler;
-  const Time now = scheduler.global_time();
+  const Time now = kernel::global_time(scheduler);
   WAITPOINT_CHECK(&timer.node_.event == &node, "an event of another kind is taken for a timer's");
   WAITPOINT_CHECK(timer.due_ <= now && set_count_ > 0, "a timer expires that is not due or not set");
   std::uint64_t count = 1 + timer.missed_;
@@ -74,7 +77,7 @@ void SignalTimer::expire(kernel::EventNode& node) {
     timer.due_ = Time::max();
   }
   if (timer.due_ != Time::max())
-    scheduler.schedule(timer.node_.event, timer.due_, timer.object_);
+    kernel::schedule(scheduler, timer.node_.event, timer.due_, timer.object_);
   else
     --set_count_;
   const TimerFiring firing;

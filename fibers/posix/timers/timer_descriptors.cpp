@@ -11,6 +11,9 @@
 #include <new>
 
 #include "core/error.hpp"
+#include "fibers/kernel/run.hpp"
+#include "fibers/kernel/timers.hpp"
+#include "fibers/kernel/waiting_calls.hpp"
 #include "fibers/posix/base/argument_memory.hpp"
 #include "fibers/posix/base/error_number.hpp"
 #include "fibers/posix/base/interposed.hpp"
@@ -66,18 +69,18 @@ void expire(kernel::EventNode& node) {
   auto& timer = reinterpret_cast<TimerDescriptor&>(node);
   WAITPOINT_CHECK(timer.event.fire == expire && timer.object.robot != nullptr, "an event is no timer descriptor's");
   const TimerFiring firing;
-  count(timer, timer.object.robot->scheduler->global_time());
+  count(timer, kernel::global_time(*timer.object.robot->scheduler));
   look_at_descriptors();
 }
 
 void await(TimerDescriptor& timer) {
   kernel::Scheduler& scheduler = *kernel::running->scheduler;
-  if (timer.event.in_list()) scheduler.cancel(timer.event);
+  if (timer.event.in_list()) kernel::cancel(scheduler, timer.event);
   if (timer.due == Time::max()) return;
   WAITPOINT_CHECK(timer.interval >= Duration(), "a timer descriptor has a negative interval");
-  scheduler.enter(timer.object);
+  kernel::enter(timer.object);
   const Time now = kernel::running->local_time;
-  scheduler.schedule(timer.event, timer.due > now ? timer.due : now, timer.object);
+  kernel::schedule(scheduler, timer.event, timer.due > now ? timer.due : now, timer.object);
 }
 
 bool can_be_awaited(clockid_t clock) {
@@ -97,7 +100,7 @@ void forget_timer_descriptor(int descriptor) {
   for (TimerDescriptor** link = &first; *link != nullptr; link = &(*link)->next) {
     TimerDescriptor& timer = **link;
     if (timer.descriptor != descriptor) continue;
-    if (timer.event.in_list()) timer.object.robot->scheduler->cancel(timer.event);
+    if (timer.event.in_list()) kernel::cancel(*timer.object.robot->scheduler, timer.event);
     *link = timer.next;
     std::free(&timer);
     return;

@@ -14,6 +14,7 @@
 #include <new>
 
 #include "core/error.hpp"
+#include "fibers/kernel/run.hpp"
 #include "fibers/posix/base/argument_memory.hpp"
 #include "fibers/posix/base/error_number.hpp"
 #include "fibers/posix/base/interposed.hpp"
@@ -64,7 +65,7 @@ void note_taken(PendingSignal& signal) {
 
 // Null if it is sent to the program, or the thread has ended.
 Thread* receiver_of(const Timer& timer) {
-  for (kernel::Task* task = timer.program.robot->scheduler->first_task(); timer.to != 0 && task != nullptr;
+  for (kernel::Task* task = kernel::first_task(*timer.program.robot->scheduler); timer.to != 0 && task != nullptr;
        task = task->next)
     if (is_thread(*task) && thread_of(*task).program == &timer.program && thread_of(*task).id == timer.to)
       return &thread_of(*task);

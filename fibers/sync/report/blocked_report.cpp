@@ -5,6 +5,8 @@
 #include <vector>
 
 #include "core/number_text.hpp"
+#include "fibers/kernel/run.hpp"
+#include "fibers/kernel/run_window.hpp"
 #include "fibers/kernel/visit.hpp"
 #include "fibers/sync/report/object_names.hpp"
 #include "fibers/sync/report/source_lines.hpp"
@@ -69,22 +71,22 @@ std::string describe_use(const Task& task) {
 
 std::string describe_deadlock(kernel::Scheduler& scheduler, Places places) {
   std::vector<Task*> waiting;
-  if (Task* first = scheduler.culprit(); first != nullptr) {
+  if (Task* first = kernel::culprit(scheduler); first != nullptr) {
     Task* task = first;
     do {
       waiting.push_back(task);
       task = task->search.to;
     } while (task != first);
   } else {
-    for (Task* task = scheduler.first_task(); task != nullptr; task = task->next)
+    for (Task* task = kernel::first_task(scheduler); task != nullptr; task = task->next)
       if (!task->service) waiting.push_back(task);
   }
-  std::string text = "deadlock at " + to_string(scheduler.global_time()) + " s: ";
-  if (scheduler.culprit() != nullptr && waiting.size() == 1)
+  std::string text = "deadlock at " + to_string(kernel::global_time(scheduler)) + " s: ";
+  if (kernel::culprit(scheduler) != nullptr && waiting.size() == 1)
     text += "a task waits for itself";
   else if (waiting.size() == 1)
     text += "a task is blocked, and no event can wake it";
-  else if (scheduler.culprit() != nullptr)
+  else if (kernel::culprit(scheduler) != nullptr)
     text += counted(waiting.size(), "task") + " wait for each other";
   else
     text += counted(waiting.size(), "task") + " are blocked, and no event can wake them";
@@ -93,7 +95,7 @@ std::string describe_deadlock(kernel::Scheduler& scheduler, Places places) {
 
 std::string describe_idle(kernel::Scheduler& scheduler, Time since, Places places) {
   std::vector<Task*> idle;
-  for (Task* task = scheduler.first_task(); task != nullptr; task = task->next) {
+  for (Task* task = kernel::first_task(scheduler); task != nullptr; task = task->next) {
     const bool waits = task->state == kernel::TaskState::blocked && !task->finite_wait && task->local_time <= since;
     if (waits && (!task->service || task->work.what != nullptr)) idle.push_back(task);
   }
@@ -106,14 +108,14 @@ std::string describe_idle(kernel::Scheduler& scheduler, Time since, Places place
 
 std::string describe_spinning(kernel::Scheduler& scheduler, Places places) {
   const std::string text =
-      "no progress: virtual time stands still at " + to_string(scheduler.global_time()) + " s while ";
-  if (const Task* culprit = scheduler.culprit(); (culprit->attention & kernel::attention::timer) != 0)
+      "no progress: virtual time stands still at " + to_string(kernel::global_time(scheduler)) + " s while ";
+  if (const Task* culprit = kernel::culprit(scheduler); (culprit->attention & kernel::attention::timer) != 0)
     return text + "timers fire without end, the last one " + describe(*culprit->at) + " of " + culprit->robot->name;
   // Of tasks that exchange something, some are blocked at any moment.
-  const bool exchange = scheduler.is_beyond_instant_limit();
+  const bool exchange = kernel::is_beyond_instant_limit(scheduler);
   std::vector<Task*> spinning;
-  for (Task* task = scheduler.first_task(); task != nullptr; task = task->next)
-    if ((exchange || task->state != kernel::TaskState::blocked) && task->local_time == scheduler.global_time())
+  for (Task* task = kernel::first_task(scheduler); task != nullptr; task = task->next)
+    if ((exchange || task->state != kernel::TaskState::blocked) && task->local_time == kernel::global_time(scheduler))
       spinning.push_back(task);
   const std::string what =
       exchange ? "tasks pass more waitpoints than the limit of an instant (WAITPOINT_INSTANT_LIMIT)" : "tasks spin";
@@ -122,7 +124,7 @@ std::string describe_spinning(kernel::Scheduler& scheduler, Places places) {
 
 std::string describe_endless(kernel::Scheduler& scheduler, Places places) {
   std::vector<Task*> asleep;
-  for (Task* task = scheduler.first_task(); task != nullptr; task = task->next)
+  for (Task* task = kernel::first_task(scheduler); task != nullptr; task = task->next)
     if (task->state == kernel::TaskState::ready && task->local_time == Time::max()) asleep.push_back(task);
   return "virtual time ran out" +
          describe_each(asleep, places, [](const Task& task) { return describe(task) + " sleeps without end"; });

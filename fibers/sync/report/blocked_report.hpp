@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "fibers/kernel/scheduler.hpp"
+#include "fibers/kernel/task.hpp"
 
 namespace waitpoint::sync {
 

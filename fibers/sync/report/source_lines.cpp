@@ -54,7 +54,7 @@ std::string readable(const std::string& line) {
 
 bool is_entry(const std::string& line) {
   return contains(line, "waitpoint::sync::(anonymous namespace)::run_thread") ||
-         contains(line, "waitpoint::kernel::Scheduler::task_main");
+         contains(line, "waitpoint::kernel::task_main");
 }
 
 // A call, and the functions inlined there, innermost first: "function at file:line".

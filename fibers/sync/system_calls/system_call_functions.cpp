@@ -25,7 +25,7 @@
 
 #include "core/error.hpp"
 #include "fibers/kernel/fault_reports.hpp"
-#include "fibers/kernel/scheduler.hpp"
+#include "fibers/kernel/task.hpp"
 #include "fibers/sync/system_calls/noted_calls.hpp"
 
 using namespace waitpoint::sync;  // NOLINT: below are C functions only

@@ -19,7 +19,8 @@
 #include "core/spin_lock.hpp"
 #include "fibers/kernel/call_stack.hpp"
 #include "fibers/kernel/fault_reports.hpp"
-#include "fibers/kernel/scheduler.hpp"
+#include "fibers/kernel/interruption.hpp"
+#include "fibers/kernel/task.hpp"
 #include "fibers/sync/report/source_lines.hpp"
 #include "fibers/sync/system_calls/noted_calls.hpp"
 
@@ -106,7 +107,8 @@ std::string text_of_new(bool outside) {
 }  // namespace
 
 bool is_in_task() {
-  return kernel::running != nullptr && scopes > 0 && !kernel::running->scheduler->unwinding() && !has_program_layer();
+  return kernel::running != nullptr && scopes > 0 && !kernel::is_unwinding(*kernel::running->scheduler) &&
+         !has_program_layer();
 }
 
 void note_start(const char* function, const void* place) {

@@ -5,7 +5,8 @@
 
 #include <cstdint>
 
-#include "fibers/kernel/scheduler.hpp"
+#include "fibers/kernel/task.hpp"
+#include "fibers/kernel/waiting_calls.hpp"
 #include "fibers/sync/blocking.hpp"
 #include "fibers/sync/object.hpp"
 
@@ -18,7 +19,7 @@ class RemoteStep {
  public:
   /// The object that is the `number`-th of this robot, where its tasks are.
   void adopt(kernel::Robot& robot, std::uint32_t number) {
-    robot.scheduler->adopt_as(object_, robot, number);
+    kernel::adopt_as(*robot.scheduler, object_, robot, number);
     is_known_ = true;
   }
   /// From the world's task; after adopt().

@@ -51,7 +51,7 @@ struct CountingWatch : kernel::Watch {
 
 void answer_guards(const kernel::Scheduler& scheduler) {
   int pages = 0, tasks = 0;
-  for (const kernel::Task* task = scheduler.first_task(); task != nullptr; task = task->next) {
+  for (const kernel::Task* task = kernel::first_task(scheduler); task != nullptr; task = task->next) {
     ++tasks;
     if (task->fiber.stack.guard == kernel::Guard::page) ++pages;
   }
@@ -61,7 +61,7 @@ void answer_guards(const kernel::Scheduler& scheduler) {
 void run(const Request& request) {
   Simulation simulation;
   CountingWatch watch;
-  if (request.hooks) simulation.scheduler().set_watch(&watch);
+  if (request.hooks) kernel::set_watch(simulation.scheduler(), &watch);
   simulation.spawn(simulation.environment(), {}, [&] {
     if (request.workload == "buffer without mutex")
       buffer<WithoutMutex<Kit>>(request);

@@ -10,6 +10,7 @@
 #include <map>
 
 #include "core/error.hpp"
+#include "fibers/kernel/run.hpp"
 #include "modules/run/experiment.hpp"
 #include "tests/bench/kernel/meter.hpp"
 #include "tests/bench/program.hpp"
@@ -50,10 +51,10 @@ Figures measure(const Case& of) {
   const std::int64_t from = clock_ns(Clock::processor);
   experiment.run_before(Time() + warm);
   const std::int64_t warmed = clock_ns(Clock::processor);
-  const std::uint64_t events = experiment.simulation().scheduler().events();
+  const std::uint64_t events = kernel::events(experiment.simulation().scheduler());
   experiment.run_before(Time() + warm + of.simulated);
   const auto spent_ns = static_cast<double>(clock_ns(Clock::processor) - warmed);
-  const auto executed = static_cast<double>(experiment.simulation().scheduler().events() - events);
+  const auto executed = static_cast<double>(kernel::events(experiment.simulation().scheduler()) - events);
   return {1e-9 * static_cast<double>(from - begun), 1e9 * of.simulated.seconds() / spent_ns, spent_ns / executed,
           1e-6 * static_cast<double>(resident_bytes() + page_table_bytes()) / of.robots};
 }

@@ -8,6 +8,7 @@
 #include "fibers/explore/strategies/factory.hpp"
 #include "fibers/explore/strategies/profile.hpp"
 #include "fibers/io/datagram_socket.hpp"
+#include "fibers/kernel/run.hpp"
 #include "fibers/sync/thread.hpp"
 #include "tests/fibers/io/fleet.hpp"
 
@@ -27,7 +28,7 @@ std::set<std::string> arrivals(const io::Medium& medium) {
     exploration::Explorer explorer(fleet.simulation.scheduler(), 100'000);
     strategy->begin(number, exploration::Draws(1, "random", number), {});
     explorer.begin(*strategy);
-    fleet.simulation.scheduler().set_decisions(explorer);
+    kernel::set_decisions(fleet.simulation.scheduler(), explorer);
     std::string came;
     fleet.spawn("ada", [&] {
       io::datagram_socket in(fleet.network);

@@ -5,6 +5,8 @@
 #include "fibers/explore/campaign.hpp"
 #include "fibers/explore/explore.hpp"
 #include "fibers/explore/strategies/fifo.hpp"
+#include "fibers/kernel/run.hpp"
+#include "fibers/kernel/watch.hpp"
 #include "tests/fibers/explore/feasibility.hpp"
 #include "tests/fibers/explore/timed_programs.hpp"
 
@@ -31,7 +33,7 @@ struct Tracing : kernel::Watch {
     event.was_woken = record.operation == kernel::Operation::resume;
     trace.events.push_back(event);
     trace.pending.clear();
-    for (const kernel::Task* task = record.task->scheduler->first_task(); task != nullptr; task = task->next)
+    for (const kernel::Task* task = kernel::first_task(*record.task->scheduler); task != nullptr; task = task->next)
       // A task woken from a join continues at its wake-up: it computes nothing.
       if (task->state == kernel::TaskState::ready && task->operation != kernel::Operation::join)
         trace.pending.push_back(traced(*task, task->sequence));
@@ -49,10 +51,10 @@ bool can_happen(const Program& program, Mode mode, const exploration::Schedule& 
       },
       nullptr, Time::max(), 100'000);
   Tracing tracing;
-  body.simulation().scheduler().set_watch(&tracing);
+  kernel::set_watch(body.simulation().scheduler(), &tracing);
   exploration::Fifo rest;
   EXPECT_FALSE(body.run(rest, {.prefix = schedule.decisions}).passed()) << program.name;
-  body.simulation().scheduler().set_watch(nullptr);
+  kernel::set_watch(body.simulation().scheduler(), nullptr);
   tracing.trace.spent = times.spent();
   return is_feasible(tracing.trace);
 }

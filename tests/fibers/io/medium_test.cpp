@@ -11,6 +11,7 @@
 #include "fibers/io/datagram_socket.hpp"
 #include "fibers/io/mailbox.hpp"
 #include "fibers/io/stream_listener.hpp"
+#include "fibers/kernel/messages.hpp"
 #include "fibers/sync/thread.hpp"
 #include "tests/fibers/io/bytes.hpp"
 #include "tests/fibers/io/fleet.hpp"
@@ -57,7 +58,7 @@ TEST(Medium, AFixedLatencyIsTheSameForAll) {
     EXPECT_EQ(arrived[static_cast<std::size_t>(i)].number, i);
     EXPECT_EQ(arrived[static_cast<std::size_t>(i)].after, Duration(2ms));
   }
-  EXPECT_EQ(fleet.simulation.scheduler().lookahead(), Duration(2ms));
+  EXPECT_EQ(kernel::lookahead(fleet.simulation.scheduler()), Duration(2ms));
 }
 
 TEST(Medium, AnIntervalsLatenciesAreDrawnFromAllOfIt) {
@@ -239,7 +240,7 @@ TEST(Medium, ConnectingBeyondTheRangeTimesOut) {
 TEST(Medium, APairOfRobotsMayHaveOneOfItsOwn) {
   Fleet fleet({"ada", "bob", "eve"});
   fleet.network.declare("bob", "ada", {.latency_least = 500us, .latency_most = 500us});
-  EXPECT_EQ(fleet.simulation.scheduler().lookahead(), Duration(500us));
+  EXPECT_EQ(kernel::lookahead(fleet.simulation.scheduler()), Duration(500us));
   std::vector<Time> times;
   for (const char* to : {"ada", "eve"})
     fleet.spawn(to, [&] {
@@ -265,7 +266,7 @@ TEST(Medium, WithoutOneThereIsNoRoute) {
     EXPECT_EQ(io::connect(network, "ada:door").status(), Status::no_route);
   });
   EXPECT_EQ(simulation.run_before(), RunEnd::ended);
-  EXPECT_EQ(simulation.scheduler().lookahead(), Duration::max());
+  EXPECT_EQ(kernel::lookahead(simulation.scheduler()), Duration::max());
 }
 
 TEST(Medium, OneThatMakesNoSenseIsBadInput) {

@@ -7,41 +7,44 @@
 #include <string>
 #include <vector>
 
+#include "fibers/kernel/messages.hpp"
+#include "fibers/kernel/run.hpp"
+#include "fibers/kernel/run_window.hpp"
 #include "tests/fibers/kernel/task_run.hpp"
 
 namespace waitpoint::kernel {
 namespace {
 
-struct Arrival : EventNode {
+struct ArrivedMessage : EventNode {
   std::vector<std::string>* log = nullptr;
   std::string text;
 };
 
 void note(EventNode& node) {
-  auto& arrival = static_cast<Arrival&>(node);
+  auto& arrival = static_cast<ArrivedMessage&>(node);
   arrival.log->push_back(arrival.text);
 }
 
 // Two senders of two messages each, all due at 50 ns, put into the event list in the order of `who`.
 std::vector<std::string> arrivals(const std::vector<int>& who, Order order) {
   std::vector<std::string> log;
-  std::vector<Arrival> messages(who.size());
+  std::vector<ArrivedMessage> messages(who.size());
   std::array<Robot, 2> senders;
   TaskRun run(order, 7);
-  run.scheduler.add(senders[0], "ada");
-  run.scheduler.add(senders[1], "bob");
+  kernel::add_robot(run.scheduler, senders[0], "ada");
+  kernel::add_robot(run.scheduler, senders[1], "bob");
   run.spawn([&] {
     for (std::size_t i = 0; i < who.size(); ++i) {
       Robot& sender = senders[static_cast<std::size_t>(who[i])];
       messages[i].fire = note;
       messages[i].log = &log;
       messages[i].text = sender.name + std::to_string(sender.messages);
-      run.scheduler.deliver(messages[i], Time::from_ns(50), sender);
+      kernel::deliver(run.scheduler, messages[i], Time::from_ns(50), sender);
     }
     run.sleep(50);
     log.push_back("task");
   });
-  run.scheduler.run_before(Time::max());
+  kernel::run_before(run.scheduler, Time::max());
   return log;
 }
 
@@ -58,16 +61,16 @@ TEST(Deliveries, AreOrderedBySenderAndNumberAndNeverByInsertion) {
 
 TEST(Deliveries, TheLookaheadIsTheLeastLatencyDeclared) {
   TaskRun run;
-  EXPECT_EQ(run.scheduler.lookahead(), Duration::max());
-  run.scheduler.declare_latency(Duration::from_ns(500));
-  run.scheduler.declare_latency(Duration::from_ns(300));
-  run.scheduler.declare_latency(Duration::from_ns(400));
-  EXPECT_EQ(run.scheduler.lookahead(), Duration::from_ns(300));
+  EXPECT_EQ(kernel::lookahead(run.scheduler), Duration::max());
+  kernel::declare_latency(run.scheduler, Duration::from_ns(500));
+  kernel::declare_latency(run.scheduler, Duration::from_ns(300));
+  kernel::declare_latency(run.scheduler, Duration::from_ns(400));
+  EXPECT_EQ(kernel::lookahead(run.scheduler), Duration::from_ns(300));
 }
 
 TEST(DeliveriesDeathTest, ALinkWithoutLatencyIsRefused) {
   TaskRun run;
-  EXPECT_DEATH(run.scheduler.declare_latency(Duration()), "a link between robots has no latency");
+  EXPECT_DEATH(kernel::declare_latency(run.scheduler, Duration()), "a link between robots has no latency");
 }
 
 }  // namespace

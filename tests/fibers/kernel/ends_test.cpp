@@ -5,7 +5,13 @@
 #include <string>
 #include <vector>
 
+#include "fibers/kernel/interruption.hpp"
 #include "fibers/kernel/local_clock.hpp"
+#include "fibers/kernel/run.hpp"
+#include "fibers/kernel/run_window.hpp"
+#include "fibers/kernel/tasks.hpp"
+#include "fibers/kernel/waiting_calls.hpp"
+#include "fibers/kernel/waitpoint_calls.hpp"
 #include "fibers/switch/sanitizer.hpp"
 #include "tests/fibers/kernel/task_run.hpp"
 
@@ -17,17 +23,17 @@ TEST(Ends, UnwindingFromAGivenTurnRunsNoOtherTask) {
   TaskRun run;
   Object object("object");
   run.spawn([&] {
-    for (std::uint32_t k = 0; k <= waitpoints_max; ++k) run.scheduler.waitpoint(Operation::try_lock, &object);
+    for (std::uint32_t k = 0; k <= waitpoints_max; ++k) kernel::waitpoint(run.scheduler, Operation::try_lock, &object);
     run.log("first");
   });
   run.spawn([&] {
-    run.spawn([&] { run.log(run.scheduler.unwinding() ? "unborn" : "world"); }, {.phase = Phase::world});
+    run.spawn([&] { run.log(kernel::is_unwinding(run.scheduler) ? "unborn" : "world"); }, {.phase = Phase::world});
     run.log("stop");
-    run.scheduler.stop(StopCause::requested);
+    kernel::stop(run.scheduler, StopCause::requested);
   });
-  EXPECT_EQ(run.scheduler.run_before(Time::max()), RunState::stopped);
-  EXPECT_EQ(run.scheduler.stop_cause(), StopCause::requested);
-  run.scheduler.unwind();
+  EXPECT_EQ(kernel::run_before(run.scheduler, Time::max()), RunState::stopped);
+  EXPECT_EQ(kernel::stop_cause(run.scheduler), StopCause::requested);
+  kernel::unwind(run.scheduler);
   EXPECT_EQ(run.trace, "stop@0 unborn@0 first@0 ");
 }
 
@@ -39,8 +45,8 @@ TEST(Ends, TasksEndInPlaceWhereverTheyAre) {
     std::vector<Task*> others;
     for (const Time deadline : {Time::max(), Time::from_ns(100)})
       others.push_back(&run.spawn([&run, &object, deadline] {
-        run.scheduler.enter(object);
-        run.scheduler.block(object, deadline);
+        kernel::enter(object);
+        kernel::block(run.scheduler, object, deadline);
         run.log("went on");
       }));
     others.push_back(&run.spawn([&] {
@@ -51,16 +57,16 @@ TEST(Ends, TasksEndInPlaceWhereverTheyAre) {
       run.sleep(10);
       others.push_back(&run.spawn([&] { run.log("began"); }));
       for (Task* other : others) {
-        run.scheduler.end_in_place(*other);
-        run.scheduler.free_stack(*other);
+        kernel::end_in_place(*other);
+        kernel::free_stack(*other);
       }
-      EXPECT_EQ(run.scheduler.wake_one(object), nullptr);
-      EXPECT_EQ(run.scheduler.roster().tasks(), 1u);
+      EXPECT_EQ(kernel::wake_one(run.scheduler, object), nullptr);
+      EXPECT_EQ(kernel::roster(run.scheduler).tasks(), 1u);
       run.sleep(200);
       run.log("alone");
     });
-    EXPECT_EQ(run.scheduler.run_before(Time::max()), RunState::stopped);
-    EXPECT_EQ(run.scheduler.stop_cause(), StopCause::ended);
+    EXPECT_EQ(kernel::run_before(run.scheduler, Time::max()), RunState::stopped);
+    EXPECT_EQ(kernel::stop_cause(run.scheduler), StopCause::ended);
     EXPECT_EQ(run.trace, "alone@200 ");
   }
 }
@@ -68,12 +74,12 @@ TEST(Ends, TasksEndInPlaceWhereverTheyAre) {
 TEST(Ends, ATaskEndsWhereItIs) {
   TaskRun run;
   run.spawn([&] {
-    run.scheduler.waitpoint(Operation::end, nullptr);
-    run.scheduler.end_running_task();
+    kernel::waitpoint(run.scheduler, Operation::end, nullptr);
+    kernel::end_running_task();
   });
   run.spawn([&] { run.log("the other"); });
-  EXPECT_EQ(run.scheduler.run_before(Time::max()), RunState::stopped);
-  EXPECT_EQ(run.scheduler.stop_cause(), StopCause::ended);
+  EXPECT_EQ(kernel::run_before(run.scheduler, Time::max()), RunState::stopped);
+  EXPECT_EQ(kernel::stop_cause(run.scheduler), StopCause::ended);
   EXPECT_EQ(run.trace, "the other@0 ");
 }
 
@@ -82,11 +88,11 @@ TEST(Ends, TheYoungestTaskIsUnwoundFirst) {
   Object object("object");
   for (const char* name : {"parent", "child", "grandchild"})
     run.spawn([&run, &object, name] {
-      EXPECT_EQ(run.scheduler.block(object, Time::max()), Wake::unwinding);
+      EXPECT_EQ(kernel::block(run.scheduler, object, Time::max()), Wake::unwinding);
       run.log(name);
     });
-  EXPECT_EQ(run.scheduler.run_before(Time::max()), RunState::idle);
-  run.scheduler.unwind();
+  EXPECT_EQ(kernel::run_before(run.scheduler, Time::max()), RunState::idle);
+  kernel::unwind(run.scheduler);
   EXPECT_EQ(run.trace, "grandchild@0 child@0 parent@0 ");
 }
 
@@ -97,25 +103,25 @@ TEST(Ends, ATaskThatGoesOnAfterTheEndIsAbandoned) {
       [&] {
         for (;;) {
           compute(*running, Duration::from_ns(1));
-          run.scheduler.waitpoint(Operation::release, &object);
+          kernel::waitpoint(run.scheduler, Operation::release, &object);
         }
       },
       {.name = "endless"});
-  run.spawn([&] { run.log(run.scheduler.sleep_until(Time::from_ns(1000)) ? "slept" : "left"); });
-  EXPECT_EQ(run.scheduler.run_before(Time::from_ns(500)), RunState::reached);
-  run.scheduler.unwind();
+  run.spawn([&] { run.log(kernel::sleep_until(run.scheduler, Time::from_ns(1000)) ? "slept" : "left"); });
+  EXPECT_EQ(kernel::run_before(run.scheduler, Time::from_ns(500)), RunState::reached);
+  kernel::unwind(run.scheduler);
   EXPECT_EQ(run.trace, "left@499 ");
-  ASSERT_NE(run.scheduler.roster().first_abandoned(), nullptr);
-  EXPECT_STREQ(run.scheduler.roster().first_abandoned()->name, "endless");
-  EXPECT_EQ(run.scheduler.roster().first_abandoned()->next, nullptr);
-  EXPECT_EQ(run.scheduler.first_task(), nullptr);
+  ASSERT_NE(kernel::roster(run.scheduler).first_abandoned(), nullptr);
+  EXPECT_STREQ(kernel::roster(run.scheduler).first_abandoned()->name, "endless");
+  EXPECT_EQ(kernel::roster(run.scheduler).first_abandoned()->next, nullptr);
+  EXPECT_EQ(kernel::first_task(run.scheduler), nullptr);
 }
 
 TEST(Ends, TheDigestOfARobotIsFrozenWhenItsLastTaskEnds) {
   const auto digest = [](int service_ends) {
     TaskRun run;
     Robot other;
-    run.scheduler.add(other, "other");
+    kernel::add_robot(run.scheduler, other, "other");
     run.spawn([&] { run.sleep(10); });
     run.spawn(
         [&] {
@@ -123,7 +129,7 @@ TEST(Ends, TheDigestOfARobotIsFrozenWhenItsLastTaskEnds) {
         },
         {.service = true});
     run.spawn(other, [&] { run.sleep(1000); });
-    run.scheduler.run_before(Time::max());
+    kernel::run_before(run.scheduler, Time::max());
     EXPECT_TRUE(run.robot.ended);
     EXPECT_EQ(run.robot.end_time, Time::from_ns(10));
     return run.robot.digest.value();
@@ -136,13 +142,13 @@ TEST(Ends, ServicesDoNotKeepTheRunAlive) {
   std::int64_t ticks = 0;
   run.spawn(
       [&] {
-        while (run.scheduler.sleep_until(Time::from_ns(++ticks))) {
+        while (kernel::sleep_until(run.scheduler, Time::from_ns(++ticks))) {
         }
       },
       {.service = true});
   run.spawn([&] { run.sleep(100); });
-  EXPECT_EQ(run.scheduler.run_before(Time::max()), RunState::stopped);
-  EXPECT_EQ(run.scheduler.stop_cause(), StopCause::ended);
+  EXPECT_EQ(kernel::run_before(run.scheduler, Time::max()), RunState::stopped);
+  EXPECT_EQ(kernel::stop_cause(run.scheduler), StopCause::ended);
   EXPECT_NEAR(static_cast<double>(ticks), 100, 1);
 }
 
@@ -150,13 +156,13 @@ TEST(Ends, ManyTasksComeAndGoOnFewStacks) {
   TaskRun run;
   run.spawn([&] {
     for (int i = 1; i <= 100'000; ++i) {
-      run.scheduler.spawn(
-          run.robot, {.stack = StackSize::small}, [](void*) {}, nullptr);
+      kernel::spawn(
+          run.scheduler, run.robot, {.stack = StackSize::small}, [](void*) {}, nullptr);
       run.sleep(i);
     }
   });
-  EXPECT_EQ(run.scheduler.run_before(Time::max()), RunState::stopped);
-  EXPECT_EQ(run.scheduler.events(), 300'002u);
+  EXPECT_EQ(kernel::run_before(run.scheduler, Time::max()), RunState::stopped);
+  EXPECT_EQ(kernel::events(run.scheduler), 300'002u);
 }
 
 // If the guard is a canary, an overflow is detected when the task is next entered, or when its stack is reused.
@@ -172,7 +178,7 @@ TEST(EndsDeathTest, ATaskThatOverwroteItsCanaryIsNamed) {
         },
         {.name = "deep", .stack = StackSize::small});
     run.spawn([&] { run.sleep(9); }, {.name = "other"});
-    run.scheduler.run_before(Time::max());
+    kernel::run_before(run.scheduler, Time::max());
   };
   sanitizer::look();
   const std::string report = std::string("ran over the end of its stack\n.*in task deep of robot.*its stack has ") +

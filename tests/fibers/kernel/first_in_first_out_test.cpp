@@ -7,7 +7,11 @@
 #include <vector>
 
 #include "fibers/kernel/limits.hpp"
-#include "fibers/kernel/scheduler.hpp"
+#include "fibers/kernel/run.hpp"
+#include "fibers/kernel/run_window.hpp"
+#include "fibers/kernel/task.hpp"
+#include "fibers/kernel/waiting_calls.hpp"
+#include "fibers/kernel/waitpoint_calls.hpp"
 #include "tests/fibers/kernel/task_run.hpp"
 
 namespace waitpoint::kernel {
@@ -19,10 +23,10 @@ TEST(FirstInFirstOut, IsTheOrderOfInsertionAtOneInstant) {
     run.spawn([&run, name] {
       for (int i = 0; i < 2; ++i) {
         run.log(name);
-        run.scheduler.yield();
+        kernel::yield(run.scheduler);
       }
     });
-  run.scheduler.run_before(Time::max());
+  kernel::run_before(run.scheduler, Time::max());
   EXPECT_EQ(run.trace, "a@0 b@0 c@0 a@0 b@0 c@0 ");
 }
 
@@ -32,11 +36,11 @@ TEST(FirstInFirstOut, ATaskGoesOnThoughOthersTieWithIt) {
   for (const char* name : {"a", "b"})
     run.spawn([&, name] {
       for (int i = 0; i < 3; ++i) {
-        run.scheduler.waitpoint(Operation::lock, &object);
+        kernel::waitpoint(run.scheduler, Operation::lock, &object);
         run.log(name);
       }
     });
-  run.scheduler.run_before(Time::max());
+  kernel::run_before(run.scheduler, Time::max());
   EXPECT_EQ(run.trace, "a@0 a@0 a@0 b@0 b@0 b@0 ");
 }
 
@@ -49,39 +53,39 @@ TEST(FirstInFirstOut, IsRobotByRobotAtOneInstant) {
   std::string expected;
   const auto spawn = [&](std::size_t i, const std::string& name) {
     return &run.spawn(robots[i], [&, name] {
-      run.scheduler.block(object, Time::max());
+      kernel::block(run.scheduler, object, Time::max());
       run.log(name);
     });
   };
   for (std::size_t i = 0; i < others; ++i) {
     const std::string name = "r" + std::to_string(i);
-    run.scheduler.add(robots[i], name.c_str());
+    kernel::add_robot(run.scheduler, robots[i], name.c_str());
     first.push_back(spawn(i, name + "-first"));
     second.push_back(spawn(i, name + "-second"));
     expected.append(name).append("-second@5 ").append(name).append("-first@5 ");
   }
   run.spawn([&] {
     run.sleep(5);
-    for (std::size_t i = 1; i <= others; ++i) run.scheduler.wake(*second[i * 17 % others]);
-    for (std::size_t i = 1; i <= others; ++i) run.scheduler.wake(*first[i * 23 % others]);
+    for (std::size_t i = 1; i <= others; ++i) kernel::wake(run.scheduler, *second[i * 17 % others]);
+    for (std::size_t i = 1; i <= others; ++i) kernel::wake(run.scheduler, *first[i * 23 % others]);
   });
-  run.scheduler.run_before(Time::max());
+  kernel::run_before(run.scheduler, Time::max());
   EXPECT_EQ(run.trace, expected);
 }
 
 TEST(FirstInFirstOut, ARobotThatPollsForAnotherAtOneInstantLetsItRun) {
   TaskRun run;
   Robot other;
-  run.scheduler.add(other, "other");
+  kernel::add_robot(run.scheduler, other, "other");
   int steps = 0;
   run.spawn([&] {
-    while (steps < 3) run.scheduler.yield();
+    while (steps < 3) kernel::yield(run.scheduler);
   });
   run.spawn(other, [&] {
-    for (; steps < 3; ++steps) run.scheduler.yield();
+    for (; steps < 3; ++steps) kernel::yield(run.scheduler);
   });
-  run.scheduler.run_before(Time::max());
-  EXPECT_EQ(run.scheduler.stop_cause(), StopCause::ended);
+  kernel::run_before(run.scheduler, Time::max());
+  EXPECT_EQ(kernel::stop_cause(run.scheduler), StopCause::ended);
 }
 
 TEST(FirstInFirstOut, AfterAThousandWaitpointsAtOneInstantTiesGetATurn) {
@@ -90,13 +94,13 @@ TEST(FirstInFirstOut, AfterAThousandWaitpointsAtOneInstantTiesGetATurn) {
   int passed = 0, seen = -1;
   run.spawn([&] {
     while (seen < 0) {
-      run.scheduler.waitpoint(Operation::try_lock, &object);
+      kernel::waitpoint(run.scheduler, Operation::try_lock, &object);
       ++passed;
     }
   });
   run.spawn([&] { seen = passed; });
-  run.scheduler.run_before(Time::max());
-  EXPECT_EQ(run.scheduler.stop_cause(), StopCause::ended);
+  kernel::run_before(run.scheduler, Time::max());
+  EXPECT_EQ(kernel::stop_cause(run.scheduler), StopCause::ended);
   EXPECT_EQ(seen, static_cast<int>(waitpoints_max));
 }
 

@@ -5,6 +5,10 @@
 
 #include <string>
 
+#include "fibers/kernel/run.hpp"
+#include "fibers/kernel/run_window.hpp"
+#include "fibers/kernel/waiting_calls.hpp"
+#include "fibers/kernel/waitpoint_calls.hpp"
 #include "tests/fibers/kernel/task_run.hpp"
 
 namespace waitpoint::kernel {
@@ -41,10 +45,10 @@ TEST(LocalClock, SegmentCostIsInTheLocalTimeBeforeItsWaitpoint) {
       [&] {
         run.log("start");
         clock.consumed_ns = 10;
-        run.scheduler.waitpoint(Operation::lock, &object);
+        kernel::waitpoint(run.scheduler, Operation::lock, &object);
         run.log("waitpoint");
         clock.consumed_ns = 5;
-        run.scheduler.yield();
+        kernel::yield(run.scheduler);
         run.log("yield");
         clock.consumed_ns = 5;
         run.sleep(50);
@@ -61,7 +65,7 @@ TEST(LocalClock, SegmentCostIsInTheLocalTimeBeforeItsWaitpoint) {
       run.trace += ". ";
     }
   });
-  EXPECT_EQ(run.scheduler.run_before(Time::max()), RunState::stopped);
+  EXPECT_EQ(kernel::run_before(run.scheduler, Time::max()), RunState::stopped);
   EXPECT_EQ(run.trace, "start@0 . waitpoint@10 . yield@15 . . . sleep@50 . . late@80 . . . ");
   EXPECT_EQ(clock.ends, 5);
 }
@@ -78,11 +82,11 @@ TEST(LocalClock, NowIncludesWhatTheRunningSegmentConsumedSoFar) {
         clock.consumed_ns = 3;
         run.spawn([&] { run.log("child"); });
         clock.consumed_ns = 4;
-        run.scheduler.yield();
+        kernel::yield(run.scheduler);
         run.log("task");
       },
       {.clock = &clock});
-  run.scheduler.run_before(Time::max());
+  kernel::run_before(run.scheduler, Time::max());
   EXPECT_EQ(run.trace, "child@33 task@37 ");
 }
 
@@ -92,22 +96,22 @@ TEST(LocalClock, TimeBetweenAWaitpointAndTheBlockAfterItDoesNotCount) {
   Object object("object");
   run.spawn(
       [&] {
-        run.scheduler.waitpoint(Operation::wait, &object);
+        kernel::waitpoint(run.scheduler, Operation::wait, &object);
         clock.consumed_ns = 1000;
-        EXPECT_EQ(run.scheduler.block(object, Time::from_ns(40)), Wake::timed_out);
+        EXPECT_EQ(kernel::block(run.scheduler, object, Time::from_ns(40)), Wake::timed_out);
         run.log("timeout");
         clock.consumed_ns = 5;
-        run.scheduler.waitpoint(Operation::wait, &object);
-        EXPECT_EQ(run.scheduler.block(object, Time::max()), Wake::woken);
+        kernel::waitpoint(run.scheduler, Operation::wait, &object);
+        EXPECT_EQ(kernel::block(run.scheduler, object, Time::max()), Wake::woken);
         run.log("woken");
       },
       {.clock = &clock});
   run.spawn([&] {
     run.sleep(45);
-    run.scheduler.yield();
-    run.scheduler.wake_one(object);
+    kernel::yield(run.scheduler);
+    kernel::wake_one(run.scheduler, object);
   });
-  run.scheduler.run_before(Time::max());
+  kernel::run_before(run.scheduler, Time::max());
   EXPECT_EQ(run.trace, "timeout@40 woken@45 ");
 }
 
@@ -126,7 +130,7 @@ TEST(LocalClock, DeclaredCostsGoThroughTheClock) {
     compute(*running, Duration::from_ns(1), Duration::from_ns(5));
     EXPECT_EQ(local_time(*running).ns(), 12);  // without a clock: the greatest cost
   });
-  run.scheduler.run_before(Time::max());
+  kernel::run_before(run.scheduler, Time::max());
   EXPECT_EQ(clock.declared.ns(), 14 + 6);
 }
 
@@ -137,10 +141,10 @@ TEST(Signals, AreDeliveredAtTheNextWaitpointAndTheOperationComesAfterTheHandler)
     TaskRun here;
     run = &here;
     SetClock clock;
-    here.scheduler.hooks().deliver_signals = [](Task& task) {
+    kernel::hooks(here.scheduler).deliver_signals = [](Task& task) {
       run->log("handler");
       compute(task, Duration::from_ns(20));
-      run->scheduler.yield();
+      kernel::yield(run->scheduler);
       compute(task, Duration::from_ns(5));
     };
     Task& task = here.spawn(
@@ -157,7 +161,7 @@ TEST(Signals, AreDeliveredAtTheNextWaitpointAndTheOperationComesAfterTheHandler)
       here.sleep(25);
       here.log("between");
     });
-    here.scheduler.run_before(Time::max());
+    kernel::run_before(here.scheduler, Time::max());
     EXPECT_EQ(here.trace, "handler@10 between@25 a@35 b@35 ");
     EXPECT_EQ(task.attention & attention::signal, 0);
   }
@@ -176,7 +180,7 @@ TEST(LocalClock, TheEndOfAWindowEndsNoSegmentTwice) {
         run.log("b");
       },
       {.clock = &clock});
-  for (int until = 1; until < 30; ++until) run.scheduler.run_before(Time::from_ns(until));
+  for (int until = 1; until < 30; ++until) kernel::run_before(run.scheduler, Time::from_ns(until));
   EXPECT_EQ(run.trace, "a@10 b@20 ");
 }
 

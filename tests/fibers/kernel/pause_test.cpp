@@ -2,6 +2,11 @@
 // Pausing a run, after some or all events, does not change it.
 #include <gtest/gtest.h>
 
+#include "fibers/kernel/run.hpp"
+#include "fibers/kernel/run_window.hpp"
+#include "fibers/kernel/waiting_calls.hpp"
+#include "fibers/kernel/waitpoint_calls.hpp"
+#include "fibers/kernel/watch.hpp"
 #include "tests/fibers/kernel/task_run.hpp"
 
 namespace waitpoint::kernel {
@@ -14,7 +19,7 @@ struct Pauses : Watch {
         scheduler(scheduler),
         period(period) {}
   void see() {
-    if (++seen % period == 0) scheduler.pause();
+    if (++seen % period == 0) kernel::pause(scheduler);
   }
   Scheduler& scheduler;
   std::uint64_t period, seen = 0;
@@ -38,27 +43,27 @@ Result result_of(Order order, std::uint64_t seed, std::uint64_t period) {
       for (int i = 1; i <= 5; ++i) {
         run.sleep(10 * i);
         run.log(std::to_string(t));
-        for (int k = 0; k < (i == 3 ? 2500 : 5); ++k) run.scheduler.waitpoint(Operation::try_lock, &other);
-        run.scheduler.waitpoint(Operation::wait, &object);
+        for (int k = 0; k < (i == 3 ? 2500 : 5); ++k) kernel::waitpoint(run.scheduler, Operation::try_lock, &other);
+        kernel::waitpoint(run.scheduler, Operation::wait, &object);
         if (t == 0)
-          run.scheduler.wake_all(object);
+          kernel::wake_all(run.scheduler, object);
         else
-          run.scheduler.block(object, Time::from_ns(10 * i + t));
-        run.scheduler.yield();
+          kernel::block(run.scheduler, object, Time::from_ns(10 * i + t));
+        kernel::yield(run.scheduler);
       }
     });
   }
   Pauses pauses(run.scheduler, period);
-  if (period > 0) run.scheduler.set_watch(&pauses);
+  if (period > 0) kernel::set_watch(run.scheduler, &pauses);
   Result result{};
-  while (run.scheduler.run_before(Time::max()) == RunState::reached) {
+  while (kernel::run_before(run.scheduler, Time::max()) == RunState::reached) {
     ++result.calls;
-    EXPECT_EQ(pauses.seen, run.scheduler.events()) << "another event came after the pause";
+    EXPECT_EQ(pauses.seen, kernel::events(run.scheduler)) << "another event came after the pause";
     EXPECT_EQ(pauses.seen % period, 0u) << "another event came after the pause";
   }
-  EXPECT_EQ(run.scheduler.stop_cause(), StopCause::ended);
+  EXPECT_EQ(kernel::stop_cause(run.scheduler), StopCause::ended);
   result.digest = run.robot.digest.value();
-  result.events = run.scheduler.events();
+  result.events = kernel::events(run.scheduler);
   result.trace = run.trace;
   return result;
 }
@@ -84,14 +89,14 @@ TEST(Pause, FromATaskStopsBeforeItsNextEvent) {
   TaskRun run;
   run.spawn([&] {
     run.log("a");
-    run.scheduler.pause();
+    kernel::pause(run.scheduler);
     run.log("b");
     run.sleep(5);
     run.log("c");
   });
-  EXPECT_EQ(run.scheduler.run_before(Time::max()), RunState::reached);
+  EXPECT_EQ(kernel::run_before(run.scheduler, Time::max()), RunState::reached);
   EXPECT_EQ(run.trace, "a@0 b@0 ");
-  EXPECT_EQ(run.scheduler.run_before(Time::max()), RunState::stopped);
+  EXPECT_EQ(kernel::run_before(run.scheduler, Time::max()), RunState::stopped);
   EXPECT_EQ(run.trace, "a@0 b@0 c@5 ");
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "fibers/kernel/scheduler.hpp"
+#include "fibers/kernel/task.hpp"
 #include "fibers/kernel/visit.hpp"
 
 #include <gtest/gtest.h>
@@ -10,7 +10,13 @@
 #include <string>
 #include <vector>
 
+#include "fibers/kernel/interruption.hpp"
 #include "fibers/kernel/local_clock.hpp"
+#include "fibers/kernel/run.hpp"
+#include "fibers/kernel/run_window.hpp"
+#include "fibers/kernel/waiting_calls.hpp"
+#include "fibers/kernel/waitpoint_calls.hpp"
+#include "fibers/kernel/watch.hpp"
 #include "tests/fibers/kernel/task_run.hpp"
 
 namespace waitpoint::kernel {
@@ -24,10 +30,10 @@ TEST(Scheduler, RunsEventsInTheOrderOfTheirTimes) {
       run.sleep(ns);
       run.log(std::to_string(ns));
     });
-  EXPECT_EQ(run.scheduler.run_before(Time::max()), RunState::stopped);
-  EXPECT_EQ(run.scheduler.stop_cause(), StopCause::ended);
+  EXPECT_EQ(kernel::run_before(run.scheduler, Time::max()), RunState::stopped);
+  EXPECT_EQ(kernel::stop_cause(run.scheduler), StopCause::ended);
   EXPECT_EQ(run.trace, "start@0 start@0 start@0 10@10 20@20 30@30 ");
-  EXPECT_EQ(run.scheduler.events(), 9u);
+  EXPECT_EQ(kernel::events(run.scheduler), 9u);
 }
 
 TEST(Scheduler, PhasesOfOneInstantComeInTheirOrder) {
@@ -44,7 +50,7 @@ TEST(Scheduler, PhasesOfOneInstantComeInTheirOrder) {
     at_five("task", Phase::tasks);
     at_five("world", Phase::world);
     at_five("delivery", Phase::deliveries);
-    run.scheduler.run_before(Time::max());
+    kernel::run_before(run.scheduler, Time::max());
     EXPECT_EQ(run.trace, "delivery@5 world@5 task@5 ");
   }
 }
@@ -55,10 +61,10 @@ TEST(Scheduler, ATaskGivesWayToALowerPhaseThatComesUpAtItsInstant) {
   run.spawn([&] {
     run.sleep(5);
     run.spawn([&] { run.log("world"); }, {.phase = Phase::world});
-    run.scheduler.waitpoint(Operation::lock, &object);
+    kernel::waitpoint(run.scheduler, Operation::lock, &object);
     run.log("task");
   });
-  run.scheduler.run_before(Time::max());
+  kernel::run_before(run.scheduler, Time::max());
   EXPECT_EQ(run.trace, "world@5 task@5 ");
 }
 
@@ -72,31 +78,31 @@ TEST(Scheduler, AWindowRunsWhatIsBeforeItsEndAndNothingElse) {
     }
   });
   run.spawn([&] {
-    run.scheduler.waitpoint(Operation::wait, &object);
-    run.scheduler.block(object, Time::from_ns(30));
+    kernel::waitpoint(run.scheduler, Operation::wait, &object);
+    kernel::block(run.scheduler, object, Time::from_ns(30));
     run.log("b");
   });
-  EXPECT_EQ(run.scheduler.run_before(Time::from_ns(10)), RunState::reached);
+  EXPECT_EQ(kernel::run_before(run.scheduler, Time::from_ns(10)), RunState::reached);
   EXPECT_EQ(run.trace, "");
-  EXPECT_EQ(run.scheduler.run_before(Time::from_ns(11)), RunState::reached);
+  EXPECT_EQ(kernel::run_before(run.scheduler, Time::from_ns(11)), RunState::reached);
   EXPECT_EQ(run.trace, "a@10 ");
-  EXPECT_EQ(run.scheduler.run_before(Time::from_ns(11)), RunState::reached);
-  EXPECT_EQ(run.scheduler.run_before(Time::from_ns(30)), RunState::reached);
+  EXPECT_EQ(kernel::run_before(run.scheduler, Time::from_ns(11)), RunState::reached);
+  EXPECT_EQ(kernel::run_before(run.scheduler, Time::from_ns(30)), RunState::reached);
   EXPECT_EQ(run.trace, "a@10 a@20 ");
-  EXPECT_EQ(run.scheduler.run_before(Time::from_ns(31)), RunState::stopped);
+  EXPECT_EQ(kernel::run_before(run.scheduler, Time::from_ns(31)), RunState::stopped);
   EXPECT_EQ(run.trace, "a@10 a@20 b@30 a@30 ");
-  EXPECT_EQ(run.scheduler.run_before(Time::max()), RunState::stopped);
+  EXPECT_EQ(kernel::run_before(run.scheduler, Time::max()), RunState::stopped);
 }
 
 TEST(Scheduler, IsIdleWhenNothingCanRun) {
   TaskRun run;
   Object object("object");
   run.spawn([&] {
-    run.scheduler.waitpoint(Operation::wait, &object);
-    run.scheduler.block(object, Time::max());
+    kernel::waitpoint(run.scheduler, Operation::wait, &object);
+    kernel::block(run.scheduler, object, Time::max());
     run.log("woken");
   });
-  EXPECT_EQ(run.scheduler.run_before(Time::from_ns(1000)), RunState::idle);
+  EXPECT_EQ(kernel::run_before(run.scheduler, Time::from_ns(1000)), RunState::idle);
   EXPECT_EQ(run.trace, "");
 }
 
@@ -104,21 +110,21 @@ TEST(Scheduler, WokenTaskTakesTheGlobalTime) {
   TaskRun run;
   Object object("object");
   run.spawn([&] {
-    run.scheduler.waitpoint(Operation::wait, &object);
-    EXPECT_EQ(run.scheduler.block(object, Time::max()), Wake::woken);
+    kernel::waitpoint(run.scheduler, Operation::wait, &object);
+    EXPECT_EQ(kernel::block(run.scheduler, object, Time::max()), Wake::woken);
     EXPECT_EQ(running->local_time, Time::from_ns(50));
-    EXPECT_EQ(run.scheduler.block(object, Time::from_ns(60)), Wake::timed_out);
+    EXPECT_EQ(kernel::block(run.scheduler, object, Time::from_ns(60)), Wake::timed_out);
     EXPECT_EQ(running->local_time, Time::from_ns(60));
   });
   run.spawn([&] {
     run.sleep(40);
     compute(*running, Duration::from_ns(10));
-    run.scheduler.waitpoint(Operation::notify_one, &object);
-    EXPECT_NE(run.scheduler.wake_one(object), nullptr);
-    EXPECT_EQ(run.scheduler.wake_one(object), nullptr);
+    kernel::waitpoint(run.scheduler, Operation::notify_one, &object);
+    EXPECT_NE(kernel::wake_one(run.scheduler, object), nullptr);
+    EXPECT_EQ(kernel::wake_one(run.scheduler, object), nullptr);
   });
-  EXPECT_EQ(run.scheduler.run_before(Time::max()), RunState::stopped);
-  EXPECT_EQ(run.scheduler.global_time(), Time::from_ns(60));
+  EXPECT_EQ(kernel::run_before(run.scheduler, Time::max()), RunState::stopped);
+  EXPECT_EQ(kernel::global_time(run.scheduler), Time::from_ns(60));
 }
 
 TEST(Scheduler, AChildStartsAtItsParentsLocalTime) {
@@ -131,7 +137,7 @@ TEST(Scheduler, AChildStartsAtItsParentsLocalTime) {
     run.sleep(69);
     run.log("other");
   });
-  run.scheduler.run_before(Time::max());
+  kernel::run_before(run.scheduler, Time::max());
   EXPECT_EQ(run.trace, "other@69 child@70 ");
 }
 
@@ -139,12 +145,12 @@ TEST(Scheduler, IdentityIsTheRobotAndTheCreationPath) {
   const auto ids = [](int others) {
     TaskRun run;
     Robot other;
-    run.scheduler.add(other, "other");
+    kernel::add_robot(run.scheduler, other, "other");
     for (int i = 0; i < others; ++i) run.spawn(other, [] {});
     std::vector<std::uint64_t> found;
     found.push_back(run.spawn([&] { found.push_back(run.spawn([] {}).id); }).id);
     found.push_back(run.spawn([] {}).id);
-    run.scheduler.run_before(Time::max());
+    kernel::run_before(run.scheduler, Time::max());
     return found;
   };
   const std::vector<std::uint64_t> alone = ids(0);
@@ -158,13 +164,13 @@ TEST(Scheduler, ObjectsAreNumberedPerRobotAtFirstUseInARun) {
   for (int repeat = 0; repeat < 2; ++repeat) {
     TaskRun run;
     Robot other;
-    run.scheduler.add(other, "other");
+    kernel::add_robot(run.scheduler, other, "other");
     run.spawn([&] {
-      run.scheduler.waitpoint(Operation::lock, &objects[2]);
-      run.scheduler.waitpoint(Operation::lock, &objects[0]);
+      kernel::waitpoint(run.scheduler, Operation::lock, &objects[2]);
+      kernel::waitpoint(run.scheduler, Operation::lock, &objects[0]);
     });
-    run.spawn(other, [&] { run.scheduler.waitpoint(Operation::lock, &objects[1]); });
-    run.scheduler.run_before(Time::max());
+    run.spawn(other, [&] { kernel::waitpoint(run.scheduler, Operation::lock, &objects[1]); });
+    kernel::run_before(run.scheduler, Time::max());
     EXPECT_EQ(objects[2].number, 1u);
     EXPECT_EQ(objects[0].number, 2u);
     EXPECT_EQ(objects[1].number, 1u);
@@ -178,12 +184,12 @@ TEST(Scheduler, AWatchSeesEveryExecutedEventAndChangesNothing) {
   };
   const auto run_once = [](Counter* counter) {
     TaskRun run;
-    run.scheduler.set_watch(counter);
+    kernel::set_watch(run.scheduler, counter);
     run.spawn([&] {
       run.sleep(5);
-      run.scheduler.yield();
+      kernel::yield(run.scheduler);
     });
-    run.scheduler.run_before(Time::max());
+    kernel::run_before(run.scheduler, Time::max());
     return run.robot.digest.value();
   };
   Counter counter;
@@ -203,14 +209,14 @@ TEST(Scheduler, AWatchThatATaskSetsSeesTheNextEvent) {
   TaskRun run;
   Object object("object");
   run.spawn([&] {
-    run.scheduler.waitpoint(Operation::lock, &object);
-    run.scheduler.waitpoint(Operation::unlock, &object);
-    run.scheduler.set_watch(&last);
-    run.scheduler.waitpoint(Operation::try_lock, &object);
+    kernel::waitpoint(run.scheduler, Operation::lock, &object);
+    kernel::waitpoint(run.scheduler, Operation::unlock, &object);
+    kernel::set_watch(run.scheduler, &last);
+    kernel::waitpoint(run.scheduler, Operation::try_lock, &object);
     EXPECT_EQ(last.seen, Operation::try_lock);
-    run.scheduler.set_watch(nullptr);
+    kernel::set_watch(run.scheduler, nullptr);
   });
-  run.scheduler.run_before(Time::max());
+  kernel::run_before(run.scheduler, Time::max());
 }
 
 TEST(Scheduler, ErrnoAndExceptionsInFlightAreKeptPerTask) {
@@ -232,9 +238,9 @@ TEST(Scheduler, ErrnoAndExceptionsInFlightAreKeptPerTask) {
         }
         for (std::int64_t round = 0; round < 4; ++round) {
           errno = own;
-          run.scheduler.waitpoint(Operation::wait, &object);
-          if (run.scheduler.wake_one(object) == nullptr && round == 3) return;
-          run.scheduler.block(object, Time::from_ns(100 * (round + 1)));
+          kernel::waitpoint(run.scheduler, Operation::wait, &object);
+          if (kernel::wake_one(run.scheduler, object) == nullptr && round == 3) return;
+          kernel::block(run.scheduler, object, Time::from_ns(100 * (round + 1)));
           EXPECT_EQ(errno, own);
           trace += std::to_string(own);
         }
@@ -242,7 +248,7 @@ TEST(Scheduler, ErrnoAndExceptionsInFlightAreKeptPerTask) {
       within(own - 1);
       EXPECT_EQ(std::current_exception(), nullptr);
     });
-  run.scheduler.run_before(Time::max());
+  kernel::run_before(run.scheduler, Time::max());
   EXPECT_GT(trace.size(), 8u);
 }
 
@@ -253,13 +259,13 @@ TEST(Scheduler, SpinningWithoutVirtualTimeIsFoundInEveryOrder) {
     bool go_on = true;
     for (int i = 0; i < 3; ++i)
       run.spawn([&] {
-        while (go_on && run.scheduler.waitpoint(Operation::try_lock, &object)) {
+        while (go_on && kernel::waitpoint(run.scheduler, Operation::try_lock, &object)) {
         }
       });
-    EXPECT_EQ(run.scheduler.run_before(Time::max()), RunState::stopped);
-    EXPECT_EQ(run.scheduler.stop_cause(), StopCause::no_progress);
-    run.scheduler.unwind();
-    EXPECT_EQ(run.scheduler.first_task(), nullptr);
+    EXPECT_EQ(kernel::run_before(run.scheduler, Time::max()), RunState::stopped);
+    EXPECT_EQ(kernel::stop_cause(run.scheduler), StopCause::no_progress);
+    kernel::unwind(run.scheduler);
+    EXPECT_EQ(kernel::first_task(run.scheduler), nullptr);
   }
 }
 
@@ -267,8 +273,8 @@ TEST(Scheduler, AStackCanBeReadOfEveryTaskThatIsParked) {
   TaskRun run;
   Object object("object");
   Task& blocked = run.spawn([&] {
-    run.scheduler.waitpoint(Operation::wait, &object);
-    run.scheduler.block(object, Time::from_ns(100));
+    kernel::waitpoint(run.scheduler, Operation::wait, &object);
+    kernel::block(run.scheduler, object, Time::from_ns(100));
     run.log("blocked");
   });
   Task& paused = run.spawn([&] {
@@ -276,33 +282,33 @@ TEST(Scheduler, AStackCanBeReadOfEveryTaskThatIsParked) {
     run.log("paused");
   });
   Task& unborn = run.spawn([] {}, {.phase = Phase::tasks});
-  run.scheduler.run_before(Time::from_ns(0));
+  kernel::run_before(run.scheduler, Time::from_ns(0));
   void* frames[16];
   EXPECT_EQ(call_stack(unborn, frames, 16), 0u);
-  run.scheduler.run_before(Time::from_ns(20));
+  kernel::run_before(run.scheduler, Time::from_ns(20));
   for (int repeat = 0; repeat < 2; ++repeat) {
     EXPECT_GT(call_stack(blocked, frames, 16), 4u);
     EXPECT_GT(call_stack(paused, frames, 16), 4u);
     EXPECT_EQ(call_stack(paused, frames, 2), 2u);
   }
-  EXPECT_EQ(run.scheduler.run_before(Time::max()), RunState::stopped);
+  EXPECT_EQ(kernel::run_before(run.scheduler, Time::max()), RunState::stopped);
   EXPECT_EQ(run.trace, "paused@50 blocked@100 ");
 }
 
 TEST(SchedulerDeathTest, MisuseIsABug) {
   TaskRun run;
-  run.spawn([&] { EXPECT_DEATH(run.scheduler.run_before(Time::max()), "called from within a task"); });
-  run.spawn([&] { EXPECT_DEATH(run.scheduler.unwind(), "called from within a task"); });
-  run.spawn([&] { EXPECT_DEATH(run.scheduler.abandon(), "before the run is over"); });
-  run.scheduler.run_before(Time::max());
-  run.scheduler.unwind();
-  EXPECT_DEATH(run.scheduler.run_before(Time::max()), "after the run is over");
+  run.spawn([&] { EXPECT_DEATH(kernel::run_before(run.scheduler, Time::max()), "called from within a task"); });
+  run.spawn([&] { EXPECT_DEATH(kernel::unwind(run.scheduler), "called from within a task"); });
+  run.spawn([&] { EXPECT_DEATH(kernel::abandon(), "before the run is over"); });
+  kernel::run_before(run.scheduler, Time::max());
+  kernel::unwind(run.scheduler);
+  EXPECT_DEATH(kernel::run_before(run.scheduler, Time::max()), "after the run is over");
 }
 
 // The report of a bug has the time and place in the run.
 TEST(SchedulerDeathTest, ABugsReportNamesTimeTaskSeedAndReplay) {
   TaskRun run(Order::seeded, 77);
-  run.scheduler.hooks().replay = "the replay line";
+  kernel::hooks(run.scheduler).replay = "the replay line";
   run.spawn(
       [&] {
         run.sleep(1'500'000'000);
@@ -311,7 +317,7 @@ TEST(SchedulerDeathTest, ABugsReportNamesTimeTaskSeedAndReplay) {
                      "\\(sleep\\), seed 77\n.*replay: the replay line");
       },
       {.name = "driver"});
-  run.scheduler.run_before(Time::max());
+  kernel::run_before(run.scheduler, Time::max());
 }
 
 }  // namespace

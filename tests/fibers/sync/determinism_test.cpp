@@ -11,7 +11,9 @@
 #include <string>
 #include <vector>
 
+#include "fibers/kernel/run.hpp"
 #include "fibers/kernel/visit.hpp"
+#include "fibers/kernel/watch.hpp"
 #include "fibers/sync/threads.hpp"
 #include "tests/fibers/sync/mixed_program.hpp"
 #include "tests/fibers/sync/orders.hpp"
@@ -40,7 +42,7 @@ Outcome run(const SimulationOptions& options, const MixedProgram& program = {},
   times.event = [](kernel::Watch& self, const kernel::EventRecord& record) {
     static_cast<Times&>(self).seen.push_back(record.time.ns());
   };
-  simulation.scheduler().set_watch(&times);
+  kernel::set_watch(simulation.scheduler(), &times);
   spawn_mixed_program(simulation, program);
   RunEnd end = RunEnd::time_reached;
   for (Time until; end == RunEnd::time_reached;) {
@@ -49,7 +51,7 @@ Outcome run(const SimulationOptions& options, const MixedProgram& program = {},
     EXPECT_TRUE(times.seen.empty() || Time::from_ns(times.seen.back()) < until);
   }
   EXPECT_EQ(end, RunEnd::ended) << simulation.trouble();
-  return {to_string(simulation.digest()), simulation.scheduler().events(), times.seen};
+  return {to_string(simulation.digest()), kernel::events(simulation.scheduler()), times.seen};
 }
 
 TEST(Determinism, TheSameSeedGivesTheSameRun) {
@@ -98,7 +100,7 @@ TEST(Determinism, DrawingStacksBetweenWindowsChangesNothing) {
   Simulation simulation(order_number(3));
   spawn_mixed_program(simulation, {});
   for (Time until; simulation.run_before(until) == RunEnd::time_reached; until += 170us)
-    for (kernel::Task* t = simulation.scheduler().first_task(); t != nullptr; t = t->next) {
+    for (kernel::Task* t = kernel::first_task(simulation.scheduler()); t != nullptr; t = t->next) {
       void* frames[8];
       kernel::call_stack(*t, frames, 8);
     }
@@ -110,7 +112,7 @@ std::map<std::string, std::uint64_t> digest_of_each_robot(const SimulationOption
   spawn_mixed_program(simulation, {.robots = robots});
   EXPECT_EQ(simulation.run_before(), RunEnd::ended);
   std::map<std::string, std::uint64_t> digests;
-  for (kernel::Robot* r = simulation.scheduler().roster().first_robot(); r != nullptr; r = r->next)
+  for (kernel::Robot* r = kernel::roster(simulation.scheduler()).first_robot(); r != nullptr; r = r->next)
     if (r != &simulation.environment()) digests[r->name] = r->digest.value();
   return digests;
 }

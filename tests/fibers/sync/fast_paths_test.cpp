@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "fibers/kernel/run.hpp"
 #include "fibers/sync/threads.hpp"
 #include "tests/fibers/sync/mixed_program.hpp"
 #include "tests/fibers/sync/orders.hpp"
@@ -28,7 +29,7 @@ Result run(SimulationOptions options, const MixedProgram& program, bool fast_pat
   Time until = width == Duration() ? Time::max() : Time() + width;
   while (simulation.run_before(until) == RunEnd::time_reached) until += width;
   EXPECT_EQ(simulation.trouble(), "");
-  return {to_string(simulation.digest()), simulation.scheduler().events(), simulation.global_time()};
+  return {to_string(simulation.digest()), kernel::events(simulation.scheduler()), simulation.global_time()};
 }
 
 TEST(FastPaths, RandomProgramsRunAsOnThePlainPath) {

@@ -7,6 +7,8 @@
 #include <deque>
 #include <ostream>
 
+#include "fibers/kernel/run.hpp"
+#include "fibers/kernel/run_window.hpp"
 #include "fibers/sync/condition_variable.hpp"
 #include "fibers/sync/periodic_timer.hpp"
 #include "fibers/sync/semaphore.hpp"
@@ -99,10 +101,10 @@ Run run_on_the_scheduler(const Program& program, const SimulationOptions& option
   Simulation simulation(options);
   for (std::size_t i = 0; i < program.roots; ++i)
     simulation.spawn(simulation.environment(), {.stack = kernel::StackSize::small}, [&world, i] { world.do_task(i); });
-  const kernel::RunState state = simulation.scheduler().run_before(Time::max());
+  const kernel::RunState state = kernel::run_before(simulation.scheduler(), Time::max());
   world.outcome.ended = state == kernel::RunState::stopped;
   world.outcome.end_ns = simulation.global_time().ns();
-  world.outcome.events = simulation.scheduler().events();
+  world.outcome.events = kernel::events(simulation.scheduler());
   simulation.unwind();
   return {std::move(world.outcome), std::move(world.ids)};
 }

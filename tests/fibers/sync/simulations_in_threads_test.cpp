@@ -11,6 +11,7 @@
 #include <thread>
 #include <vector>
 
+#include "fibers/kernel/run.hpp"
 #include "fibers/switch/sanitizer.hpp"
 #include "fibers/sync/simulation.hpp"
 #include "fibers/sync/thread.hpp"
@@ -33,7 +34,7 @@ std::string digest_of(
     end = simulation.run_before(until);
   }
   simulation.unwind();
-  return to_string(simulation.digest()) + ", " + std::to_string(simulation.scheduler().events()) + " events";
+  return to_string(simulation.digest()) + ", " + std::to_string(kernel::events(simulation.scheduler())) + " events";
 }
 
 // One body in each thread, all begun at once.

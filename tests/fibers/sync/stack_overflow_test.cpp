@@ -8,6 +8,7 @@
 #include <csignal>
 
 #include "fibers/switch/sanitizer.hpp"
+#include "fibers/switch/stack_arena.hpp"
 #include "fibers/sync/simulation.hpp"
 #include "fibers/sync/thread.hpp"
 

@@ -6,6 +6,7 @@
 #include "core/error.hpp"
 #include "fibers/explore/schedules/course.hpp"
 #include "fibers/explore/strategies/fifo.hpp"
+#include "fibers/kernel/run.hpp"
 #include "fibers/sync/system_calls/system_calls.hpp"
 #include "modules/run/expectation.hpp"
 #include "tools/command/version.hpp"
@@ -33,7 +34,7 @@ struct Scene::Stage {
   Stage(const scenario::Scenario& scenario, std::span<const genom::ModuleType> types,
         const run::ExperimentOptions& options, std::uint32_t steps_max)
       : experiment(scenario, types, options), explorer(experiment.simulation().scheduler(), steps_max) {
-    experiment.simulation().scheduler().set_decisions(explorer);
+    kernel::set_decisions(experiment.simulation().scheduler(), explorer);
     explorer.begin(*strategy);
   }
   // Unwinds while the explorer still exists.
@@ -158,7 +159,7 @@ void Scene::carry_out(Time until, const exploration::EvidenceRecorder& recording
   }
   finding.end = end == RunEnd::time_reached ? reached : experiment.simulation().global_time();
   finding.digest = experiment.simulation().digest().value();
-  finding.events = experiment.simulation().scheduler().events();
+  finding.events = kernel::events(experiment.simulation().scheduler());
 }
 
 void Scene::judge(ProcessFinding& finding, bool goals_too) const {

@@ -30,7 +30,7 @@ def advise(address, size, advice):
 
 def ranges(scheduler):
     """(base, bytes per slot, slots opened, slots with a guard, total slots) for each stack size."""
-    offset, size, _ = records.place("Scheduler", "arena_.ranges_")
+    offset, size, _ = records.place("Scheduler", "arena.ranges_")
     width = records.record_type("StackArena::Range").sizeof
     for at, slot in zip(range(0, size, width), STACK_SIZES):
         one = records.Record("StackArena::Range", scheduler.address + offset + at)

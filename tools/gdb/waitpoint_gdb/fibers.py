@@ -8,7 +8,7 @@ from . import records
 
 HOLDERS_SHOWN = 4
 # Location of the entries of each part of the event list: see event.hpp and event_list.hpp.
-PARTS = {0: "agenda_.events.heap_.entries_", 1: "agenda_.events.run_", 2: "agenda_.events.calendar_.chunks_"}
+PARTS = {0: "agenda.events.heap_.entries_", 1: "agenda.events.run_", 2: "agenda.events.calendar_.chunks_"}
 RUN = 1  # in this part a node may have moved up since its recorded place
 CALENDAR = 2  # this part has chunks: see Calendar::entry_at()
 READY = 0xFFFFFFFE  # the place of an event due now: see ready_set.hpp and present_queue.hpp
@@ -86,7 +86,7 @@ class Object(records.Record):
 
 
 def all_tasks(scheduler=None):
-    address = (scheduler or records.scheduler()).number("roster_.first_task_")
+    address = (scheduler or records.scheduler()).number("roster.first_task_")
     tasks = []
     while address:
         tasks.append(Task(address))
@@ -103,7 +103,7 @@ def due(task, scheduler):
     """The time of the event of a task that is not running."""
     location = task.number("event.place")
     if location == READY:
-        return scheduler.number("agenda_.now.ns_")
+        return scheduler.number("agenda.now.ns_")
     if location >> 30 not in PARTS:
         return records.NO_TIME
     part, index = location >> 30, location & (2**30 - 1)

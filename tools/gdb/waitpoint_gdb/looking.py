@@ -145,7 +145,7 @@ class VirtualTime(gdb.Command):
 
     def invoke(self, argument, from_tty):
         scheduler = records.scheduler()
-        text = f"{records.seconds(scheduler.number('agenda_.now.ns_'))} s, event {records.events_of(scheduler)}"
+        text = f"{records.seconds(scheduler.number('agenda.now.ns_'))} s, event {records.events_of(scheduler)}"
         if task := fibers.running(scheduler):
             text += f"; {task.describe()} is at {records.seconds(task.number('local_time.ns_'))} s"
         print(text)

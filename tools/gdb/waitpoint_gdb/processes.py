@@ -50,7 +50,7 @@ def value_of(expression):
 
 def scheduler_address():
     """The same in every process."""
-    return value_of("(unsigned long)&'waitpoint::posix::record'->scheduler")
+    return value_of("(unsigned long)&'waitpoint::posix::record'->scheduler_memory")
 
 
 def own_entry():

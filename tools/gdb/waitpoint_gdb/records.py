@@ -169,10 +169,10 @@ def scheduler():
 
 
 def events_of(run):
-    """The number of events executed in this scheduler's run, as in Scheduler::events()."""
+    """The number of events executed in this scheduler's run, as in kernel::events()."""
     inverse = constant("PairDigest", "inverse_of_step")
-    events = run.number("roster_.ended_robots_digest_.last_key_") * inverse
-    robot = run.follow("roster_.first_robot_", "Robot")
+    events = run.number("roster.ended_robots_digest_.last_key_") * inverse
+    robot = run.follow("roster.first_robot_", "Robot")
     while robot:
         events += robot.number("digest.last_key_") * inverse - robot.number("outputs")
         robot = robot.follow("next", "Robot")

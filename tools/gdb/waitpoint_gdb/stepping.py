@@ -80,7 +80,7 @@ class BreakTime(gdb.Command):
     @staticmethod
     def add(time):
         if watching.is_process() and (run := records.view().follow("scheduler", "Scheduler")):
-            if time <= (now := run.number("agenda_.now.ns_")) and records.events_of(run):
+            if time <= (now := run.number("agenda.now.ns_")) and records.events_of(run):
                 raise gdb.GdbError(f"it is {records.seconds(now)} s already; `back` goes back")
         watching.request.times = sorted({*watching.request.times, time})
 

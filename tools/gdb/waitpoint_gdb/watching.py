@@ -81,8 +81,8 @@ def watch():
     records.write_view("watching", 1)
     if run := view.number("scheduler"):
         inferior = gdb.selected_inferior()
-        inferior.write_memory(run + records.place("Scheduler", "watched_")[0], b"\1")
-        # As Scheduler::set_watch(): the running task passes its waitpoints by the fast path until told otherwise.
+        inferior.write_memory(run + records.place("Scheduler", "watching.is_on")[0], b"\1")
+        # As set_watch(): the running task passes its waitpoints by the fast path until told otherwise.
         inferior.write_memory(records.address_of("turn") + records.place("Turn", "fast_epoch")[0], b"\xff" * 8)
     records.write_view("checkpoint_at", view.number("events") + 1 if checkpoints.wanted() else NEVER)
     request.write()

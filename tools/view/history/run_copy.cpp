@@ -11,6 +11,7 @@
 
 #include "fibers/kernel/call_stack.hpp"
 #include "fibers/kernel/fault_reports.hpp"
+#include "fibers/kernel/watch.hpp"
 #include "fibers/sync/report/source_lines.hpp"
 #include "modules/run/journal.hpp"
 #include "tools/output/recorders.hpp"
@@ -57,7 +58,7 @@ void RunCopy::serve(Channel channel) {
   std::signal(SIGCHLD, SIG_IGN);
   make_files_private(channel.number());
   experiment_.set_observer([this](Time time) { counts_.take(time); });
-  experiment_.simulation().scheduler().set_watch(nullptr);
+  kernel::set_watch(experiment_.simulation().scheduler(), nullptr);
   for (const auto& robot : experiment_.robots()) robot->set_watch(nullptr);
   channel_ = &channel;
   answer_requests();

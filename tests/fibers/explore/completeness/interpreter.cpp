@@ -8,6 +8,7 @@
 
 #include "fibers/explore/body.hpp"
 #include "fibers/explore/strategies/factory.hpp"
+#include "fibers/kernel/interruption.hpp"
 #include "fibers/sync/atomic.hpp"
 #include "fibers/sync/condition_variable.hpp"
 #include "fibers/sync/semaphore.hpp"
@@ -64,7 +65,7 @@ class Run {
     std::array<bool, threads_max> threads{};
   };
 
-  static bool is_over() { return kernel::running->scheduler->unwinding(); }
+  static bool is_over() { return kernel::is_unwinding(*kernel::running->scheduler); }
 
   // An event that ends the run.
   [[noreturn]] void end(const char* how, std::size_t thread) {

@@ -15,6 +15,7 @@
 
 #include "fibers/explore/explore.hpp"
 #include "fibers/switch/sanitizer.hpp"
+#include "fibers/switch/stack_arena.hpp"
 #include "fibers/sync/simulation.hpp"
 #include "fibers/sync/system_calls/system_calls.hpp"
 #include "fibers/sync/thread.hpp"
