@@ -123,7 +123,7 @@ void add_texts(Scenario& scenario) {
   scenario.fingerprint = digest.value();
 }
 
-// In the place of what follows from the kind of each program.
+// Overrides the default of each program.
 void read_hosting(const YamlMap& map, Scenario& scenario) {
   const auto hosting = static_cast<Hosting>(map.one_of("hosting", hosting_words, 0));
   for (RobotScenario& robot : scenario.robots)
