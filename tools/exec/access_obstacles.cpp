@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/exec/access_obstacles.hpp"
 
-#include "fibers/posix/exec/race_log.hpp"
+#include "fibers/posix/reports/race_log.hpp"
 #include "tools/exec/family_report.hpp"
 
 namespace waitpoint::tools {

@@ -9,9 +9,9 @@
 #include <string>
 
 #include "core/digest.hpp"
-#include "fibers/posix/exec/history.hpp"
 #include "fibers/posix/family/processes.hpp"
 #include "fibers/posix/program/record.hpp"
+#include "fibers/posix/reports/history.hpp"
 
 namespace waitpoint::tools {
 

@@ -16,8 +16,8 @@
 #include <ctime>
 
 #include "core/error.hpp"
-#include "fibers/posix/exec/fork_server.hpp"
-#include "fibers/posix/exec/rerun_control.hpp"
+#include "fibers/posix/reruns/fork_server.hpp"
+#include "fibers/posix/reruns/rerun_control.hpp"
 #include "tools/command/interruption.hpp"
 #include "tools/command/signal_words.hpp"
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Loads a program once, and runs it any number of times from just before main(): by forks, and in a forked process that
-// can be put back to that state after its run (fibers/posix/exec/rerun.hpp); and from snapshots, which runs have made.
+// can be put back to that state after its run (fibers/posix/reruns/rerun.hpp); and from snapshots, which runs have
+// made.
 #pragma once
 
 #include <optional>

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "fibers/posix/exec/last_calls.hpp"
+#include "fibers/posix/reports/last_calls.hpp"
 #include "tools/exec/family_report.hpp"
 
 namespace waitpoint::tools {

@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "fibers/posix/exec/misuse_log.hpp"
+#include "fibers/posix/reports/misuse_log.hpp"
 #include "fibers/sync/report/source_lines.hpp"
 #include "tools/exec/family_report.hpp"
 

@@ -5,7 +5,7 @@
 #include <sstream>
 #include <utility>
 
-#include "fibers/posix/exec/race_log.hpp"
+#include "fibers/posix/reports/race_log.hpp"
 #include "tools/exec/family_report.hpp"
 
 namespace waitpoint::tools {

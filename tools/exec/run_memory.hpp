@@ -2,8 +2,8 @@
 // The memory that a program's run shares with its supervisor: settings and results.
 #pragma once
 
-#include "fibers/posix/exec/rerun_control.hpp"
 #include "fibers/posix/program/record.hpp"
+#include "fibers/posix/reruns/rerun_control.hpp"
 
 namespace waitpoint::tools {
 

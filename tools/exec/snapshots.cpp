@@ -14,8 +14,8 @@
 #include <string>
 
 #include "core/error.hpp"
-#include "fibers/posix/exec/fork_server.hpp"
-#include "fibers/posix/exec/snapshot.hpp"
+#include "fibers/posix/reruns/fork_server.hpp"
+#include "fibers/posix/reruns/snapshot.hpp"
 
 namespace waitpoint::tools {
 

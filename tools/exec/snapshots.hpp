@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The snapshots that runs have made of themselves (fibers/posix/exec/snapshot.hpp), as the explorer's process sees
+// The snapshots that runs have made of themselves (fibers/posix/reruns/snapshot.hpp), as the explorer's process sees
 // them.
 #pragma once
 
@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "fibers/posix/exec/rerun_control.hpp"
+#include "fibers/posix/reruns/rerun_control.hpp"
 
 namespace waitpoint::tools {
 

@@ -10,9 +10,9 @@
 #include "fibers/explore/schedules/course.hpp"
 #include "fibers/kernel/run.hpp"
 #include "fibers/kernel/watch.hpp"
-#include "fibers/posix/exec/program_calls.hpp"
 #include "fibers/posix/family/processes.hpp"
 #include "fibers/posix/program/program.hpp"
+#include "fibers/posix/reports/program_calls.hpp"
 
 namespace waitpoint::posix {
 namespace {

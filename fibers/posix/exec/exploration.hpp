@@ -13,8 +13,8 @@
 #include "fibers/explore/schedules/event_stop.hpp"
 #include "fibers/explore/schedules/explorer.hpp"
 #include "fibers/explore/strategies/profile.hpp"
-#include "fibers/posix/exec/history.hpp"
 #include "fibers/posix/exec/process_choices.hpp"
+#include "fibers/posix/reports/history.hpp"
 #include "fibers/posix/traps/access_instruction.hpp"
 #include "fibers/sync/report/source_lines.hpp"
 

@@ -9,9 +9,9 @@
 #include "fibers/posix/descriptors/descriptors.hpp"
 #include "fibers/posix/descriptors/pace.hpp"
 #include "fibers/posix/exec/exploration.hpp"
-#include "fibers/posix/exec/history.hpp"
 #include "fibers/posix/family/turn.hpp"
 #include "fibers/posix/program/program.hpp"
+#include "fibers/posix/reports/history.hpp"
 #include "fibers/posix/time/clocks.hpp"
 
 namespace waitpoint::posix {

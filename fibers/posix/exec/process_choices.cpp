@@ -7,10 +7,10 @@
 
 #include "fibers/kernel/common_order.hpp"
 #include "fibers/kernel/run.hpp"
-#include "fibers/posix/exec/snapshot.hpp"
 #include "fibers/posix/family/order.hpp"
 #include "fibers/posix/family/processes.hpp"
 #include "fibers/posix/program/program.hpp"
+#include "fibers/posix/reruns/snapshot.hpp"
 
 namespace waitpoint::posix {
 namespace {

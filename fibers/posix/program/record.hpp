@@ -41,7 +41,7 @@ inline constexpr std::uintptr_t family_address = record_address + record_bytes;
 inline constexpr std::size_t family_bytes = std::size_t{1} << 34;
 inline constexpr std::size_t run_bytes = record_bytes + family_bytes;
 
-/// The last page of the record's memory, which outlasts the run: see exec/rerun_control.hpp.
+/// The last page of the record's memory, which outlasts the run: see reruns/rerun_control.hpp.
 inline constexpr std::size_t control_bytes = 4096;
 inline constexpr std::uintptr_t control_address = family_address - control_bytes;
 
@@ -82,7 +82,7 @@ struct Settings {
   bool trap_library = false;                    ///< waits within the C library are simulated
   bool simulates_started = false;               ///< programs that it starts are simulations too
   bool reports_ending = false;                  ///< the watching process ends the run when a signal asks to
-  bool makes_reruns = false;                    ///< see exec/rerun.hpp
+  bool makes_reruns = false;                    ///< see reruns/rerun.hpp
   bool own_machine = false;                     ///< see exec/own_machine.hpp
   Medium medium;
   int server = -1;  ///< a socket on which runs are requested, see fork_server.hpp

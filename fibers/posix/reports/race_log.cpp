@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "fibers/posix/exec/race_log.hpp"
+#include "fibers/posix/reports/race_log.hpp"
 
 #include <new>
 
 #include "core/error.hpp"
 #include "fibers/kernel/access.hpp"
 #include "fibers/posix/descriptors/descriptors.hpp"
-#include "fibers/posix/exec/memory.hpp"
 #include "fibers/posix/family/family.hpp"
 #include "fibers/posix/program/program.hpp"
+#include "fibers/posix/reports/memory.hpp"
 #include "fibers/posix/traps/access_breakpoints.hpp"
 
 namespace waitpoint::posix {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "fibers/posix/exec/account.hpp"
+#include "fibers/posix/reports/account.hpp"
 
 #include <dlfcn.h>
 #include <unistd.h>

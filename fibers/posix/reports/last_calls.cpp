@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "fibers/posix/exec/last_calls.hpp"
+#include "fibers/posix/reports/last_calls.hpp"
 
 #include <new>
 #include <string>
 #include <utility>
 
 #include "fibers/kernel/run.hpp"
-#include "fibers/posix/exec/memory.hpp"
-#include "fibers/posix/exec/program_calls.hpp"
 #include "fibers/posix/family/family.hpp"
 #include "fibers/posix/family/task_names.hpp"
 #include "fibers/posix/program/program.hpp"
+#include "fibers/posix/reports/memory.hpp"
+#include "fibers/posix/reports/program_calls.hpp"
 #include "fibers/posix/signals/signals.hpp"
 
 namespace waitpoint::posix {

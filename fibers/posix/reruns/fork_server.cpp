@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "fibers/posix/exec/fork_server.hpp"
+#include "fibers/posix/reruns/fork_server.hpp"
 
 #include <linux/futex.h>
 #include <poll.h>
@@ -17,8 +17,8 @@
 #include <type_traits>
 
 #include "fibers/posix/base/direct_call.hpp"
-#include "fibers/posix/exec/rerun_control.hpp"
 #include "fibers/posix/program/program.hpp"
+#include "fibers/posix/reruns/rerun_control.hpp"
 
 namespace waitpoint::posix {
 namespace {

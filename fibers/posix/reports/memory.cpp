@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Only exploration and the log of races use it. The names are not exported: the program has its own.
-#include "fibers/posix/exec/memory.hpp"
+#include "fibers/posix/reports/memory.hpp"
 
 #include <new>
 

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <span>
 
-#include "fibers/posix/exec/page_map.hpp"
+#include "fibers/posix/reruns/page_map.hpp"
 
 namespace waitpoint::posix {
 

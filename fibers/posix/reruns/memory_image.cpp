@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "fibers/posix/exec/memory_image.hpp"
+#include "fibers/posix/reruns/memory_image.hpp"
 
 #include <fcntl.h>
 #include <sys/syscall.h>

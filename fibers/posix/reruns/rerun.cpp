@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "fibers/posix/exec/rerun.hpp"
+#include "fibers/posix/reruns/rerun.hpp"
 
 #include <linux/futex.h>
 #include <sys/mman.h>
@@ -11,12 +11,12 @@
 #include "fibers/kernel/scheduler.hpp"
 #include "fibers/posix/base/direct_call.hpp"
 #include "fibers/posix/base/stack_switch.hpp"
-#include "fibers/posix/exec/memory_image.hpp"
-#include "fibers/posix/exec/race_log.hpp"
-#include "fibers/posix/exec/rerun_control.hpp"
 #include "fibers/posix/family/processes.hpp"
 #include "fibers/posix/program/program.hpp"
 #include "fibers/posix/program/waitable.hpp"
+#include "fibers/posix/reports/race_log.hpp"
+#include "fibers/posix/reruns/memory_image.hpp"
+#include "fibers/posix/reruns/rerun_control.hpp"
 #include "fibers/posix/traps/access_breakpoints.hpp"
 #include "fibers/posix/traps/followed_calls.hpp"
 #include "fibers/posix/traps/library_calls.hpp"

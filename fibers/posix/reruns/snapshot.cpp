@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "fibers/posix/exec/snapshot.hpp"
+#include "fibers/posix/reruns/snapshot.hpp"
 
 #include <sched.h>
 #include <signal.h>
@@ -17,10 +17,10 @@
 #include "fibers/explore/schedules/explorer.hpp"
 #include "fibers/posix/base/direct_call.hpp"
 #include "fibers/posix/base/stack_switch.hpp"
-#include "fibers/posix/exec/fork_server.hpp"
-#include "fibers/posix/exec/rerun_control.hpp"
 #include "fibers/posix/family/processes.hpp"
 #include "fibers/posix/program/program.hpp"
+#include "fibers/posix/reruns/fork_server.hpp"
+#include "fibers/posix/reruns/rerun_control.hpp"
 #include "fibers/posix/traps/followed_descriptors.hpp"
 #include "fibers/posix/traps/raw_calls.hpp"
 

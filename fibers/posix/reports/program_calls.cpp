@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "fibers/posix/exec/program_calls.hpp"
+#include "fibers/posix/reports/program_calls.hpp"
 
 #include <dlfcn.h>
 

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "fibers/posix/exec/misuse_log.hpp"
+#include "fibers/posix/reports/misuse_log.hpp"
 
 #include <algorithm>
 #include <new>
 
 #include "fibers/kernel/task.hpp"
-#include "fibers/posix/exec/memory.hpp"
-#include "fibers/posix/exec/program_calls.hpp"
 #include "fibers/posix/family/family.hpp"
 #include "fibers/posix/family/misuse.hpp"
 #include "fibers/posix/program/program.hpp"
+#include "fibers/posix/reports/memory.hpp"
+#include "fibers/posix/reports/program_calls.hpp"
 
 namespace waitpoint::posix {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "fibers/posix/exec/page_map.hpp"
+#include "fibers/posix/reruns/page_map.hpp"
 
 #include <fcntl.h>
 #include <sys/ioctl.h>

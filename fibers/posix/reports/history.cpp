@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "fibers/posix/exec/history.hpp"
+#include "fibers/posix/reports/history.hpp"
 
 #include <new>
 
-#include "fibers/posix/exec/memory.hpp"
 #include "fibers/posix/family/family.hpp"
 #include "fibers/posix/program/program.hpp"
+#include "fibers/posix/reports/memory.hpp"
 
 namespace waitpoint::posix {
 
