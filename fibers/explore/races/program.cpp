@@ -91,7 +91,7 @@ int __cxa_guard_acquire(std::uint64_t* guard) {
     if (waitpoint::kernel::running == nullptr)
       sched_yield();
     else
-      kernel::yield(*waitpoint::kernel::running->scheduler);
+      waitpoint::kernel::yield(*waitpoint::kernel::running->scheduler);
   }
 }
 void __cxa_guard_release(std::uint64_t* guard) { leave(guard, true); }

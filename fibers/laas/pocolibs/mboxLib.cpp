@@ -168,7 +168,7 @@ STATUS mboxSend(MBOX_ID toId, MBOX_ID fromId, char* buf, int nbytes) {
   if (nbytes <= 0) return fail(S_h2rngLib_ILLEGAL_NBYTES);
   if (!mailbox->has_room(nbytes)) return fail(S_mboxLib_MBOX_FULL);
   mailbox->push(fromId, buf, nbytes);
-  kernel::wake_all(*waitpoint::sync::running_task().scheduler, mailbox->object);
+  waitpoint::kernel::wake_all(*waitpoint::sync::running_task().scheduler, mailbox->object);
   const laas::TaskControlBlock* const owner = laas::Tasks::here().find(mailbox->owner);
   return owner == nullptr || owner->events == 0 ? OK : laas::h2semSet(owner->events, 1);
 }

@@ -78,7 +78,9 @@ using SensorsReadAlone = decltype(read_alone_of(Sensors()));
 /// The name of a sensor's reading in the bridge's table of a scenario.
 template <ReadAlone S>
 std::string device_value() {
-  return std::string(S::key) + ".reading";
+  std::string name(S::key);
+  name.append(".reading");
+  return name;
 }
 
 /// The reading of a sensor of type S, to be filled.
