@@ -179,7 +179,7 @@ class Refusals(External):
         (self.folder / "journal").write_text("")
         self.assertIn("repeats what came from outside",
                       self.refused(*external, "--speed", "1", "--replay-journal", self.folder / "journal"))
-        self.assertIn("--external: expected waitpoint run: processes outside live in real time", self.refused(*external, command="explore"))
+        self.assertIn("--external: is not an option of explore, but of run\n", self.refused(*external, command="explore"))
         self.assertFalse(self.path.exists())
 
     def test_refuses_bad_names_and_addresses(self):
