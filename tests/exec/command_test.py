@@ -237,7 +237,7 @@ class Refusals(ExecCase):
             self.assertIn(f"--clock: expected fixed:US, interval:US..US, counted[:NS], cpu[:xFACTOR] or proportional[:xFACTOR], found '{clock}'",
                           self.refused("--clock", clock, "--", "true"))
         self.assertIn("--trace: cannot be used together with --seeds", self.refused("--seeds", "1..2", "--trace", "x", "--", "true"))
-        self.assertIn("--strategy: expected random or fifo found 'best'", self.refused("--strategy", "best", "--", "true"))
+        self.assertIn("--strategy: expected fifo or random, found 'best'", self.refused("--strategy", "best", "--", "true"))
         for words, given in ((["ls"], " -- ls"), (["--seed", "3", "ls", "-l", "a b"], " --seed 3 -- ls -l 'a b'")):
             self.assertEqual(f"waitpoint: exec: expected '--' before the program: waitpoint exec{given}\n", self.refused(*words))
         self.assertIn("unknown option '--sed', did you mean '--seed'?", self.refused("--sed", "1", "--", "true"))
