@@ -71,7 +71,8 @@ def sample(schema):
         return schema["default"]
     if "$ref" in schema:
         return "fixed"
-    kind = schema.get("type", [None])[0]
+    kind = schema.get("type")
+    kind = kind[0] if isinstance(kind, list) else kind
     if kind == "object":
         return {key: sample(part) for key, part in schema["properties"].items()}
     if kind == "array":
@@ -104,7 +105,7 @@ def complete_documents():
         rest = {key: value for key, value in scout.items() if key not in ("base", "executive")}
         yield "scenario", {"format": 1, "robots": document["robots"][1:2], "robot_types": {"scout": rest}}
         for name in sorted(definitions):
-            if name.startswith("module_"):
+            if name.startswith("module_") and name != "module_meeting":  # it needs a network
                 module = {"name": name[7:], "type": name[7:], "enabled": True}
                 module |= parameters(definitions[name], module)
                 robot = document["robots"][1] | {"modules": [module], "processors": ["cpu"]}
@@ -261,7 +262,7 @@ class Schemas(unittest.TestCase):
                 validator = VALIDATORS[kind]
                 for path in mutants.places(document):
                     for what, mutant in mutants.mutants_at(validator, document, path):
-                        if len(path) > 6 and random.Random(f"{path} {what}").random() > 0.3:
+                        if len(path) > 4 and random.Random(f"{path} {what}").random() > 0.4:
                             continue
                         verdict = readers.verdict(kind, mutant)
                         is_valid = validator.is_valid(mutant)

@@ -108,12 +108,17 @@ Json parameters_of(const genom::ModuleType& type) {
   genom::NameSpace names;
   const auto map = std::make_shared<const OccupancyGrid>(1, 1, 1.0, Pose{});
   genom::ModuleSetup setup{names, type.name, genom::Settings::describing(), nullptr, map};
+  std::vector<SettingRow> rows;
   try {
-    (void)type.make(setup);
+    const std::unique_ptr<genom::Module> module = type.make(setup);
+    rows = setup.settings.rows();
+    for (const genom::ExecutionTask& task : module->tasks())
+      if (!task.has_permanent())
+        std::erase_if(rows, [&](const SettingRow& row) { return row.key == "tasks." + task.name() + ".cost_us"; });
   } catch (const BadInput&) {
-    // It needs more than settings, such as a network; those have been read.
+    rows = setup.settings.rows();  // it needs more than settings, such as a network; those have been read
   }
-  return properties_of(tree_of(setup.settings.rows()));
+  return properties_of(tree_of(rows));
 }
 
 /// The kind alone, or a map with it.
