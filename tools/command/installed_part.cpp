@@ -65,12 +65,11 @@ std::filesystem::path find_scenario(const std::string& name) {
     for (const std::string& file : {name, name + ".yaml"})
       if (std::filesystem::is_regular_file(folder / file, error)) return folder / file;
     for (const auto& entry : std::filesystem::directory_iterator(folder, error))
-      if (entry.path().extension() == ".yaml")
-        names.push_back(local.has_extension() ? entry.path().filename() : entry.path().stem());
+      if (entry.path().extension() == ".yaml") names.push_back(entry.path().stem());
   }
   std::ranges::sort(names);
   const std::vector<std::string_view> known(names.begin(), names.end());
-  if (const std::string near = did_you_mean(name, known); !near.empty())
+  if (const std::string near = did_you_mean(local.stem().string(), known); !near.empty())
     throw BadInput(name, "there is no such file, nor a shipped scenario" + near);
   return local;
 }
