@@ -92,10 +92,12 @@ void RosBagRecording::write_readings(const OfRobot& robot, const NewReadings& re
     const auto& reading = readings.of<S>();
     if (!reading) return;
     const std::string topic = "/" + robot.name + "/" + std::string(S::key);
-    if constexpr (requires { messages::message_of(*reading, robot.name); })
-      write(topic, messages::message_of(*reading, robot.name));
+    const std::string frame = requires { S::in_world_frame; }
+    ? root : robot.name;
+    if constexpr (requires { messages::message_of(*reading, frame); })
+      write(topic, messages::message_of(*reading, frame));
     else
-      write(topic, reading_message(*reading, robot.name));
+      write(topic, reading_message(*reading, frame));
   });
 }
 

@@ -129,12 +129,12 @@ TEST_F(RobotsFromMap, MismatchesAreReportedInOneLine) {
             "s.yaml:12: the row matches no robot: earlier rows match all robots 'red' of the map");
   EXPECT_EQ(complaint("robots_from_map: [{type: scout}, {type: tall}]\n"),
             "s.yaml:12: the row matches no robot: earlier rows match all robots of the map");
+  std::string sensors;
+  world::Sensors::for_each([&]<class S>() { sensors += std::string(S::key) + ", "; });
   EXPECT_EQ(
       complaint("robots_from_map: [{type: scout, start: [1, 1]}]\n"),
-      "s.yaml:12: unknown key 'start' in robot 'first' of the map, expected model, type, goals, shape, urdf, base, "
-      "lasers, sonars, bumpers, infrareds, imu, gps, battery, modules, bridge, executive, processors, programs, "
-      "control, ros, "
-      "launch or nodes");
+      "s.yaml:12: unknown key 'start' in robot 'first' of the map, expected model, type, goals, shape, urdf, base, " +
+          sensors + "modules, bridge, executive, processors, programs, control, ros, launch or nodes");
   EXPECT_EQ(complaint("robots: [{name: first, type: tall, start: [9, 9]}]\nrobots_from_map: scout\n"),
             "s.yaml:12: the map has a robot 'first' too, at floor.world:4");
   EXPECT_EQ(complaint("robots: [{name: a, type: scout, start: [9, 9]}]\nrobots_from_map: scout\n"),

@@ -12,6 +12,7 @@ namespace waitpoint::world {
 
 struct Gps {
   static constexpr std::string_view key = "gps", noun = "the gps";
+  static constexpr bool in_world_frame = true;
 
   struct Description {
     Point antenna = {};  ///< in the body's frame

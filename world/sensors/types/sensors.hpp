@@ -12,6 +12,7 @@
 // and, unless another device reports for it (sonars and battery: the base's controller),
 //
 //   Reading             a value with declared fields, `date` first: the poster of the device value KEY.reading
+//   in_world_frame      optional: true if readings are in the world's frame; otherwise they are in the body's
 //   Model               the class that makes its readings: models.hpp
 //   period(description) if it is read on demand, at that period. Other sensors measure in every step of the world, and
 //                       count their readings in Reading::number.
