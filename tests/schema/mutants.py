@@ -69,5 +69,6 @@ def mutants_at(validator, document, path):
         for number in (0, -1, 1.5, 1e300):
             yield str(number), changed(document, path, number)
         for kind, bound in sorted(bounds(validator, document, path)):
+            bound = int(bound) if isinstance(value, int) and bound == int(bound) else bound
             yield f"the {kind}", changed(document, path, bound)
             yield f"beyond the {kind}", changed(document, path, beyond(kind, bound))
