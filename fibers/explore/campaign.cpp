@@ -13,6 +13,7 @@
 #include "fibers/explore/environment.hpp"
 #include "fibers/explore/play.hpp"
 #include "fibers/explore/races/races.hpp"
+#include "fibers/explore/search/failures.hpp"
 #include "fibers/explore/strategies/fifo.hpp"
 #include "fibers/kernel/run.hpp"
 
@@ -99,7 +100,7 @@ bool Campaign::goes_on_after(const Found& found) {
   // At once, as the process may end in a later schedule.
   for (const std::string& line : races_.take(races, found.which, replay_command(to_text(found.token))))
     std::fprintf(stderr, "waitpoint: %s\n", line.c_str());
-  if (found.finding.kind != RunVerdict::Kind::race) return false;
+  if (!exploration::goes_on_after(found.finding.kind, true)) return false;
   if (!first_race_) {
     first_race_ = found;
     report_.failed_at = found.token.number;

@@ -5,6 +5,7 @@
 
 #include "fibers/explore/campaign.hpp"
 #include "fibers/explore/races/races.hpp"
+#include "fibers/explore/search/failures.hpp"
 #include "fibers/explore/search/omissions.hpp"
 #include "fibers/explore/strategies/dpor.hpp"
 #include "fibers/explore/strategies/factory.hpp"
@@ -30,8 +31,7 @@ bool Campaign::fails(Strategy& strategy, std::uint64_t number, const char* enume
   if (verdict.passed()) return false;
   Found found = last_run(verdict);
   found.token = {call_, token_digest(verdict.digest), name, options_.seed, number, {}, {}, options_.memory};
-  found.which =
-      "schedule " + std::to_string(number) + " of strategy " + name + ", seed " + std::to_string(options_.seed);
+  found.which = name_of_schedule(number, name, options_.seed);
   found.enumeration = enumeration;
   if (goes_on_after(found)) return false;
   report_.failed_at = number;

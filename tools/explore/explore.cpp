@@ -168,7 +168,7 @@ int search(ProcessTarget& target, Files& files) {
       target.options().schedule_limit_s.value_or(ExploreOptions::usual_schedule_limit_s + usual_times_max * usual_s));
   if (usual) std::fputs(usual->evidence.system_calls.c_str(), stderr);
   Discoveries discoveries(target, progress);
-  if (usual && goes_on_after(usual->kind, target.options())) {
+  if (usual && exploration::goes_on_after(usual->kind, target.options().races == Races::report)) {
     discoveries.take({std::nullopt, *usual});
   } else if (usual && !usual->passed() && files.results() == nullptr) {
     return end_at_once(target, progress, *usual, files);

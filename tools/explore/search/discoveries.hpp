@@ -7,17 +7,13 @@
 #include <string>
 #include <vector>
 
+#include "fibers/explore/search/failures.hpp"
 #include "fibers/explore/search/race_findings.hpp"
 #include "tools/explore/runs/target.hpp"
 #include "tools/explore/search/failed_run.hpp"
 #include "tools/explore/search/search_progress.hpp"
 
 namespace waitpoint::tools {
-
-/// True if the search goes on after such a failure, to one of a graver kind.
-inline bool goes_on_after(ProcessFinding::Kind kind, const ExploreOptions& options) {
-  return kind == ProcessFinding::Kind::misuse || (kind == ProcessFinding::Kind::race && options.races == Races::report);
-}
 
 class Discoveries {
  public:

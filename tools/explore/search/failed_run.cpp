@@ -5,6 +5,7 @@
 
 #include <cerrno>
 
+#include "fibers/explore/search/failures.hpp"
 #include "fibers/explore/strategies/factory.hpp"
 #include "tools/command/shell_words.hpp"
 
@@ -24,7 +25,7 @@ bool is_drawn(const FailedRun& run, const ExploreOptions& options) {
 std::string name_of(const FailedRun& run, const ExploreOptions& options) {
   if (!run.number) return "the default order";
   const std::string& strategy = run.enumeration.empty() ? options.strategy : run.enumeration;
-  return fmt::format("schedule {} of strategy {}, seed {}", *run.number, strategy, options.seed);
+  return exploration::name_of_schedule(*run.number, strategy, options.seed);
 }
 
 Plan plan_of(const FailedRun& run, const ExploreOptions& options) {

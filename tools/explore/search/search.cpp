@@ -21,7 +21,12 @@ constexpr std::uint64_t of_another_shard = std::uint64_t{1} << 63;
 }  // namespace
 
 Search::Search(ProcessTarget& target, SearchProgress& progress, Discoveries& discoveries, ResultsFile* results)
-    : target_(target), progress_(progress), discoveries_(discoveries), results_(results), batches_(target.batch_max()) {
+    : target_(target),
+      progress_(progress),
+      discoveries_(discoveries),
+      results_(results),
+      batches_(target.batch_max()),
+      reports_races_(target.options().races == Races::report) {
   const ExploreOptions& options = target.options();
   enumeration_ = Enumeration::of_options(options.strategy);
   is_exhaustive_ = enumeration_.has_value();
@@ -161,7 +166,7 @@ void Search::take_ended(const Children::Ended& ended) {
 }
 
 void Search::take(std::uint64_t place, ProcessFinding finding) {
-  const bool goes_on = finding.passed() || goes_on_after(finding.kind, target_.options());
+  const bool goes_on = finding.passed() || goes_on_after(finding.kind, reports_races_);
   if (!goes_on && results_ == nullptr && (!failure_place_ || place < *failure_place_)) {
     failure_place_ = place;
     target_.runs().kill_from(place);
@@ -196,7 +201,7 @@ void Search::count(const ProcessFinding& finding) {
   if (finding.kind != ProcessFinding::Kind::killed && !finding.was_cut) orders_.insert(finding.order);
   if (finding.passed()) return;
   ++failures_;
-  if (finding.kind == ProcessFinding::Kind::race && goes_on_after(finding.kind, target_.options())) ++raced_;
+  raced_ += finding.kind == ProcessFinding::Kind::race && reports_races_;
 }
 
 // In the order of their places; after an interruption earlier ones may be missing.

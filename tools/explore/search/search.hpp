@@ -80,6 +80,7 @@ class Search {
   Discoveries& discoveries_;
   ResultsFile* results_;
   Batches batches_;
+  const bool reports_races_;
   std::uint64_t started_ = 0, drawn_ = 0;
   std::uint64_t schedules_ = 0, failures_ = 0, raced_ = 0;
   std::unordered_set<std::uint64_t> orders_;
