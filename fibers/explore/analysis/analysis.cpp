@@ -71,6 +71,7 @@ class Analyser {
     if (!choice) return;
     analysis_.finding.choice = choice->words;
     reversed_ = reversed_events(trials, failure, *choice);
+    if (is_default_ && !traits_.is_cheap) return;  // sought for the page alone: the text is the same without one
     analysis_.text += "the last choice from which it could still have passed" +
                       std::string(is_default_ ? " by deviating from the default order" : "") + ": " + choice->words +
                       "\n" + reversed_.text;
