@@ -91,7 +91,7 @@ struct Settings {
 /// How a run ended: `own` as the program ends by itself.
 enum class Ending : std::uint8_t { own, deadlock, no_progress, idle, cut_off };
 
-struct alignas(Arena::alignment) Record {
+struct alignas(64) Record {
   static constexpr std::uint64_t mark_of_version = 0x7770657865633039;  // "wpexec09"
 
   std::uint64_t mark = mark_of_version;

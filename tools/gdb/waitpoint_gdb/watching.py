@@ -108,7 +108,7 @@ def at_an_event():
 def describe_event():
     """The current event, in words."""
     scheduler = records.scheduler()
-    where = f"event {records.events_of(scheduler)} at {records.seconds(scheduler.number('agenda_.now.ns_'))} s"
+    where = f"event {records.events_of(scheduler)} at {records.seconds(scheduler.number('agenda.now.ns_'))} s"
     if not (task := fibers.running(scheduler)):
         return where
     at = task.number("at")
