@@ -35,7 +35,7 @@ Task* wake_one_slow(Scheduler& scheduler, Object& object);
 bool waitpoint_at_present(Scheduler& scheduler, Task& task, Operation operation, Object* object);
 Fiber& exchange_with_least(Scheduler& scheduler, Task& task);
 
-// --- window.cpp ---
+// --- windows.cpp ---
 
 void stay_on_thread(Scheduler& scheduler);
 /// The main fiber, to leave the run with `state`.
@@ -45,7 +45,7 @@ Fiber& wait_for_window(Scheduler& scheduler, Task& task);
 /// Leaves the run with `state`, if a task is running.
 void leave_run(Scheduler& scheduler, RunState state);
 
-// --- unwinding.cpp, visit.cpp, tasks.cpp, watch.cpp ---
+// --- unwinding.cpp, visit.cpp, tasks.cpp, watching.cpp ---
 
 /// Refuses a call of the running task after the end of the run: false.
 bool refuse();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The result of one schedule of a target: a verdict of fixed size for the loop of a search; for a failure its words and
-// its switches; and the evidence that was wanted, made when the schedule is repeated for it (wanted.hpp).
+// its switches; and the evidence that was wanted, made when the schedule is repeated for it (wanted_evidence.hpp).
 #pragma once
 
 #include <compare>
