@@ -43,8 +43,11 @@ std::filesystem::path library_of_processes(const scenario::ProgramScenario& prog
 
 HostedProgram hosted(const scenario::ProgramScenario& program, const kernel::Robot& robot) {
   HostedProgram hosted{.name = program.name, .robot = robot.name, .words = program.words, .after = program.after};
-  if (program.is_shared_object && program.hosting == Hosting::processes)
+  if (program.is_shared_object && program.hosting == Hosting::processes) {
+    if (!std::filesystem::exists(program.words.front()))
+      throw program.written.bad("there is no program '" + program.words.front() + "'");
     hosted.words.insert(hosted.words.begin(), library_of_processes(program).replace_filename(loader_file));
+  }
   return hosted;
 }
 

@@ -120,6 +120,12 @@ class Hosted:
         self.assertNotIn("program", alone.stdout)
         self.assertNotEqual(digest_of_summary(runs[0]), digest_of_summary(alone))
 
+    def test_missing_program_is_bad_input(self):
+        run = self.office("run", programs="[{name: one, file: nowhere.so}]")
+        self.assertEqual(run.returncode, 2, run.stderr)
+        self.assertRegex(run.stderr, "^waitpoint: --set .*: there is no program '.*nowhere.so'")
+        self.assertEqual(run.stderr.count("\n"), 1, run.stderr)
+
     def test_conditions_order_the_starts(self):
         chain = PROGRAMS_OF_ROBOT.replace(", arguments: [1, 10]", ", arguments: [1, 10], after: [reader.started]")
         run = self.office("run", "--until", "5", programs=chain)
