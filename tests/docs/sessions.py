@@ -17,7 +17,6 @@ import subprocess
 import termios
 import time
 
-PROGRESS = re.compile(r"^ *\d+ s of \d+ s .*\n", re.MULTILINE)
 # What differs from run to run and from machine to machine.
 TIMES = [(re.compile(before), after) for before, after in (
     (r"in \d+\.\d s \(\d+\.\d a second\)", r"in \d+\.\d s \(\d+\.\d a second\)"),
@@ -67,7 +66,7 @@ def output_of(command, folder, environment, typed=()):
         return dialogue(command, folder, environment, typed)
     done = subprocess.run(["bash", "-c", command], cwd=folder, env=environment, stdin=subprocess.DEVNULL,
                           stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, errors="replace", timeout=TIMEOUT_S)
-    output = PROGRESS.sub("", done.stdout)
+    output = done.stdout
     return output + ("" if output.endswith("\n") or not output else "\n"), done.returncode
 
 
