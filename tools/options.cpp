@@ -79,7 +79,8 @@ Options read_options(int argc, const char* const* argv, const std::string& versi
   CommandLine line(program_name(argc, argv),
                    "Simulates robots whose software runs as simulated threads: one seed, one run, bit for bit.",
                    version, version_json);
-  line.program().own.examples = {"run office --until 60", "explore late-pom", "exec -- ./program"};
+  line.program().own.examples = {"run office --until 60", "explore late-pom --property collisions=0",
+                                 "exec -- ./program"};
   line.program().own.notes =
       "COMMAND --help tells more. Exit status: 0 success, 1 a failed expectation of the scenario or a "
       "deadlock, 2 bad input, 130 stopped by a signal.";

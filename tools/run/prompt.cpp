@@ -25,7 +25,7 @@ constexpr const char* help_text = R"(  step [N]                     execute the 
                                stalled; comparisons: < <= == >= >
   go [TIME | +SECONDS]         run, and accept commands meanwhile (on a terminal, run and until do so, too)
   pause                        stop the run; so does Ctrl-C
-  speed X                      set the speed to X simulated seconds per second; 0: unthrottled
+  speed X                      set the speed to X simulated seconds per second; max: unthrottled
   status                       show the run's time and the state of its robots
   tasks                        list all tasks, with their local times
   idle [S]                     list tasks that have waited without a timeout for S seconds of virtual time (60)
@@ -184,7 +184,7 @@ void Prompt::speed(std::string_view rest) {
   const std::string word = scenario::take_word(rest, written_);
   scenario::require_end(rest, written_);
   double speed = 0;
-  if (!parse_number(word, speed) || !is_speed(speed))
+  if (word != "max" && (!parse_number(word, speed) || !is_speed(speed)))
     throw written_.bad(std::string("expected ") + speeds + ", found '" + word + "'");
   if (session_.has_partners())
     throw written_.bad("expected no change of the speed: partners outside live in real time");

@@ -261,7 +261,7 @@ void finish(const Command& command, ExploreOptions& options, const std::optional
 
 void declare(Command& command, ExploreOptions& options) {
   command.description = "Runs a scenario or a program under many schedules and reports the first failure.";
-  command.examples = {"late-pom --iterations 200 --page finding.html", "-- ./queue_test"};
+  command.examples = {"late-pom --property collisions=0 --page finding.html", "-- ./queue_test"};
   command.usages = {"[OPTIONS] SCENARIO", "[OPTIONS] -- PROGRAM [ARGUMENTS ...]"};
   command.takes_program = true;
   command.former_flags = {"--exec"};
