@@ -18,17 +18,27 @@ namespace {
 using genom::SettingRow;
 using scenario::Json;
 
+struct NamedBranch;
+
 /// Rows by the parts of their keys, which are joined by dots.
 struct Branch {
   const SettingRow* row = nullptr;
-  std::vector<std::pair<std::string, Branch>> parts;  // in the order in which they are read
+  std::vector<NamedBranch> parts;  // in the order in which they are read
 
-  Branch& part(const std::string& name) {
-    for (auto& [known, branch] : parts)
-      if (known == name) return branch;
-    return parts.emplace_back(name, Branch()).second;
-  }
+  Branch& part(const std::string& name);
 };
+
+struct NamedBranch {
+  std::string name;
+  Branch branch;
+};
+
+Branch& Branch::part(const std::string& name) {
+  for (NamedBranch& known : parts)
+    if (known.name == name) return known.branch;
+  parts.push_back({name, {}});
+  return parts.back().branch;
+}
 
 Branch tree_of(const std::vector<SettingRow>& rows) {
   Branch root;
@@ -89,7 +99,7 @@ Json object_of(Json properties) {
 Json schema_of(const std::string& name, const Branch& branch) {
   if (name == "clock") return {{"$ref", "#/$defs/clock"}};
   if (branch.row != nullptr && branch.row->kind == SettingRow::Kind::list) {
-    Json list = scenario::list_schema(schema_of("", branch.parts.front().second));
+    Json list = scenario::list_schema(schema_of("", branch.parts.front().branch));
     list["maxItems"] = branch.row->most;
     return list;
   }
