@@ -25,7 +25,7 @@ struct Rule {
 
 /// The words with which the program was called; former spellings are replaced.
 struct Invocation {
-  std::string program;             ///< its file, as called
+  std::string program;             ///< "waitpoint", or the file of a program with modules of its own, as called
   std::vector<std::string> words;  ///< the command and all that follows
 };
 

@@ -163,11 +163,11 @@ void CommandLine::parse(int argc, const char* const* argv) {
   if (given_ == nullptr)
     throw BadInput(where, "expected a command: " + all_commands(program_) + "; see " + program_.name + " --help");
   words.erase(words.begin(), name + 1);
+  const std::string called = program_.name == "waitpoint" ? program_.name : argv[0];
   const bool begins_with_help = !words.empty() && (words[0] == "-h" || words[0].starts_with("--help"));
-  if (given_->takes_all_words && !begins_with_help)
-    return given_->take({}, std::move(words), {argc > 0 ? argv[0] : program_.name, {}});
+  if (given_->takes_all_words && !begins_with_help) return given_->take({}, std::move(words), {called, {}});
   replace_former_spellings(words, *given_);
-  const Invocation invocation{argc > 0 ? argv[0] : program_.name, words};
+  const Invocation invocation{called, words};
   Words program;
   if (const auto dashes = std::ranges::find(words, "--"); given_->takes_program && dashes != words.end()) {
     program.assign(dashes + 1, words.end());
