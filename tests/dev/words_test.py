@@ -3,7 +3,7 @@
 
 import unittest
 
-from dev_test import InATemporaryFolder
+from temporary_folder import InATemporaryFolder
 
 
 class WithATable(InATemporaryFolder):
