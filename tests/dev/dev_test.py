@@ -48,7 +48,7 @@ class Dependencies(InATemporaryFolder):
         self.assertEqual(status, 0, output)
         self.assertIn("4 files in 4 folders, 0 violations", output)
 
-    def test_each_forbidden_include_is_told_with_its_line(self):
+    def test_each_forbidden_include_is_reported_with_its_line(self):
         self.includes("core/time.hpp")
         self.includes("world/arc.hpp")
         self.includes("modules/genom/module.hpp")
@@ -156,7 +156,7 @@ class Files(InATemporaryFolder):
         self.write("build/junk.cpp", "")
         self.assertEqual(self.check("files")[0], 0)
 
-    def test_each_broken_rule_is_told(self):
+    def test_each_broken_rule_is_reported(self):
         for text in ["int a;\n", LICENCE + "// TO" "DO more\n", LICENCE + '"/ho' 'me/someone/x"\n']:
             with self.subTest(text=text):
                 self.write("core/time.hpp", text)
@@ -182,7 +182,7 @@ class Symbols(InATemporaryFolder):
         status, output = self.symbols_of("extern int other(); int twice() { return 2 * other(); }")
         self.assertEqual(status, 0, output)
 
-    def test_each_forbidden_thing_is_told(self):
+    def test_each_forbidden_call_is_reported(self):
         for code, what in [
             ("void f() { throw 1; }", "throws"),
             ("int* f() { return new int[3]; }", "allocates"),

@@ -39,7 +39,7 @@ class Parts(unittest.TestCase):
         return subprocess.run(["bash", "-euo", "pipefail", "-c", script], check=True, capture_output=True, text=True,
                               env=environment).stdout.strip()
 
-    def test_a_word_that_is_no_part_is_one_line(self):
+    def test_an_unknown_part_is_one_line(self):
         done = subprocess.run([ROOT / "dev", "add", "bulet"], capture_output=True, text=True)
         self.assertEqual(done.returncode, 2)
         self.assertEqual(done.stderr, "dev: add: expected parts of accesses bags bullet meshes ranks tcl programs, found 'bulet'\n")

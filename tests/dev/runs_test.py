@@ -44,7 +44,7 @@ class Wraps(InATemporaryFolder):
         self.write("a_1.orig.tar.bz2", "")
         self.assertEqual(wraps.find_archive(self.folder, "a").name, "a_1.orig.tar.bz2")
 
-    def test_a_copy_follows_the_tree_and_leaves_what_is_built_in_it(self):
+    def test_a_copy_follows_the_tree_and_keeps_its_build_folders(self):
         tree, copy = self.folder / "tree", self.folder / "copy"
         for path in ["core/a.cpp", "subprojects/packagefiles/a/meson.build", "subprojects/a.wrap", "build/b.o", ".git/c"]:
             self.write(f"tree/{path}", path)
@@ -129,7 +129,7 @@ class Endurance(unittest.TestCase):
     def test_good_runs_pass(self):
         self.assertEqual(list(endurance.violations(self.runs(), self.UNTIL_S)), [])
 
-    def test_each_fault_is_told(self):
+    def test_each_fault_is_reported(self):
         def lose(run):
             goal = run.summary["robots"][1]["goal_reports"][0]
             goal.update(times_reached=899, report="the way stays blocked", time_s=5000)

@@ -74,7 +74,7 @@ class Links(unittest.TestCase):
     def test_pictures_within_links_are_links_too(self):
         self.assertEqual(links("[![a](b.svg)](c.html), `[no](x)`, [d](e.md#f)"), ["b.svg", "c.html", "e.md#f"])
 
-    def test_a_wrong_link_is_told(self):
+    def test_a_wrong_link_is_reported(self):
         page = ROOT / "README.md"
         self.assertEqual(mistake(page, "docs/none.md"), "no such file")
         self.assertEqual(mistake(page, "docs/gdb.md#none"), "no such heading")

@@ -33,7 +33,7 @@ class Accesses(ExecCase):
             for options in ((), ("--switch-at", "accesses")):
                 self.assertTrue(self.passes(case, *options).endswith("; switches at calls only: " + why), (case, options))
 
-    def test_find_by_default_what_no_switch_at_a_call_shows(self):
+    def test_find_by_default_failures_without_a_switch_at_a_call(self):
         for case in ("update", "copies", "padding"):
             self.assertNotIn("failed at", self.passes(case, "--switch-at", "calls", schedules="200"))
             done = explore("--iterations", "500", "--", self.program, case)
@@ -48,7 +48,7 @@ class Accesses(ExecCase):
     def test_are_switch_points_of_all_schedules_if_a_thread_waits_in_a_loop_without_a_call(self):
         self.assertRegex(self.passes("turns", "--schedule-limit", "2"), r"60 schedules, \d+ distinct, 0 failed")
 
-    def test_take_turns_with_calls_whatever_runs_the_schedules(self):
+    def test_take_turns_with_calls_in_each_kind_of_process(self):
         results, lines = self.folder / "results", {}
         for options in ((), ("--jobs", "2"), ("--fork-each",)):
             self.passes("signals", "--results", results, *options)

@@ -49,7 +49,7 @@ class Exhausted(ExecCase):
         source.write_text(STAGES % (stages, fails))
         return self.compile(str(source))
 
-    def test_ends_and_says_what_it_assumes(self):
+    def test_ends_and_names_its_assumptions(self):
         program = self.alternating(3, 0)
         lines = set()
         for options in ((), ("--jobs", "3"), ("--fork-each",)):
@@ -67,7 +67,7 @@ class Exhausted(ExecCase):
             done = explore("--iterations", str(iterations), "--", self.alternating(3, 0))
             self.assertRegex(done.stdout, rf": {iterations} schedules, \d+ distinct, 0 failed, .* a second\)\n$")
 
-    def test_finds_what_draws_do_not(self):
+    def test_finds_failures_that_random_draws_miss(self):
         program = self.alternating(5, 1)
         done = explore("--strategy", "pct:1", "--iterations", "5000", "--", program)
         self.assertEqual(done.returncode, 1, done.stdout)

@@ -38,7 +38,7 @@ class Ends(ExecCase):
             self.assertIn(f"terminated by signal {-expected}", text)
             self.assertRegex(text, r"replay: waitpoint exec --seed 1 -- \S+ends ")
 
-    def test_by_a_signal_that_is_sent_to_waitpoint_alone(self):
+    def test_by_a_signal_to_waitpoint_alone(self):
         for sent in (signal.SIGINT, signal.SIGQUIT, signal.SIGTERM):
             words = [str(word) for word in (WAITPOINT, "exec", "--", "cat")]
             # The parent may have these ignored, as a shell does for background jobs.
@@ -50,7 +50,7 @@ class Ends(ExecCase):
                 running.send_signal(sent)
                 self.assertEqual(running.wait(20), -sent)
 
-    def test_by_a_deadlock_that_is_explained(self):
+    def test_by_a_deadlock_with_an_explanation(self):
         status, _, text = self.end("deadlock")
         self.assertEqual(status, 124)
         self.assertIn("deadlock at 4.", text)
@@ -77,7 +77,7 @@ class Ends(ExecCase):
 
 
 class Traces(ExecCase):
-    def test_hold_what_happened_up_to_a_crash(self):
+    def test_hold_all_events_up_to_a_crash(self):
         for way, status in (("crash", -11), ("deadlock", 124)):
             trace = self.folder / "trace.json"
             done = subprocess.run([str(WAITPOINT), "exec", "--trace", str(trace), "--", str(self.compile("ends.c")), way],
@@ -140,7 +140,7 @@ class Options(ExecCase):
         for one, other in zip(self.output("random")[0], self.output("random", seed=2)[0]):
             self.assertNotEqual(one, other)
 
-    def test_a_date_that_is_set_is_the_simulations_own(self):
+    def test_setting_the_date_sets_that_of_the_simulation(self):
         if os.geteuid() == 0:
             self.assertEqual(self.output("date")[0], ["1000000000"])
         self.assertLess(abs(time.time() - os.stat("/proc/self").st_ctime), 100)
@@ -149,7 +149,7 @@ class Options(ExecCase):
 class Deadlocks(ExecCase):
     """Waits for descriptors that only the program itself could make ready."""
 
-    def test_are_told_whatever_made_the_descriptor(self):
+    def test_are_reported_for_descriptors_of_each_kind(self):
         program = self.compile("stuck.c")
         for way in "pipe", "pipe2", "socketpair", "eventfd", "dup", "dup2", "dup3", "fcntl", "epoll_create", "epoll_create1":
             status, _, text = execute(1, program, way)

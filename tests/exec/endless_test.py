@@ -124,7 +124,7 @@ class Signals(ExecCase):
                 self.assertIn(f"waitpoint: ended by signal {int(sent)} ", text)
                 self.assertIn("main waits for descriptor 0 (outside)\n", text)
 
-    def test_end_all_processes_and_name_what_each_does(self):
+    def test_end_all_processes_and_name_the_calls_of_each(self):
         script = "sh -c 'read line <&3' & sh -c 'echo ready; while :; do :; done' & wait"
         for to_group in (False, True):
             status, text, _ = self.run_and_send(signal.SIGTERM, ["sh", "-c", f"exec 3<&0; {script}", "mark-of-all"], to_group=to_group)

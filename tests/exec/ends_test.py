@@ -8,7 +8,7 @@ from exec_case import ExecCase, WAITPOINT, explore, replay_words
 
 
 class Failures(ExecCase):
-    def test_tells_how_a_run_ended_and_what_its_threads_did_last(self):
+    def test_has_the_end_of_a_run_and_the_last_calls_of_its_threads(self):
         program = self.compile("ends.c", "-rdynamic")
         for way, expected in (("exit", "exit status 3"), ("_exit", "exit status 4"), ("crash", "terminated by signal 11"),
                               ("abort", "terminated by signal 6"), ("kill", "terminated by signal 9"), ("deadlock", "deadlock"),
@@ -19,7 +19,7 @@ class Failures(ExecCase):
             self.assertIn("thread 1#1 of ends  timeout sleep", done.stdout)
             self.assertEqual(explore(*replay_words(done.stdout)).returncode, 1, way)
 
-    def test_call_stacks_of_the_threads_are_told(self):
+    def test_call_stacks_of_the_threads_are_reported(self):
         program = self.compile("stacks.c", "-g", "-O0")
         stacks = {
             "crash": r"  thread 1 is terminated by signal 11\n      at crash at \S*stacks\.c:\d+\n      at run at \S*stacks\.c:\d+\n",

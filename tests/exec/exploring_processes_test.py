@@ -23,7 +23,7 @@ class Processes(ExecCase):
         done = explore("--strategy", "dfs", "--children", "native", "--", "sh", "-c", "/bin/true; /bin/true")
         self.assertTrue(done.stdout.splitlines()[0].endswith("; exhaustive, switching at calls; native children in one timing each"), done.stdout)
 
-    def test_events_and_switches_of_all_processes_are_told(self):
+    def test_events_and_switches_of_all_processes_are_reported(self):
         trace = self.folder / "trace.json"
         done = explore("--strategy", "dfs", "--trace", trace, "--", self.compile("two_processes.c"))
         self.assertRegex(done.stdout, r"process two_processes(#1001)? goes first instead of process two_processes(#1001)?\n")

@@ -168,7 +168,7 @@ class Exhaustive(ExecCase):
 class Conditions(ExecCase):
     """Properties shared by all runs, besides their schedules."""
 
-    def test_computing_costs_what_the_clock_says(self):
+    def test_computing_takes_the_time_of_the_clock(self):
         program = self.compile("lost_update.c")
         done = explore("--clock", "fixed:100", "--strategy", "random", "--", program)
         self.assertRegex(done.stdout, r"failed at 0\.00[1-9]\d+ s: exit status 1")
@@ -252,7 +252,7 @@ class Instrumented(ExecCase):
         self.assertTrue(line.endswith("exhaustive with at most 2 preemptions, except switches at first accesses to memory that "
                                       "the default order does not share"), line)
 
-    def test_races_are_told_with_both_accesses_and_their_lines(self):
+    def test_races_are_reported_with_both_accesses_and_their_lines(self):
         done = self.execute()
         self.assertEqual((done.returncode, done.stdout), (0, "2 seen\n"), "they did no harm in this schedule")
         self.assertRegex(done.stderr, r"data race at 0x\w+ .*\n  first: write of 4 bytes by task thread 1#1, after its event \d+\n"

@@ -74,7 +74,7 @@ class Finding(ExecCase):
         for made in (self.page, self.file):
             made.unlink(missing_ok=True)
 
-    def test_a_page_and_a_file_have_what_the_report_says(self):
+    def test_page_and_file_have_the_contents_of_the_report(self):
         done = explore("--page", self.page, "--finding", self.file, "--", self.program)
         self.assertEqual(done.returncode, 1, done.stderr)
         finding = json.loads(self.file.read_text())
@@ -153,7 +153,7 @@ class Finding(ExecCase):
             self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
             self.assertFalse(self.page.exists())
 
-    def test_view_refuses_what_is_no_finding(self):
+    def test_view_refuses_other_files_than_findings(self):
         explore("--finding", self.file, "--", self.program)
         text = self.file.read_text()
         broken = self.folder / "broken.json"
@@ -199,7 +199,7 @@ class Finding(ExecCase):
             self.assertEqual(data_of(served.get()[1])["search"]["title"], f"{self.program} locked")
         self.assertEqual(served.status, 0)
 
-    def test_a_search_that_is_refused_does_not_go_on_being_shown(self):
+    def test_a_refused_search_ends_its_server(self):
         done = explore("--serve", "--", self.folder / "nowhere")
         self.assertEqual(done.returncode, 2)
 

@@ -44,7 +44,7 @@ class Misuse(ExecCase):
             self.assertEqual(done.returncode, 1, way)
             self.assertRegex(done.stdout, rf"failed at \S+ s: misuse: {MISUSES[way][0]}\n", way)
 
-    def test_is_one_of_what_is_destroyed_while_a_thread_comes_to_it(self):
+    def test_is_the_destruction_of_an_object_that_a_thread_is_about_to_use(self):
         done = self.run_it(["explore", "--iterations", "300"], "destroyed meanwhile")
         self.assertRegex(done.stdout, r": 300 schedules, \d+ distinct, \d+ failed")
         self.assertRegex(done.stdout, "misuse: thread 1 locks (read-write lock rwlock|mutex mutex), which was destroyed")
@@ -55,7 +55,7 @@ class Misuse(ExecCase):
         self.assertRegex(done.stdout, r" failed at \S+ s: terminated by signal 4 \(Illegal instruction\)\n")
         self.assertRegex(done.stdout, r"also found, by the default order: misuse: main unlocks mutex mutex, which is not locked\nreplay: ")
 
-    def test_is_not_what_reuses_memory(self):
+    def test_is_not_the_reuse_of_memory(self):
         done = self.run_it(["exec"])
         self.assertEqual((done.returncode, "misuse at" in done.stderr), (0, False), done.stderr)
         done = self.run_it(["explore", "--iterations", "100"])

@@ -125,7 +125,7 @@ class Partners(ExecCase):
         self.assertGreaterEqual(ticks, 5)
         self.assertLess(ticks, 1000)
 
-    def test_a_run_that_is_ahead_while_it_waits_for_input_says_so(self):
+    def test_a_run_ahead_of_its_input_is_reported(self):
         program = "import sys, threading, time\nthreading.Thread(target=sys.stdin.readline).start()\nfor i in range(50): time.sleep(1)"
         with subprocess.Popen(self.words(program), stdin=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as running:
             line = running.stderr.readline()

@@ -61,7 +61,7 @@ class Regression(ExecCase):
         self.assertGreater(tested, 0, f"there are no compiled tests in {SOURCES}/src/regress")
         print(f"{tested} tests of pocolibs pass, with one digest for a seed", file=sys.stderr)
 
-    def test_a_program_prints_what_it_does_with_our_libraries(self):
+    def test_a_program_has_the_output_of_our_libraries(self):
         with tempfile.TemporaryDirectory() as folder:
             crane = pathlib.Path(folder) / "crane"
             paths = [word for path in LIBRARIES for word in (f"-L{path}", f"-Wl,-rpath,{path}")]

@@ -26,7 +26,7 @@ class RacesBesideFailures(ExecCase):
         self.assertIn(f"waitpoint: failed: {words}", again.stderr)
         self.assertIn("the same run as in the record", again.stderr)
 
-    def test_do_not_hide_them_and_are_told_once_as_they_are_found(self):
+    def test_do_not_hide_them_and_are_reported_once_when_found(self):
         for jobs in ("1", "2"):
             done = explore("--jobs", jobs, "--", self.program, "abort")
             self.assertEqual(done.returncode, 1)
@@ -61,7 +61,7 @@ class RacesBesideFailures(ExecCase):
         self.assertIn(" --races ignore --replay ", done.stdout)
         self.check_replays(re.findall(r"^replay: (.*)$", done.stdout, re.M)[0], "terminated by signal 6")
 
-    def test_the_first_failure_of_each_kind_is_told_the_gravest_first(self):
+    def test_the_first_failure_of_each_kind_is_reported_in_order_of_severity(self):
         results = self.folder / "results"
         for way, gravest, other in (("abort-or-deadlock", r"terminated by signal 6 \(Aborted\)", "deadlock"),
                                     ("crash-or-deadlock", r"terminated by signal 11 \(Segmentation fault\)", "deadlock")):
@@ -73,7 +73,7 @@ class RacesBesideFailures(ExecCase):
             self.assertEqual(len(done.stderr.splitlines()), 4, done.stderr)
             self.assertEqual(len(results.read_text().splitlines()), 61)
 
-    def test_are_told_before_the_end(self):
+    def test_are_reported_before_the_end(self):
         results = self.folder / "endless"
         command = [str(word) for word in (WAITPOINT, "explore", "--iterations", "1000000", "--results", results, "--",
                                           self.program, "abort")]

@@ -162,7 +162,7 @@ class Hosted:
         self.assertIn("a: lower upper program, 3 4 7 7 1, 7\n" + self.DESTROYED.format(3, 4), run.stdout)
         self.assertIn("b: lower upper program, 5 6 11 11 1, 7\n" + self.DESTROYED.format(5, 6), run.stdout)
 
-    def test_each_opens_its_own_libraries_and_those_that_it_finds(self):
+    def test_each_opens_its_own_libraries_and_plugins(self):
         def expected(name, count):
             return f"{name}: lower plugin noted, {count} {count} {count + 1}\nplugin destroyed at {count}\nlower destroyed at {count}\n"
 
@@ -235,7 +235,7 @@ class InProcess(Hosted, unittest.TestCase):
             tasks = {line.split()[2] for line in events.read_text().splitlines() if "writer:" in line}
             self.assertTrue(tasks, "no event of a program")
 
-    def test_the_example_that_is_shipped_runs_as_it_is_described(self):
+    def test_the_shipped_example_runs_as_described(self):
         with tempfile.TemporaryDirectory() as folder:
             scenarios = shutil.copytree(SCENARIO.parent, pathlib.Path(folder) / "scenarios")
             lines = (scenarios / "office-programs.yaml").read_text().splitlines()
@@ -331,7 +331,7 @@ class Commands(unittest.TestCase):
         alone = office("run", "--until", "5", programs="[]")
         self.assertNotEqual(digest_of_summary(runs[0]), digest_of_summary(alone))
 
-    def test_several_share_what_processes_share(self):
+    def test_several_share_the_objects_of_processes(self):
         with tempfile.TemporaryDirectory() as folder:
             pipe = f"{folder}/pipe"
             os.mkfifo(pipe)

@@ -115,7 +115,7 @@ class Instances(unittest.TestCase):
         runs = [execute(several(*order), "--strategy", "fifo") for order in (programs, programs[::-1])]
         self.assertEqual(digest(runs[0]), digest(runs[1]))
 
-    def test_names_are_given_or_those_of_the_files(self):
+    def test_names_are_by_default_those_of_the_files(self):
         run = execute(several([f"front={INSTANCE}", 1, 2], instance(2), instance(3)))
         self.assertIn("exit status: front 2, instance-program#1 0, instance-program#2 0\n", run.stderr)
         self.assertEqual(run.returncode, 2)
@@ -163,7 +163,7 @@ class Ends(unittest.TestCase):
     def test_a_crash(self):
         self.ends("crash", 139, destroyed=False, first="waitpoint: one was terminated by signal 11 (Segmentation fault)\n")
 
-    def test_a_deadlock_of_those_that_are_left_names_the_program(self):
+    def test_a_deadlock_of_the_remaining_programs_names_them(self):
         run = execute(several([f"other={INSTANCE}", "other"], [f"one={INSTANCE}", "one", "deadlock"]))
         self.assertEqual(run.returncode, 124)
         self.assertIn("  one: main waits for mutex", run.stderr)
@@ -216,7 +216,7 @@ class Conditions(unittest.TestCase):
         client = "import socket; socket.create_connection(('127.0.0.1', %d)).send(b'it')" % port
         self.assertEqual(self.said(f"after:tcp:{port}", "a=python3", "-c", client, "::", "b=python3", "-c", server), ["heard it"])
 
-    def test_a_file_that_does_not_come_is_told(self):
+    def test_a_file_that_does_not_appear_is_reported(self):
         run = execute(["a=true", "::", "after:/nonexistent/x", "b=true"], "--idle-limit", "1")
         self.assertEqual(run.returncode, 124, run.stderr)
         self.assertEqual(run.stderr.splitlines()[0],
@@ -263,7 +263,7 @@ class BadInput(unittest.TestCase):
     def test_a_name_given_twice(self):
         self.refused(several([f"a={INSTANCE}", 1], [f"a={INSTANCE}", 1]), "two programs are called 'a'")
 
-    def test_a_file_that_is_cut_off(self):
+    def test_a_truncated_file(self):
         with tempfile.TemporaryDirectory() as folder:
             whole = pathlib.Path(INSTANCE).read_bytes()
             for size in (10, 64, 1000, 6000):
@@ -273,7 +273,7 @@ class BadInput(unittest.TestCase):
                 self.assertNotEqual(run.returncode, 0, f"{size}: {run.stderr}")
                 self.assertRegex(run.stderr, r"cut\.so' is not an executable|cut was terminated|cut\.so")
 
-    def test_a_library_that_is_missing(self):
+    def test_a_missing_library(self):
         if shutil.which("cc") is None:
             self.skipTest("no compiler")
         with tempfile.TemporaryDirectory() as folder:

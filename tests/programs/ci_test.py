@@ -32,7 +32,7 @@ class Templates(unittest.TestCase):
         self.assertEqual(done.returncode, status, done.stdout + done.stderr)
         return done.stdout
 
-    def test_a_summary_of_what_passes(self):
+    def test_a_summary_of_passing_schedules(self):
         summary = self.shell(SCRIPT, OFFICE, "--until", "60", "--iterations", "2", "--set", "expect.goals_reached=1")
         self.assertRegex(summary, r"\| 1 of 9 \| 0 \| 0\.\d{1,3} m \| `wp1:[0-9a-f]{16}` \|")
         self.assertIn("2 schedules passed.", summary)
@@ -61,7 +61,7 @@ class Templates(unittest.TestCase):
         replay = re.search(r"^    (waitpoint run .*)$", summary, re.MULTILINE)[1]
         self.assertIn("0 of 9", self.shell(*shlex.split(replay), status=1))
 
-    def test_an_exploration_that_is_interrupted_is_told(self):
+    def test_an_interrupted_exploration_is_reported(self):
         stand_in = self.folder / "bin/waitpoint"
         stand_in.parent.mkdir()
         stand_in.write_text(f"#!/bin/sh\n[ $1 = explore ] && set -- timeout 2 {BUILD}/tools/waitpoint \"$@\" || "
@@ -71,7 +71,7 @@ class Templates(unittest.TestCase):
         summary = self.shell(SCRIPT, OFFICE, "--until", "5", "--set", "expect.goals_reached=0", "--iterations", "1000000", status=1)
         self.assertRegex(summary, r"\*\*Exploring ended early:\*\* interrupted, after \d+ schedules\.")
 
-    def test_bad_input_is_told(self):
+    def test_bad_input_is_reported(self):
         (self.folder / "bad.yaml").write_text("nonsense: 1\n")
         self.assertIn("bad.yaml:1: expected key 'format: 1'", self.shell(SCRIPT, "bad.yaml", status=2))
 

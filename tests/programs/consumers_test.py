@@ -102,7 +102,7 @@ class Consumers(Installed):
             self.assertIn("on real threads", run(folder / "build/robots_native", "run", HERE / "blinker/blinker.yaml", timeout=60))
 
     @unittest.skipUnless(shutil.which("cmake"), "cmake is not installed")
-    def test_cmake_refuses_what_the_build_lacks(self):
+    def test_cmake_refuses_components_that_the_build_lacks(self):
         for component, words in {"pocolibs": "Build files have been written", "ghosts": "this build of waitpoint has no library 'ghosts'"}.items():
             folder = self.project(f"with-{component}", "CMakeLists.txt", CMAKE_COMPONENTS.format(component))
             done = subprocess.run(["cmake", "-S", folder, "-B", folder / "build", f"-DCMAKE_PREFIX_PATH={self.prefix}"],

@@ -56,7 +56,7 @@ class Transports(unittest.TestCase):
                     self.assertEqual(self.heard(talker, listener, "--seed", 1), first)
                     self.assertNotEqual(self.heard(talker, listener, "--seed", 2)[1], first[1])
 
-    def test_losses_are_seen_by_those_that_do_not_ask_again(self):
+    def test_losses_are_seen_by_best_effort_readers(self):
         lossy = ("--loss", 0.1, "--delay", "100..400")
         for name, environment in (("cyclone", ()), ("fast", BY_UDP)):
             with self.subTest(name=name):

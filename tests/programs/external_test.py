@@ -141,7 +141,7 @@ class Faults(External):
         self.assertEqual(run.end(), 0, run.told())
         self.assertIn("ada: the connection to the source ended after 2 reports\nada: a source of reports is connected\n", run.told())
 
-    def test_silence_is_told_and_the_body_stays(self):
+    def test_silence_is_reported_and_the_body_stays(self):
         run = self.start(settings="silent_s=0.05")
         ada = self.connect(run)
         ada.report(1, 10, 2, "v_m_s=0.5")
@@ -211,7 +211,7 @@ class Refusals(External):
         self.assertEqual(run.end(), 0, run.told())
         self.assertFalse(self.path.exists())
 
-    def test_an_address_that_is_a_file_but_no_socket_is_refused_and_the_file_stays(self):
+    def test_the_address_of_a_regular_file_is_refused_and_the_file_stays(self):
         self.path.write_text("precious")
         pipe = self.folder / "pipe"
         os.mkfifo(pipe)

@@ -109,7 +109,7 @@ class Looking(unittest.TestCase):
                 "print workshop.clocks", "fiber apply all bt", "fiber apply shop.keeper 1 bt 1", "blocked-on bench",
                 "blocked-on condition variable#3", "blocked-on workshop.door"]
 
-    def test_shows_parked_fibers_and_what_they_wait_for(self):
+    def test_shows_parked_fibers_and_their_waits(self):
         commands = list(self.COMMANDS)
         commands[5:6] = ["fiber 4", "info locals"]
         told = of_clock_makers("break-time 0.001", "run", *commands, "delete", "continue")
@@ -203,7 +203,7 @@ class Back(unittest.TestCase):
         self.assertEqual(digest(told[12]), plain_digest())
         self.assertIn("exited normally", told[12])
 
-    def test_goes_back_where_every_event_was_asked_for(self):
+    def test_goes_back_in_a_run_that_stops_at_every_event(self):
         told = of_clock_makers("break-time 0", "run", "next-event", "next-event", "back", "back", "virtual-time", "back",
                                "next-event", "continue")
         self.assertIn("event 2 at", told[4])
@@ -281,7 +281,7 @@ class Office(unittest.TestCase):
         self.assertLessEqual({"plan", "tcl.control", "script", "control", *modules, "bridge", "world"}, set(names), told[2])
         self.assertRegex(told[4], r"(?s)TaskInterpreter::request.*Tcl_EvalEx.*TclExecutive::serve")
 
-    def test_the_command_says_what_it_lacks(self):
+    def test_the_command_names_a_missing_part(self):
         def status(*words, **environment):
             done = subprocess.run([BUILD / "tools/waitpoint", "gdb", *words], capture_output=True, text=True,
                                   env={**CLEAN, **environment})

@@ -106,7 +106,7 @@ class Documents(unittest.TestCase):
             done = self.call(*words, "--json")
             self.assertEqual((done.returncode, done.stdout, done.stderr.count("\n")), (2, "", 1), words)
 
-    def test_no_file_goes_to_where_the_document_goes(self):
+    def test_no_file_goes_to_standard_output_beside_the_document(self):
         plan = ROOT / "scenarios/plans/guide.yaml"
         for words in (["run", OFFICE, "--summary"], ["run", OFFICE, "--events"], ["plan", plan, "--picture"],
                       ["explore", OFFICE, "--page"], ["play", "run.log", "--map"], ["fit", "run.log", "--out"],
@@ -164,7 +164,7 @@ class Documents(unittest.TestCase):
         self.assertIn("dies of SIGSEGV", result["crash"])
         self.assertGreaterEqual(result["simulated_s"], 59)
 
-    def test_a_run_that_is_shown(self):
+    def test_a_served_run(self):
         output, status = self.signalled("the run is over", signal.SIGINT, "--serve", "--until", "1")
         self.assertEqual((status, self.checked("run", output, 1)["outcome"]), (1, "time limit"))
 

@@ -23,7 +23,7 @@ class Pocolibs(Installed):
         environment = {**os.environ, **{f"WAITPOINT_{key}": str(value) for key, value in variables.items()}}
         return subprocess.run([program], env=environment, capture_output=True, text=True, timeout=120)
 
-    def test_a_program_prints_what_it_does_with_pocolibs(self):
+    def test_a_program_has_the_output_of_pocolibs(self):
         # The file is what it prints natively, compiled with pocolibs.
         expected = (HERE / "crane/crane.out").read_text()
         crane = self.program("crane")

@@ -215,13 +215,13 @@ class Unrepeatable(Installed):
                                  rf"  is                no event: {how}\n  differs in        the presence of the event\n"
                                  r"  previous event    0\.\d+ s, robot gambler, task unrepeatable\.main: ")
 
-    def test_a_perturbed_process_that_dies_is_told_with_the_event_it_did_not_come_to(self):
+    def test_a_perturbed_process_that_dies_is_reported_with_the_event_it_did_not_reach(self):
         self.assert_cut_off(r"the process was terminated by signal 4 \(Illegal instruction\)", "crash")
 
     def test_a_perturbed_process_is_not_waited_for_without_end(self):
         self.assert_cut_off("the process exceeded 2 s and was stopped", "endless_loop", WAITPOINT_TIME_LIMIT="2")
 
-    def test_a_run_that_fails_in_one_process_only_is_told(self):
+    def test_a_failure_in_one_process_only_is_reported(self):
         status, output = self.check("exception")
         self.assertEqual(status, 1, output)
         self.assertRegex(output, r"not the same run: the run in a perturbed process differs from the first\n  event +\d+\n"
@@ -358,7 +358,7 @@ class RacyCounter(Installed):
         self.assertEqual(status, 0, output)
         self.assertRegex(output, r"^passed \d+ schedules, 4 distinct: exhausted")
 
-    def test_they_are_found_in_what_another_compiler_made(self):
+    def test_they_are_found_in_the_code_of_another_compiler(self):
         if shutil.which("clang++") is None:
             self.skipTest("there is no clang++ here")
         other = {"package": "waitpoint-races-clang", "compiler": "clang++"}

@@ -70,7 +70,7 @@ class Nodes(NodesCase):
         digest = re.search(r"digest +(wp1:\w+)", done.stdout).group(1)
         self.assertEqual(re.search(r"digest +(wp1:\w+)", repeated.stdout).group(1), digest)
 
-    def test_a_node_that_is_not_there(self):
+    def test_a_missing_node(self):
         done = self.run_hall("    nodes:\n      - {name: driver, package: no_package, type: driver}\n")
         self.assertEqual(done.returncode, 2)
         self.assertRegex(done.stderr, r"hall\.yaml:17: there is no package 'no_package', looked for in .*\n")
@@ -168,7 +168,7 @@ class Nodes(NodesCase):
         self.assertEqual(done.returncode, 2)
         self.assertRegex(done.stderr, r"hall\.yaml:16: expected the clock of node 'slow' to be fixed:US, .*, found 'cpu'\n")
 
-    def test_pictures_and_recordings_have_what_nodes_publish(self):
+    def test_pictures_and_recordings_have_the_topics_of_nodes(self):
         node = self.node("belief", "import rospy\nfrom geometry_msgs.msg import Pose, PoseArray\n"
                          "rospy.init_node('belief')\nout = rospy.Publisher('cloud', PoseArray, queue_size=1, latch=True)\n"
                          "cloud = PoseArray(poses=[Pose() for _ in range(7)])\nfor i, pose in enumerate(cloud.poses):\n"

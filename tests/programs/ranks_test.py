@@ -98,7 +98,7 @@ class EqualRuns(unittest.TestCase):
     def test_a_part_of_a_run_that_ends_within_a_step_in_another_order(self):
         self.assert_equal(ROOT / "scenarios/office-10.yaml", (2, 4) if LONG else (2,), "--until", "12.3456", "--strategy", "random", "--seed", "7")
 
-    def test_a_crowd_some_of_which_have_no_goals(self):
+    def test_a_crowd_with_robots_without_goals(self):
         self.assert_equal(crowd(60), (2, 4) if LONG else (4,), "--until", "3")
         self.assert_equal(crowd(9, goals=False), (2,), "--until", "2")
 
@@ -288,7 +288,7 @@ class Faults(Installed):
         os.kill(self.ranks()[0], signal.SIGKILL)
         self.assertRegex(self.wait(), r"the run failed: rank 0 has ended, " + self.REPLAY)
 
-    def test_a_stopped_rank_is_told_and_goes_on(self):
+    def test_a_stopped_rank_is_reported_and_continues(self):
         self.start(rest="run 3\nquit")
         stopped = self.ranks()[2]
         os.kill(stopped, signal.SIGSTOP)
@@ -297,7 +297,7 @@ class Faults(Installed):
         self.wait()
         self.assertRegex(self.output, r"at 3\.0+ s after")
 
-    def test_a_stopped_leader_is_told_by_another(self):
+    def test_a_stopped_leader_is_reported_by_another_rank(self):
         self.start(rest="run 3\nquit")
         stopped = self.ranks()[0]
         os.kill(stopped, signal.SIGSTOP)

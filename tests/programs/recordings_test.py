@@ -106,7 +106,7 @@ class Mcap(unittest.TestCase):
         self.assertIsNotNone(footer)
         return topics
 
-    def test_holds_what_the_robot_saw_and_believed(self):
+    def test_holds_the_scans_and_estimates_of_the_robot(self):
         topics = self.read(recorded("office.mcap"))
         scans = [scan for _, scan in topics["/rackham/laser"]]
         self.assertGreater(len(scans), 110)
@@ -121,7 +121,7 @@ class Mcap(unittest.TestCase):
         truth, believed = (topics[f"/rackham/{name}"][-1][1]["pose"]["position"] for name in ("truth", "position"))
         self.assertLess(math.hypot(truth["x"] - believed["x"], truth["y"] - believed["y"]), 0.2)
 
-    def test_tells_what_the_modules_were_asked_and_what_became_of_it(self):
+    def test_holds_the_requests_to_modules_and_their_reports(self):
         lines = [(line["name"], line["message"], line["level"]) for _, line in self.read(recorded("office.mcap"))["/rackham/modules"]]
         for module, request in (("rflex", "TrackSpeedStart"), ("ndd", "GoTo")):
             told = [message for name, message, _ in lines if name == module and message.startswith(request + ":")]
@@ -163,7 +163,7 @@ class RosBag(unittest.TestCase):
         if "./dev add bags" in run("--record", folder() / "x.bag", until_s=0.1).stderr:
             self.skipTest("this waitpoint was built without rosbag_storage")
 
-    def test_is_what_the_stock_rosbag_says_it_is(self):
+    def test_is_read_by_the_stock_rosbag(self):
         if shutil.which("rosbag") is None:
             self.skipTest("there is no rosbag here")
         told = subprocess.run(["rosbag", "info", recorded("office.bag")], capture_output=True, text=True, check=True).stdout

@@ -43,7 +43,7 @@ class Lines(unittest.TestCase):
         self.assertNotIn("not the run of the journal", again.stderr)
         self.assertIn(digest_in(again.stdout), journal["text"])
 
-    def test_a_branch_goes_on_beyond_where_the_run_is_and_tells_what_came_of_its_interventions(self):
+    def test_a_branch_continues_beyond_the_run_with_the_results_of_its_interventions(self):
         with Viewed(*PART, "--until", "300", "--serve-control", "--speed", "1") as viewed:
             client = viewed.client()
             client.receive_until(lambda told: told.get("kind") == "status" and told.get("time", 0) > SECOND)
@@ -110,7 +110,7 @@ class Lines(unittest.TestCase):
         self.assertNotIn("not the run of the journal", again.stderr)
         self.assertIn(digest_in(again.stdout), journal)
 
-    def test_a_viewer_that_comes_late_gets_what_has_changed_before(self):
+    def test_a_late_viewer_gets_all_earlier_changes(self):
         with Viewed(*PART, "--until", "8", "--serve-control") as viewed:
             viewed.wait_for_end_of_run()
             client = viewed.client()
