@@ -6,6 +6,9 @@
 
 #include "core/printable_line.hpp"
 
+/// Called before the report, where a kernel is linked: what ends the process has begun (kernel/process_end.hpp).
+extern "C" void waitpoint_begin_death() __attribute__((weak));
+
 namespace waitpoint {
 
 BadInput::BadInput(const std::string& file, int line, const std::string& message)
@@ -22,6 +25,7 @@ BadInput::BadInput(const BadInput& other, const std::string& note)
 BadInput BadInput::with_note(const std::string& note) const { return {*this, note}; }
 
 void bug(const char* file, int line, const char* condition, const char* message) {
+  if (waitpoint_begin_death != nullptr) waitpoint_begin_death();
   std::fflush(stdout);
   std::fprintf(stderr, "waitpoint: bug: %s (%s) at %s:%d\n", message, condition, file, line);
   if (waitpoint_describe_run != nullptr) waitpoint_describe_run();
@@ -30,6 +34,7 @@ void bug(const char* file, int line, const char* condition, const char* message)
 }
 
 void misuse(const char* message) {
+  if (waitpoint_begin_death != nullptr) waitpoint_begin_death();
   std::fflush(stdout);
   std::fprintf(stderr, "waitpoint: misuse: %s\n", message);
   if (waitpoint_describe_run != nullptr) waitpoint_describe_run();

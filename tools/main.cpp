@@ -7,8 +7,10 @@
 #include <string_view>
 
 #include "core/confinement.hpp"
+#include "core/exception_text.hpp"
 #include "core/printable_line.hpp"
 #include "fibers/kernel/fault_reports.hpp"
+#include "fibers/kernel/process_end.hpp"
 #include "fibers/sync/post_mortem.hpp"
 #include "tools/check/self_check.hpp"
 #include "tools/check_command.hpp"
@@ -82,7 +84,7 @@ int carry_out(int argc, const char* const* argv, std::vector<genom::ModuleType> 
     return is_exec ? tools::exec_failed : 2;
   } catch (const std::exception& error) {
     std::fflush(stdout);
-    std::fprintf(stderr, "waitpoint: the run failed: %s\n", printable_message(error.what()).c_str());
+    std::fprintf(stderr, "waitpoint: the run failed: %s\n", printable_message(exception_text(error)).c_str());
     return 1;
   }
 }
@@ -90,7 +92,9 @@ int carry_out(int argc, const char* const* argv, std::vector<genom::ModuleType> 
 }  // namespace
 
 int main(int argc, const char* const* argv, std::vector<genom::ModuleType> own) {
-  return tools::give_status(carry_out(argc, argv, std::move(own)));
+  const int status = tools::give_status(carry_out(argc, argv, std::move(own)));
+  kernel::set_exit_status(status);
+  return status;
 }
 
 }  // namespace waitpoint

@@ -39,10 +39,15 @@ const char* cause_of(const siginfo_t& info) {
 
 const char* death_text(const siginfo_t& info) {
   constinit static thread_local char text[96] = {};
-  const char* const name = sigabbrev_np(info.si_signo);
+  const char* const abbreviation = sigabbrev_np(info.si_signo);
+  char name[24];
+  if (abbreviation != nullptr)
+    std::snprintf(name, sizeof name, "SIG%s", abbreviation);
+  else
+    std::snprintf(name, sizeof name, "SIGRTMIN+%d", info.si_signo - SIGRTMIN);
   const char* const cause = cause_of(info);
-  std::snprintf(text, sizeof text, cause != nullptr ? "the process dies of SIG%s (%s)" : "the process dies of SIG%s",
-                name != nullptr ? name : "?", cause);
+  std::snprintf(text, sizeof text, cause != nullptr ? "the process dies of %s (%s)" : "the process dies of %s", name,
+                cause);
   return text;
 }
 

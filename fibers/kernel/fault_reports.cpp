@@ -3,7 +3,6 @@
 
 #include <sys/syscall.h>
 #include <sys/uio.h>
-#include <sys/wait.h>
 #include <ucontext.h>
 #include <unistd.h>
 
@@ -18,45 +17,29 @@
 #include "core/spin_lock.hpp"
 #include "fibers/kernel/call_stack.hpp"
 #include "fibers/kernel/death_text.hpp"
+#include "fibers/kernel/process_end.hpp"
 #include "fibers/kernel/run.hpp"
 #include "fibers/kernel/signal_safe_text.hpp"
-#include "fibers/switch/reserved_pages.hpp"
 #include "fibers/switch/sanitizer.hpp"
 #include "fibers/switch/stack_arena.hpp"
 
 namespace waitpoint::kernel {
 namespace {
 
-// The stack of the first thread; others have one of the same size. Large enough for the register state of any
-// processor, and for a post mortem; pages that are not used are not there.
-alignas(64) char handler_stack[1024 * 1024];
-std::atomic<bool> is_handler_stack_taken = false;
-
 // The process's. `lock` is held for the few system calls of installing and restoring the handlers.
 SpinLock lock;
 std::uint32_t installers = 0;  // the number of threads with reports
 std::atomic<bool> are_installed = false;
 struct sigaction previous[std::size(FaultReports::signals)];
-std::atomic<pid_t> latest_process = 0;  // that made reports
 std::atomic<PostMortem> post_mortem = nullptr, call_stack_writer = nullptr;
-std::atomic<const char*> unfinished = nullptr;    // the replay line of an unfinished run
-std::atomic<const void*> dying_thread = nullptr;  // the thread whose death is the process's, by its thread pointer
+std::atomic<const char*> unfinished = nullptr;  // the replay line of an unfinished run
+std::atomic<bool> is_reported = false;          // its death
 
 // The thread's own.
 constinit thread_local FaultReports* innermost = nullptr;
 constinit thread_local ucontext_t* fault_context = nullptr;  // of the signal that is handled
 // A bug and an overrun stack were reported before their SIGABRT.
 constinit thread_local bool is_described = false;
-
-bool is_dying() { return dying_thread != nullptr; }
-
-// The first thread to die is reported, and ends the process: another one that dies meanwhile waits for that.
-void be_the_dying_thread() {
-  const void* first = nullptr;
-  const void* const self = __builtin_thread_pointer();
-  if (dying_thread.compare_exchange_strong(first, self) || first == self) return;
-  for (;;) pause();
-}
 
 // The task that overran its stack, or null. Usually the running one; but a task that overruns its stack while it hands
 // over is no longer the running one.
@@ -113,7 +96,8 @@ void act(PostMortem function, const char* reason, const char* if_it_dies) {
   const pid_t copy = _Fork();
   if (copy == 0) act_in_copy(function, reason);
   int status = 0;
-  while (copy > 0 && waitpid(copy, &status, 0) < 0 && errno == EINTR) {
+  // The C library's function is noted as a task's wait, with the call stack, which may be unreadable.
+  while (copy > 0 && syscall(SYS_wait4, copy, &status, 0, nullptr) < 0 && errno == EINTR) {
   }
   if (copy > 0 && status == 0) return;
   SignalSafeText text;
@@ -124,8 +108,25 @@ void act(PostMortem function, const char* reason, const char* if_it_dies) {
 bool is_elsewhere() { return are_installed && innermost == nullptr && running == nullptr; }
 
 // At exit(): a caller such as a CI would take its status for the run's.
-void refuse_exit_by_exit() { refuse_exit("exit()"); }
-void refuse_exit_by_quick_exit() { refuse_exit("quick_exit()"); }
+void end_by_exit(int status, void*) {
+  refuse_exit("exit()");
+  const int settled = settle_exit_status(status);
+  if (settled == status) return;
+  std::fflush(nullptr);
+  syscall(SYS_exit_group, settled);
+}
+// Its status is not known here.
+void end_by_quick_exit() {
+  constexpr int unknown = -1;
+  refuse_exit("quick_exit()");
+  if (const int settled = settle_exit_status(unknown); settled != unknown) syscall(SYS_exit_group, settled);
+}
+
+const char* to_text(bool is_elsewhere) {
+  if (!is_elsewhere) return "\n";
+  return Commit::has_begun() ? ", in a thread of the operating system, after the results of the run\n"
+                             : ", in a thread of the operating system\n";
+}
 
 }  // namespace
 
@@ -155,7 +156,7 @@ void report(const char* reason) {
   const bool elsewhere = is_elsewhere();
   if (!is_described) {
     SignalSafeText text;
-    text.add("waitpoint: ").add(reason).add(elsewhere ? ", in a thread of the operating system\n" : "\n").write();
+    text.add("waitpoint: ").add(reason).add(to_text(elsewhere)).write();
     if (running != nullptr && !elsewhere) describe_run(*running);
   }
   if (running == nullptr || elsewhere) {
@@ -168,44 +169,49 @@ void report(const char* reason) {
 }
 
 void report_death(const char* reason) {
-  be_the_dying_thread();
+  begin_death();
+  is_reported = true;
   report(reason);
   act(post_mortem, reason, "the outputs are lost");
 }
 
 bool in_reporting_process() {
-  const pid_t process = innermost != nullptr ? innermost->process() : latest_process.load();
-  return !is_dying() && are_installed && process == getpid();
+  const bool is_own = innermost != nullptr ? innermost->process() == getpid() : is_process_of_tasks();
+  return !is_reported && are_installed && is_own;
 }
+
+bool in_unfinished_run() { return in_reporting_process() && unfinished != nullptr; }
 
 bool in_model_code() {
   return in_reporting_process() && !is_elsewhere() && (running != nullptr || Doing::present() != nullptr);
 }
 
 void refuse_exit(const char* function) {
-  if (!in_model_code() && !(in_reporting_process() && unfinished != nullptr)) return;
+  if (!in_model_code() && !in_unfinished_run()) return;
   std::fflush(nullptr);
   char reason[80];
-  const char* const place = !in_model_code()     ? "before the end of the run"
-                            : running != nullptr ? "in a task"
-                                                 : "in a module";
+  const char* const place = !in_model_code() && Commit::has_begun() ? "before the end of the process"
+                            : !in_model_code()                      ? "before the end of the run"
+                            : running != nullptr                    ? "in a task"
+                                                                    : "in a module";
   std::snprintf(reason, sizeof reason, "%s is called %s", function, place);
   report_death(reason);
   syscall(SYS_exit_group, 1);
 }
 
-FaultReports::FaultReports(const Scheduler* scheduler) : outer_(innermost), scheduler_(scheduler), process_(getpid()) {
+FaultReports::FaultReports(Scheduler* scheduler) : outer_(innermost), scheduler_(scheduler), process_(getpid()) {
   if (sanitizer::present) return;
   innermost = this;
-  latest_process = process_;
+  if (outer_ == nullptr) thread_.emplace();
+  outermost().thread_->set_scheduler(scheduler);
   if (outer_ != nullptr) return;
-  install_stack();
+  stack_.emplace();
   const std::lock_guard guard(lock);
   if (installers++ > 0) return;
   static bool is_registered = false;
   if (!std::exchange(is_registered, true)) {
-    std::atexit(refuse_exit_by_exit);
-    at_quick_exit(refuse_exit_by_quick_exit);
+    on_exit(end_by_exit, nullptr);
+    at_quick_exit(end_by_quick_exit);
   }
   struct sigaction action {};
   action.sa_sigaction = handle;
@@ -217,7 +223,10 @@ FaultReports::FaultReports(const Scheduler* scheduler) : outer_(innermost), sche
 FaultReports::~FaultReports() {
   if (innermost != this) return;
   innermost = outer_;
-  if (outer_ != nullptr) return;
+  if (outer_ != nullptr) {
+    outermost().thread_->set_scheduler(outer_->scheduler_);
+    return;
+  }
   {
     const std::lock_guard guard(lock);
     if (--installers == 0) {
@@ -230,25 +239,12 @@ FaultReports::~FaultReports() {
       }
     }
   }
-  remove_stack();
 }
 
-void FaultReports::install_stack() {
-  void* const memory = is_handler_stack_taken.exchange(true) ? reserve_pages(sizeof handler_stack) : handler_stack;
-  if (memory == nullptr) return;
-  stack_t stack{};
-  stack.ss_sp = stack_ = memory;
-  stack.ss_size = sizeof handler_stack;
-  sigaltstack(&stack, &previous_stack_);
-}
-
-void FaultReports::remove_stack() {
-  if (stack_ == nullptr) return;
-  sigaltstack(&previous_stack_, nullptr);
-  if (stack_ == handler_stack)
-    is_handler_stack_taken = false;
-  else
-    release_pages(stack_, sizeof handler_stack);
+FaultReports& FaultReports::outermost() {
+  FaultReports* at = this;
+  while (at->outer_ != nullptr) at = at->outer_;
+  return *at;
 }
 
 void FaultReports::handle(int signal, siginfo_t* info, void* context) {
@@ -274,13 +270,15 @@ void FaultReports::pass_on(int signal, siginfo_t* info, void* context) {
     if (signals[i] == signal && are_installed) before = previous[i];
   if ((before.sa_flags & static_cast<int>(SA_SIGINFO)) != 0) return before.sa_sigaction(signal, info, context);
   if (before.sa_handler != SIG_DFL && before.sa_handler != SIG_IGN) return before.sa_handler(signal);
-  be_the_dying_thread();
+  begin_death();
   // The faulting instruction is executed again, with the default action; a signal sent by a process is raised again.
   sigaction(signal, &before, nullptr);
   if (info->si_code <= 0) raise(signal);
 }
 
 }  // namespace waitpoint::kernel
+
+extern "C" void waitpoint_begin_death() { waitpoint::kernel::begin_death(); }
 
 extern "C" void waitpoint_describe_run() {
   using namespace waitpoint::kernel;

@@ -24,6 +24,10 @@
 #include <csignal>
 #include <cstddef>
 #include <iterator>
+#include <optional>
+
+#include "fibers/kernel/handler_stack.hpp"
+#include "fibers/kernel/process_end.hpp"
 
 namespace waitpoint::kernel {
 
@@ -34,7 +38,7 @@ class FaultReports {
  public:
   /// Installs the handlers in the calling thread, for the tasks of `scheduler`; null: outside of runs. Not with a
   /// sanitizer or valgrind, which have reports of their own. An inner one only changes the scheduler.
-  explicit FaultReports(const Scheduler* scheduler);
+  explicit FaultReports(Scheduler* scheduler);
   /// Restores the previous handlers, except where a task has installed another one since.
   ~FaultReports();
   FaultReports(const FaultReports&) = delete;
@@ -49,14 +53,13 @@ class FaultReports {
   static void handle(int signal, siginfo_t* info, void* context);
   static void pass_on(int signal, siginfo_t* info, void* context);
 
-  void install_stack();
-  void remove_stack();
+  FaultReports& outermost();
 
   FaultReports* outer_;  // of this thread
-  const Scheduler* scheduler_;
+  Scheduler* scheduler_;
   pid_t process_;
-  void* stack_ = nullptr;  // of this thread's handlers; null: the outer one's, or none
-  stack_t previous_stack_{};
+  std::optional<TaskThread> thread_;   // of the outermost one
+  std::optional<HandlerStack> stack_;  // likewise
 };
 
 /// Called in a forked copy of the process, with the reason: "the process dies of SIGFPE (integer division by zero)".
@@ -76,8 +79,10 @@ void report(const char* reason);
 /// The same, then the post mortem: the process must end after it.
 void report_death(const char* reason);
 
-/// True in the process that made the FaultReports, unless it is dying: not in one that a task forked.
+/// True in the process that made the FaultReports, until its death is reported: not in one that a task forked.
 bool in_reporting_process();
+/// True in any thread of that process while a run is unfinished.
+bool in_unfinished_run();
 /// True in a task and in a module's constructor or destructor: not in other threads, nor in a process that a task
 /// forked, nor when the process is dying.
 bool in_model_code();

@@ -3,12 +3,13 @@
 //
 // While the object exists, exit() in any thread and outside of tasks is reported as the run's death
 // (fault_reports.hpp), and so are signals whose usual effect is the process's end: those that another process sends,
-// such as a CI that loses patience, and those of limits of time.
+// such as a CI that loses patience, those of limits of time, and SIGKILL where the process sends it to itself.
 #pragma once
 
+#include <sys/types.h>
+
+#include <bitset>
 #include <csignal>
-#include <cstddef>
-#include <iterator>
 
 namespace waitpoint::kernel {
 
@@ -22,13 +23,17 @@ class UnfinishedRun {
   UnfinishedRun(const UnfinishedRun&) = delete;
   UnfinishedRun& operator=(const UnfinishedRun&) = delete;
 
-  /// SIGINT, SIGTERM and SIGHUP interrupt a run in good order instead.
-  static constexpr int signals[] = {SIGQUIT, SIGALRM, SIGUSR1, SIGUSR2, SIGXCPU, SIGVTALRM, SIGPROF};
-
  private:
-  static void handle(int signal, siginfo_t* info, void* context);
-
-  bool has_handler_[std::size(signals)]{};
+  std::bitset<_NSIG> is_handled_;
 };
+
+/// True for a signal whose usual effect is the end of the process; not for faults (fault_reports.hpp).
+bool ends_process(int signal);
+/// The action that reports such a signal as a death.
+struct sigaction death_report();
+
+/// To be called before this process sends a signal to `process`, in the words of kill(): reports SIGKILL to itself,
+/// which no handler sees, as the death of an unfinished run.
+void note_signal_to(pid_t process, int signal);
 
 }  // namespace waitpoint::kernel

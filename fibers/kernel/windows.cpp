@@ -3,6 +3,7 @@
 
 #include "core/error.hpp"
 #include "fibers/kernel/debugger.hpp"
+#include "fibers/kernel/process_end.hpp"
 #include "fibers/kernel/scheduler.hpp"
 #include "fibers/kernel/scheduler_steps.hpp"
 
@@ -15,6 +16,13 @@ void stay_on_thread(Scheduler& scheduler) {
   WAITPOINT_REQUIRE(thread == nullptr, "a simulation is continued in another thread than the one that began to run it");
   thread = __builtin_thread_pointer();
   turn.digest = nullptr;  // of a previous run, whose robots may have had the same addresses
+}
+
+// Returns when the run is left; not if the process dies meanwhile.
+static RunState run_from(Scheduler& scheduler, Fiber& first) {
+  enter_run(scheduler, first);
+  wait_if_dying();
+  return scheduler.window.state;
 }
 
 RunState run_before(Scheduler& scheduler, Time until) {
@@ -32,14 +40,12 @@ RunState run_before(Scheduler& scheduler, Time until) {
     if (agenda.precedes(task, agenda.next_key())) {
       if (task.local_time >= agenda.until) return RunState::reached;
       window.paused = nullptr;
-      enter_run(scheduler, resume(scheduler, task));
-      return window.state;
+      return run_from(scheduler, resume(scheduler, task));
     }
     window.paused = nullptr;
     agenda.events.insert(task.event, agenda.key(task, task.local_time));
   }
-  enter_run(scheduler, dispatch(scheduler));
-  return window.state;
+  return run_from(scheduler, dispatch(scheduler));
 }
 
 // --- the ends of a window ---

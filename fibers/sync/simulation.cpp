@@ -9,6 +9,7 @@
 #include <system_error>
 
 #include "core/error.hpp"
+#include "core/exception_text.hpp"
 #include "core/number_text.hpp"
 #include "core/spin_lock.hpp"
 #include "fibers/kernel/fault_reports.hpp"
@@ -39,7 +40,7 @@ std::string what(const std::exception_ptr& failure) {
   try {
     std::rethrow_exception(failure);
   } catch (const std::exception& exception) {
-    return exception.what();
+    return exception_text(exception);
   } catch (...) {
     return "an exception of unknown type";
   }

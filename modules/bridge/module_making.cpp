@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/doing.hpp"
+#include "core/exception_text.hpp"
 #include "core/nearest_name.hpp"
 
 namespace waitpoint::bridge {
@@ -33,7 +34,7 @@ std::unique_ptr<genom::Module> make_module(const scenario::ModuleScenario& modul
     if (error.line() > 0 || error.file().starts_with("--set")) throw;
     throw module.written.bad(error.what());
   } catch (const std::exception& error) {
-    throw std::runtime_error(doing + " threw an exception: " + error.what());
+    throw std::runtime_error(doing + " threw an exception: " + exception_text(error));
   } catch (...) {
     throw std::runtime_error(doing + " threw an exception of unknown type");
   }

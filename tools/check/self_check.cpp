@@ -12,6 +12,7 @@
 #include <optional>
 #include <utility>
 
+#include "core/exception_text.hpp"
 #include "core/number_text.hpp"
 #include "fibers/kernel/run.hpp"
 #include "fibers/sync/duration_record.hpp"
@@ -120,7 +121,7 @@ Carried SelfCheck::carry_out(CheckedRun& checked, const EventComparison* compari
   } catch (const std::exception& error) {
     const bool is_first = comparison == nullptr;
     if (is_first && dynamic_cast<const BadInput*>(&error) != nullptr) throw;  // as in a run without a check
-    run.end = std::string("it failed: ") + error.what();
+    run.end = std::string("it failed: ") + exception_text(error);
   }
   run.digest = checked.simulation().digest();
   run.events = kernel::events(checked.simulation().scheduler());

@@ -11,7 +11,9 @@
 #include <vector>
 
 #include "core/printable_line.hpp"
+#include "fibers/kernel/process_end.hpp"
 #include "fibers/kernel/run.hpp"
+#include "fibers/kernel/unfinished_run.hpp"
 #include "modules/playback/playback.hpp"
 #include "tools/command/interruption.hpp"
 #include "tools/output/json_document.hpp"
@@ -129,6 +131,7 @@ int play_log(const LogSource& source, const PlayOptions& options, std::span<cons
   std::vector<Relation> relations;
   if (options.relations) relations = read_relations(*options.relations);
   const logs::SensorLog log = source.read();
+  const kernel::UnfinishedRun unfinished(options.replay.c_str());
   playback::Playback playback(log, source.robot, types, options.simulation());
   static_cast<void>(source_of(options, playback));  // bad input is told before the run
   Files files(options);
@@ -145,6 +148,7 @@ int play_log(const LogSource& source, const PlayOptions& options, std::span<cons
 
   const std::vector<Content> made = contents(options, log, playback, result, files);  // before anything is written
   const std::string text = replay_text(log, playback, result);
+  const kernel::Commit commit;
   write_text(text, options.json || (options.summary && is_standard_output(*options.summary)));
   write_files(made, files);
   if (const std::string& trouble = playback.simulation().trouble(); !trouble.empty())
@@ -156,7 +160,9 @@ int play_log(const LogSource& source, const PlayOptions& options, std::span<cons
 
 int replay_log(const ReplayOptions& options, std::span<const genom::ModuleType> types) {
   heed_signals();
-  return play_log(log_source(options.source), options.play, types);
+  PlayOptions play = options.play;
+  play.replay = options.command;
+  return play_log(log_source(options.source), play, types);
 }
 
 }  // namespace waitpoint::tools

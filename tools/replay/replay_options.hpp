@@ -24,6 +24,7 @@ struct PlayOptions {
   std::optional<Duration> until;             ///< none: as of the log's source
   bool json = false;                         ///< the result as JSON to standard output
   const char* command = "play";              ///< of waitpoint, for it
+  std::string replay;                        ///< the command line that repeats it, for a shell
   std::optional<playback::PoseSource> pose;  ///< of the trajectory; none: the first that there is
   std::optional<std::filesystem::path> trajectory, relations, summary, picture, map, digests, events;
 

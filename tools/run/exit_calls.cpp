@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// In place of the C library's _exit(): in a run it would end the process without a word, with a status that a CI takes
-// for the run's; so would daemon(), and another program by exec(). exit() is seen by a handler of atexit()
-// (kernel/fault_reports.cpp).
+// In place of the C library's exit() and _exit(): in a run they would end the process without a word, with a status
+// that a CI takes for the run's; so would daemon(), and another program by exec(). The exit() of a return from main()
+// is seen by a handler (kernel/fault_reports.cpp).
 #include <sys/syscall.h>
 #include <unistd.h>
 
 #include <cstdarg>
 #include <cstddef>
+#include <cstdio>
+#include <cstdlib>
 
 #include "fibers/kernel/fault_reports.hpp"
+#include "fibers/kernel/process_end.hpp"
 #include "fibers/sync/system_calls/system_calls.hpp"
 #include "tools/run/next_definition.hpp"
 
@@ -19,9 +22,11 @@ namespace {
 
 constexpr std::size_t words_max = 256;
 
-// Where robots' programs are simulated, the call may be theirs.
+// Where robots' programs are simulated, the call may be theirs. An exit that has begun is not overtaken.
 void refuse_in_run(const char* function) {
-  if (!waitpoint::sync::has_program_layer()) waitpoint::kernel::refuse_exit(function);
+  if (waitpoint::sync::has_program_layer()) return;
+  waitpoint::kernel::refuse_exit(function);
+  if (const auto status = waitpoint::kernel::begun_exit_status()) syscall(SYS_exit_group, *status);
 }
 
 /// The words of an argument list, to the null at its end.
@@ -40,7 +45,20 @@ extern "C" {
 __attribute__((noreturn)) void _exit(int status) {
   if (waitpoint::sync::has_program_layer()) next_definition<void(int)>("_exit")(status);
   refuse_in_run("_exit()");
+  status = waitpoint::kernel::settle_exit_status(status);
   for (;;) syscall(SYS_exit_group, status);
+}
+
+__attribute__((noreturn)) void exit(int status) {
+  if (!waitpoint::sync::has_program_layer()) {
+    refuse_in_run("exit()");
+    if (const int settled = waitpoint::kernel::settle_exit_status(status); settled != status) {
+      std::fflush(nullptr);
+      syscall(SYS_exit_group, settled);
+    }
+  }
+  next_definition<void(int)>("exit")(status);
+  __builtin_unreachable();
 }
 
 __attribute__((noreturn)) void _Exit(int status) { _exit(status); }

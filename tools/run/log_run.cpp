@@ -32,6 +32,7 @@ PlayOptions play_options(const RunOptions& options, const scenario::LogFile& log
   play.picture = options.picture;
   play.json = options.json;
   play.command = "run";
+  play.replay = replay_line(options, options.seed);
   play.digests = options.digests;
   play.events = options.events;
   std::vector<NamedFile> files = options.files;

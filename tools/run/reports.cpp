@@ -3,7 +3,9 @@
 
 #include <utility>
 
+#include "core/exception_text.hpp"
 #include "core/printable_line.hpp"
+#include "fibers/kernel/process_end.hpp"
 #include "modules/run/expectation.hpp"
 
 namespace waitpoint::tools {
@@ -20,7 +22,8 @@ Verdict verdict(const scenario::Scenario& scenario, const bridge::RunResult& res
 }
 
 int report_failure(const std::exception& failure, const std::string& replay, Outputs* outputs) {
-  const std::string reason = printable_message(failure.what());
+  const kernel::Commit commit;
+  const std::string reason = printable_message(exception_text(failure));
   std::fflush(stdout);
   std::fprintf(stderr, "waitpoint: the run failed: %s\n  replay: %s\n", reason.c_str(), replay.c_str());
   if (outputs != nullptr) outputs->cut_off(reason, 1);

@@ -9,6 +9,7 @@
 #include <optional>
 #include <system_error>
 
+#include "fibers/kernel/process_end.hpp"
 #include "fibers/kernel/run.hpp"
 #include "fibers/kernel/unfinished_run.hpp"
 #include "fibers/sync/system_calls/system_calls.hpp"
@@ -166,6 +167,7 @@ int run_once(const RunOptions& options, const scenario::Scenario& scenario, run:
   if (options.idle > Duration() && result.outcome != bridge::Outcome::deadlock)
     result.idle = experiment.idle(options.idle);
   outputs->check(result);
+  const kernel::Commit commit;
   Printed printed(options);
   printed.print(summary_text(result));
   outputs->write(result);

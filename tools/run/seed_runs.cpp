@@ -10,6 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/exception_text.hpp"
+#include "fibers/kernel/process_end.hpp"
 #include "fibers/kernel/unfinished_run.hpp"
 #include "modules/run/ranks/archive.hpp"
 #include "modules/run/ranks/results.hpp"
@@ -38,13 +40,15 @@ Ended run_one(const RunOptions& options, const RunOfSeed& run, std::uint64_t see
   const std::string replay = replay_line(options, seed);
   const kernel::UnfinishedRun unfinished(replay.c_str());
   try {
-    return {run(seed, replay), ""};
+    bridge::RunResult result = run(seed, replay);
+    const kernel::Commit commit;
+    return {std::move(result), ""};
   } catch (const BadInput&) {
     throw;
   } catch (const std::system_error&) {
     throw;
   } catch (const std::exception& failure) {
-    return {{}, failure.what()};
+    return {{}, exception_text(failure)};
   }
 }
 

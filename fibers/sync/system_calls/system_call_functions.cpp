@@ -22,11 +22,16 @@
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
+#include <memory>
 
 #include "core/error.hpp"
 #include "fibers/kernel/fault_reports.hpp"
+#include "fibers/kernel/handler_stack.hpp"
+#include "fibers/kernel/process_end.hpp"
 #include "fibers/kernel/task.hpp"
+#include "fibers/kernel/unfinished_run.hpp"
 #include "fibers/sync/system_calls/noted_calls.hpp"
+#include "fibers/sync/system_calls/system_calls.hpp"
 
 using namespace waitpoint::sync;  // NOLINT: below are C functions only
 
@@ -38,6 +43,36 @@ template <class Function>
 Function* next(Function*& known, const char* name) {
   if (known == nullptr) known = reinterpret_cast<Function*>(dlsym(RTLD_NEXT, name));
   return known;
+}
+
+/// A thread of the operating system in a run: its death is reported, also where its stack is used up.
+struct ReportedThread {
+  ReportedThread(void* (*function)(void*), void* of) : start(function), argument(of) {}
+  static void* run(void* started) {
+    const std::unique_ptr<ReportedThread> self(static_cast<ReportedThread*>(started));
+    const waitpoint::kernel::HandlerStack stack;
+    return self->start(self->argument);
+  }
+
+  void* (*start)(void*);
+  void* argument;
+};
+
+/// True for the thread that runs tasks: where programs of robots are simulated, the call may be theirs.
+bool is_of_run(pthread_t thread) {
+  return !has_program_layer() && (waitpoint::kernel::in_unfinished_run() || waitpoint::kernel::in_model_code()) &&
+         waitpoint::kernel::TaskThread::is_one(thread);
+}
+
+/// System calls that send a signal, with their numbers of its argument; the first argument is a process, or a thread of
+/// this one.
+void note_signal(long number, const long (&values)[6]) {
+  const auto process = static_cast<pid_t>(values[0]);
+  if (number == SYS_kill || number == SYS_rt_sigqueueinfo)
+    waitpoint::kernel::note_signal_to(process, static_cast<int>(values[1]));
+  if (number == SYS_tgkill || number == SYS_rt_tgsigqueueinfo)
+    waitpoint::kernel::note_signal_to(process, static_cast<int>(values[2]));
+  if (number == SYS_tkill) waitpoint::kernel::note_signal_to(getpid(), static_cast<int>(values[1]));
 }
 
 }  // namespace
@@ -75,7 +110,12 @@ extern "C" {
 int pthread_create(pthread_t* thread, const pthread_attr_t* attributes, void* (*start)(void*), void* argument) {
   static decltype(pthread_create)* known;
   note_thread(CALLER);
-  return next(known, "pthread_create")(thread, attributes, start, argument);
+  const auto real = next(known, "pthread_create");
+  if (!waitpoint::kernel::in_unfinished_run() || has_program_layer()) return real(thread, attributes, start, argument);
+  auto reported = std::make_unique<ReportedThread>(start, argument);
+  const int result = real(thread, attributes, ReportedThread::run, reported.get());
+  if (result == 0) static_cast<void>(reported.release());
+  return result;
 }
 START(int, thrd_create, (thrd_t * thread, thrd_start_t start, void* argument), (thread, start, argument))
 START(int, system, (const char* command), (command))
@@ -223,8 +263,22 @@ int pthread_mutex_lock(pthread_mutex_t* mutex) {
 __attribute__((noreturn)) void pthread_exit(void* result) {
   static decltype(pthread_exit)* known;
   WAITPOINT_REQUIRE(!is_in_task(), "a task calls pthread_exit(), which ends the thread that runs all tasks");
+  WAITPOINT_REQUIRE(!is_of_run(pthread_self()), "the thread that runs all tasks calls pthread_exit()");
   next(known, "pthread_exit")(result);
   __builtin_unreachable();
+}
+__attribute__((noreturn)) void thrd_exit(int result) {
+  static decltype(thrd_exit)* known;
+  WAITPOINT_REQUIRE(!is_in_task(), "a task calls thrd_exit(), which ends the thread that runs all tasks");
+  WAITPOINT_REQUIRE(!is_of_run(pthread_self()), "the thread that runs all tasks calls thrd_exit()");
+  next(known, "thrd_exit")(result);
+  __builtin_unreachable();
+}
+/// At its next cancellation point, wherever that is.
+int pthread_cancel(pthread_t thread) {
+  static decltype(pthread_cancel)* known;
+  WAITPOINT_REQUIRE(!is_of_run(thread), "pthread_cancel() of the thread that runs all tasks");
+  return next(known, "pthread_cancel")(thread);
 }
 
 LOCK(pthread_rwlock_rdlock, pthread_rwlock_t, pthread_rwlock_tryrdlock)
@@ -239,7 +293,10 @@ long syscall(long number, ...) {
   va_start(list, number);
   for (long& value : values) value = va_arg(list, long);
   va_end(list);
-  if (number == SYS_exit_group || number == SYS_exit) waitpoint::kernel::refuse_exit("the system call exit()");
+  if (number == SYS_exit_group || (number == SYS_exit && is_of_run(pthread_self())))
+    waitpoint::kernel::refuse_exit("the system call exit()");
+  if (number == SYS_exit_group) values[0] = waitpoint::kernel::settle_exit_status(static_cast<int>(values[0]));
+  note_signal(number, values);
   const long operation = values[1] & FUTEX_CMD_MASK;
   if (number == SYS_futex && (operation == FUTEX_WAIT || operation == FUTEX_WAIT_BITSET)) note_wait("futex", CALLER);
   return real(number, values[0], values[1], values[2], values[3], values[4], values[5]);

@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "core/error.hpp"
+#include "core/exception_text.hpp"
 
 namespace waitpoint::run {
 namespace {
@@ -42,7 +43,7 @@ void Ranks::act_together(const std::function<void()>& act) {
   } catch (const BadInput& error) {
     own = {Thrown::Kind::bad_input, error.file(), message_of(error), error.line()};
   } catch (const std::exception& error) {
-    own = {Thrown::Kind::other, "", error.what(), 0};
+    own = {Thrown::Kind::other, "", exception_text(error), 0};
   }
   for (const Thrown& thrown : gather(own)) {
     if (thrown.kind == Thrown::Kind::bad_input) throw BadInput(thrown.file, thrown.line, thrown.message);
