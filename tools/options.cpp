@@ -66,11 +66,13 @@ class Commands {
 /// Only the first word after "--" is interpreted; all others belong to gdb or to the program.
 void read_program_of_gdb(DebugOptions& options, const DeclaredProgram& program) {
   options.own = program.find(options.words.front()) != nullptr;
-  if (options.words.front() != "exec") return;
+  if (options.words.front() != "exec" && options.words.front() != "explore") return;
   std::vector<const char*> inner = {"waitpoint"};
   for (const std::string& word : options.words) inner.push_back(word.c_str());
   const Options read = read_options(static_cast<int>(inner.size()), inner.data(), "");
   if (const auto* const program = std::get_if<ExecOptions>(&read)) options.program = *program;
+  if (const auto* const search = std::get_if<ExploreOptions>(&read))
+    if (!search->replay.empty() && !search->program.empty() && !search->has_nodes) options.replayed = *search;
 }
 
 }  // namespace

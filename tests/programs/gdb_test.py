@@ -9,6 +9,7 @@ import functools
 import os
 import pathlib
 import re
+import shlex
 import shutil
 import subprocess
 import sys
@@ -334,6 +335,20 @@ class Processes(unittest.TestCase):
         self.assertRegex(told[3], r"#\d+ .* in main \(.*\n\d+\s+sleep\(4\);")
         self.assertEqual(told[4], "the program has no other process")
         self.assertIn("deadlock at 4.000000000 s", told[5])
+
+    def test_the_process_of_a_replay_is_followed(self):
+        if not (BUILD / "libwaitpoint-exec.so").exists():
+            self.skipTest("this build has no library for programs")
+        program = folder() / "lost_update"
+        subprocess.run(["gcc", "-g", "-O1", "-pthread", ROOT / "tests/exec/lost_update.c", "-o", program], check=True)
+        found = subprocess.run([BUILD / "tools/waitpoint", "explore", "--", program], capture_output=True, text=True, timeout=120)
+        words = shlex.split(re.findall(r"(?m)^replay: \S+ (explore .*)$", found.stdout)[-1])
+        told = session(["break pay_in", "run", "info fibers", "delete", "continue"], ["--", *words],
+                       start=[BUILD / "tools/waitpoint", "gdb", "-nx", "-batch"])
+        self.assertRegex(told[1], r"Breakpoint 1, pay_in \(")
+        self.assertIn("lost_update", told[2])
+        self.assertIn("an update was lost", told[4])
+        self.assertIn("exited with code 01", told[4])
 
     def test_another_process_is_looked_at(self):
         told = self.of_pipeline("break-time 0.5", "run", "process 1003", "fiber main", "bt", "info fibers", "process 7", "detach",

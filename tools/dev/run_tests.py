@@ -52,6 +52,7 @@ OWN_CASES = {
     "exec, endless runs": [sys.executable, str(ROOT / "tests/exec/endless_test.py"), BUILD],
     "exec, partners": [sys.executable, str(ROOT / "tests/exec/partners_test.py"), BUILD],
     "exec, families": [sys.executable, str(ROOT / "tests/exec/families_test.py"), BUILD],
+    "exec, streams": [sys.executable, str(ROOT / "tests/exec/streams_test.py"), BUILD],
     "exec, shells": [sys.executable, str(ROOT / "tests/exec/shells_test.py"), BUILD],
     "exec, libc and children": [sys.executable, str(ROOT / "tests/exec/libc_and_children_test.py"), BUILD],
     "exec, ROS": [sys.executable, str(ROOT / "tests/exec/ros_test.py"), BUILD],

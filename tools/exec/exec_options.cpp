@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/exec/exec_options.hpp"
 
+#include <cstdlib>
+#include <string>
+#include <string_view>
+
 #include "core/error.hpp"
 #include "tools/command/options/results.hpp"
 
@@ -27,6 +31,11 @@ void declare(Command& command, ExecOptions& options) {
     options.words = command.program();
     if (options.words.empty())
       throw BadInput("exec", "expected a program: waitpoint exec [OPTIONS] -- PROGRAM [ARGUMENTS ...]");
+    // A token of another kind is for a test that calls explore().
+    const char* const replayed = std::getenv("WAITPOINT_REPLAY");
+    if (replayed != nullptr && std::string_view(replayed).starts_with("wx1.0."))
+      throw BadInput("WAITPOINT_REPLAY", "expected no schedule for exec: waitpoint explore --replay " +
+                                             std::string(replayed) + " -- PROGRAM repeats it");
   });
 }
 

@@ -25,11 +25,9 @@ std::string put_first(const std::string& variable, const std::string& path) {
   return variable + "=" + (others != nullptr ? path + ":" + others : path);
 }
 
-[[noreturn]] void become(const ProgramFiles& files, const RunMemory& memory, int output) {
-  if (output >= 0) {
-    dup2(output, STDOUT_FILENO);
-    dup2(output, STDERR_FILENO);
-  }
+[[noreturn]] void become(const ProgramFiles& files, const RunMemory& memory, OutputStreams streams) {
+  if (streams.output >= 0) dup2(streams.output, STDOUT_FILENO);
+  if (streams.errors >= 0) dup2(streams.errors, STDERR_FILENO);
   // A program without its supervisor must not continue.
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   // Programs order and hash by addresses: equal runs need equal addresses.
@@ -99,11 +97,11 @@ std::vector<std::string> environment_of(const ProgramFiles& files, const RunMemo
   return environment;
 }
 
-pid_t start_program(const ProgramFiles& files, const RunMemory& memory, int output) {
+pid_t start_program(const ProgramFiles& files, const RunMemory& memory, OutputStreams streams) {
   std::fflush(nullptr);
   const pid_t process = fork();
   if (process < 0) throw BadInput("exec", std::string("cannot create a process: ") + std::strerror(errno));
-  if (process == 0) become(files, memory, output);
+  if (process == 0) become(files, memory, streams);
   return process;
 }
 

@@ -40,8 +40,15 @@ std::vector<std::string> environment_of(const ProgramFiles& files, const RunMemo
 /// Exit status if a program cannot be run.
 inline constexpr int exec_failed = 125;
 
-/// Starts the process of the programs. It shares this process's input and output; if `output` is not -1, it receives
-/// both output streams. Killed with this process.
-pid_t start_program(const ProgramFiles& files, const RunMemory& memory, int output = -1);
+/// Descriptors for the output streams of a program; -1: this process's.
+struct OutputStreams {
+  OutputStreams(int both = -1) : output(both), errors(both) {}  // NOLINT(google-explicit-constructor)
+  OutputStreams(int of_output, int of_errors) : output(of_output), errors(of_errors) {}
+
+  int output, errors;
+};
+
+/// Starts the process of the programs, with this process's input. Killed with this process.
+pid_t start_program(const ProgramFiles& files, const RunMemory& memory, OutputStreams streams = {});
 
 }  // namespace waitpoint::tools

@@ -30,11 +30,13 @@ std::string over_limit(double limit_s) {
   return fmt::format("exceeded {} s of wall clock time (--schedule-limit)", static_cast<long>(limit_s));
 }
 
-int ProgramRun::wait_for_end(pid_t program, const posix::Record& record, EndRequests& requests, double limit_s) {
+int ProgramRun::wait_for_end(pid_t program, const posix::Record& record, EndRequests& requests, double limit_s,
+                             const std::function<void()>& look) {
   const int end = static_cast<int>(syscall(SYS_pidfd_open, program, 0));
   const double start_s = wall_clock_s();
   Watchdog watchdog(record);
   for (pollfd one{end, POLLIN, 0}; end >= 0 && poll(&one, 1, look_ms) <= 0 && !requests.look();) {
+    if (look) look();
     if (limit_s > 0 && wall_clock_s() - start_s >= limit_s) {
       is_over_limit_ = true;
       end_at_once(record, program, over_limit(limit_s));
@@ -51,12 +53,16 @@ int ProgramRun::wait_for_end(pid_t program, const posix::Record& record, EndRequ
   return status;
 }
 
-ProgramRun::ProgramRun(const ProgramFiles& files, const RunMemory& memory, int output, double limit_s) {
+ProgramRun::ProgramRun(const ProgramFiles& files, const RunMemory& memory, OutputStreams streams, double limit_s,
+                       const std::function<void()>& look) {
   prctl(PR_SET_CHILD_SUBREAPER, 1);  // processes whose parents have ended are its own
-  const pid_t program = start_program(files, memory, output);
+  const pid_t program = start_program(files, memory, streams);
   EndRequests requests(memory.record(), program);
-  status_ = wait_for_end(program, memory.record(), requests, limit_s);
-  end_others(memory.record(), [&] { return requests.look(); });
+  status_ = wait_for_end(program, memory.record(), requests, limit_s, look);
+  end_others(memory.record(), [&] {
+    if (look) look();
+    return requests.look();
+  });
   is_interrupted_ = requests.ended_by() != 0;
   if (is_interrupted_) status_ = requests.ended_by();
 }

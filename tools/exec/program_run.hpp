@@ -2,6 +2,8 @@
 // A run of a program from start to end.
 #pragma once
 
+#include <functional>
+
 #include "core/hosting/program_end.hpp"
 #include "tools/exec/program_process.hpp"
 
@@ -12,8 +14,9 @@ class EndRequests;
 class ProgramRun {
  public:
   /// Runs the program to its end, with the settings in `memory`, or until `limit_s` seconds of the wall clock have
-  /// passed, unless 0. Its output goes to this process's, or to the descriptor `output`.
-  ProgramRun(const ProgramFiles& files, const RunMemory& memory, int output = -1, double limit_s = 0);
+  /// passed, unless 0. `look` is called about ten times a second meanwhile.
+  ProgramRun(const ProgramFiles& files, const RunMemory& memory, OutputStreams streams = {}, double limit_s = 0,
+             const std::function<void()>& look = nullptr);
 
   /// As from waitpid().
   int status() const { return status_; }
@@ -25,7 +28,8 @@ class ProgramRun {
 
  private:
   /// Returns the status.
-  int wait_for_end(pid_t program, const posix::Record& record, EndRequests& requests, double limit_s);
+  int wait_for_end(pid_t program, const posix::Record& record, EndRequests& requests, double limit_s,
+                   const std::function<void()>& look);
 
   int status_ = 0;
   bool is_interrupted_ = false, is_over_limit_ = false;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/gdb/debug.hpp"
 
+#include <fcntl.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -16,6 +18,7 @@
 #include "tools/exec/exec.hpp"
 #include "tools/exec/program_file.hpp"
 #include "tools/exec/program_process.hpp"
+#include "tools/explore/replay/program_replay.hpp"
 
 namespace waitpoint::tools {
 namespace {
@@ -46,23 +49,63 @@ std::filesystem::path commands() {
   throw BadInput("gdb", errno == ENOENT ? "gdb is not installed" : std::string("gdb: ") + std::strerror(errno));
 }
 
-/// gdb starts the program itself, with the environment of `waitpoint exec`.
+/// gdb starts the program itself, with the environment of `waitpoint exec`. `streams`: words of a shell.
+[[noreturn]] void debug_process(const DebugOptions& options, const ProgramFiles& files, const RunMemory& memory,
+                                const std::string& streams) {
+  std::vector<std::string> words = files.words;
+  words.front() = files.program.string();
+  std::vector<std::string> first = {"-iex", "set breakpoint pending on", "-ex"};
+  first.emplace_back("handle SIGSYS nostop noprint pass");  // raw system calls, which the layer answers
+  if (!files.accesses.empty()) first.insert(first.end(), {"-ex", "handle SIGTRAP nostop noprint pass"});
+  first.insert(first.end(), {"-ex", "set exec-wrapper env" + quoted(environment_of(files, memory))});
+  if (!streams.empty())
+    first.insert(first.end(),
+                 {"-ex", "set args" + quoted(std::vector<std::string>(words.begin() + 1, words.end())) + streams});
+  become_gdb(options, first, words);
+}
+
 [[noreturn]] void debug_program(const DebugOptions& options, const ExecOptions& program) {
   const ProgramFiles files(program.words);
   program.conditions.check(files.named());
-  const RunMemory memory(settings_of(program, program.seed));
-  std::vector<std::string> words = files.words;
-  words.front() = files.program.string();
-  const std::string handled = "handle SIGSYS nostop noprint pass";  // raw system calls, which the layer answers
-  const std::string wrapper = "set exec-wrapper env" + quoted(environment_of(files, memory));
-  become_gdb(options, {"-iex", "set breakpoint pending on", "-ex", handled, "-ex", wrapper}, words);
+  debug_process(options, files, RunMemory(settings_of(program, program.seed)), "");
+}
+
+/// A descriptor that programs do not expect, and that they inherit.
+int moved_up(int descriptor) { return fcntl(descriptor, F_DUPFD, least_descriptor); }
+
+/// The writing end of a pipe whose bytes go to standard output. The process that copies them is nobody's child.
+int output_of_replay() {
+  int ends[2];
+  if (pipe2(ends, O_CLOEXEC) != 0) throw BadInput("gdb", std::string("cannot create a pipe: ") + std::strerror(errno));
+  if (const pid_t parent = fork(); parent != 0) {
+    close(ends[0]);
+    waitpid(parent, nullptr, 0);
+    return moved_up(ends[1]);
+  }
+  if (fork() != 0) _exit(0);
+  close(ends[1]);
+  char bytes[4096];
+  for (ssize_t size = 0; (size = read(ends[0], bytes, sizeof bytes)) > 0;)
+    if (write(STDOUT_FILENO, bytes, static_cast<std::size_t>(size)) < 0) break;
+  _exit(0);
+}
+
+// A pipe of the user's is as the file of a search.
+[[noreturn]] void debug_replay(const DebugOptions& options, const ExploreOptions& replayed) {
+  replay_in(replayed, [&](const ProgramFiles& files, const RunMemory& memory, int input) {
+    const std::string folder = "/proc/self/fd/";
+    const std::string streams = " < " + folder + std::to_string(moved_up(input)) + " > " + folder +
+                                std::to_string(output_of_replay()) + " 2>&1";
+    debug_process(options, files, memory, streams);
+  });
+  std::abort();
 }
 
 }  // namespace
 
 void declare(Command& command, DebugOptions& options) {
   command.description = "Starts gdb with commands for simulated threads (docs/gdb.md).";
-  command.examples = {"-- run office --until 60", "-- ./program"};
+  command.examples = {"-- run office --until 60", "-- ./program", "-- explore --replay wx1... -- ./program"};
   command.usages = {"[OPTIONS OF GDB] -- run SCENARIO ...", "[OPTIONS OF GDB] -- PROGRAM ..."};
   command.takes_program = true;
   command.takes_all_words = true;
@@ -83,6 +126,7 @@ void debug(const DebugOptions& options) {
   std::vector<std::string> words = options.words;
   if (options.own) words.insert(words.begin(), own_program().string());
   if (options.program) debug_program(options, *options.program);
+  if (options.replayed) debug_replay(options, *options.replayed);
   become_gdb(options, {}, words);
 }
 

@@ -7,15 +7,17 @@
 #include <vector>
 
 #include "tools/exec/exec_options.hpp"
+#include "tools/explore/runs/explore_options.hpp"
 
 namespace waitpoint::tools {
 
 /// `waitpoint gdb [OPTIONS OF GDB] -- PROGRAM ...`
 struct DebugOptions {
   std::vector<std::string> gdb_options;
-  bool own = false;                    ///< the words after `--` are a command of waitpoint
-  std::vector<std::string> words;      ///< not empty
-  std::optional<ExecOptions> program;  ///< of the command `waitpoint exec`
+  bool own = false;                        ///< the words after `--` are a command of waitpoint
+  std::vector<std::string> words;          ///< not empty
+  std::optional<ExecOptions> program;      ///< of the command `waitpoint exec`
+  std::optional<ExploreOptions> replayed;  ///< of `waitpoint explore --replay` of a program
 };
 
 /// The command: what precedes "--" is for gdb.

@@ -5,7 +5,6 @@
 #include <unistd.h>
 
 #include <cstdio>
-#include <memory>
 #include <optional>
 #include <string>
 
@@ -28,39 +27,34 @@
 namespace waitpoint::tools {
 namespace {
 
-/// The program; and of a scenario with nodes, whose processes inherit them, the folder of their logs and the streams,
-/// as in a search.
+/// The program with the streams of a search, whatever this process's are; and of a scenario with nodes the folder of
+/// their logs.
 struct ReplayedProgram {
   explicit ReplayedProgram(const ExploreOptions& options) : files(options.program, false, options.switch_at) {
     if (!options.has_nodes) return;
     around.emplace();
     logs.emplace(*around).use();
-    streams = std::make_unique<RunStreams>();
-    streams->open();
-    dup2(streams->input(), STDIN_FILENO);
   }
-  /// The output of a run that begins; `usual` for a program.
-  int begin_run(int usual) const {
-    if (!logs) return usual;
-    logs->clear();
-    streams->open();
-    return streams->output();
+  /// The output of a run that begins. Nodes' is searched for what they report.
+  OutputStreams begin_run() {
+    if (logs) logs->clear();
+    streams.open(!logs);
+    dup2(streams.input(), STDIN_FILENO);
+    return {streams.output(), streams.errors()};
   }
 
   ProgramFiles files;
-  std::unique_ptr<RunStreams> streams = {};
+  RunStreams streams = {};
   std::optional<LogFolder> around = {}, logs = {};  // a path as long as in a search: it is in the nodes' memory
 };
 
 /// A run; the program's output is discarded.
-ProcessFinding look(const ReplayedProgram& replayed, const ExploreOptions& options, const Plan& plan,
+ProcessFinding look(ReplayedProgram& replayed, const ExploreOptions& options, const Plan& plan,
                     const WantedEvidence& wanted, const exploration::Profile& known) {
   RunMemory memory(settings_of(options));
   ask_for_run(memory, replayed.files, options, plan, wanted, known);
-  const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
-  const ProgramRun run(replayed.files, memory, replayed.begin_run(nowhere),
+  const ProgramRun run(replayed.files, memory, replayed.begin_run(),
                        options.schedule_limit_s.value_or(ExploreOptions::usual_schedule_limit_s));
-  close(nowhere);
   ProcessFinding finding = finding_of_run(memory, run.status(), "", wanted, false);
   if (run.is_over_limit()) finding.kind = ProcessFinding::Kind::no_progress;
   return finding;
@@ -72,7 +66,7 @@ void check_obstacle(const ProcessFinding& finding) {
 }
 
 /// The parts of the profile that the schedule depends on.
-exploration::Profile take_profile(const ReplayedProgram& replayed, const ExploreOptions& options, const Plan& plan) {
+exploration::Profile take_profile(ReplayedProgram& replayed, const ExploreOptions& options, const Plan& plan) {
   exploration::Profile known, profile;
   known.code = learn_code(replayed.files, [&](const Plan& learning, const std::vector<std::uint64_t>& code) {
     known.code = code;
@@ -86,30 +80,58 @@ exploration::Profile take_profile(const ReplayedProgram& replayed, const Explore
   return profile;
 }
 
-}  // namespace
+/// The run of the record, up to the start of its process.
+struct Replay {
+  explicit Replay(const ExploreOptions& asked);
 
-int replay_program(const ExploreOptions& asked) {
-  ExploreOptions options = asked;
+  ExploreOptions options;
+  ReplayRecord record;
+  std::optional<ReplayedProgram> replayed;
+  WantedEvidence wanted;
+  std::optional<RunMemory> memory;
+};
+
+Replay::Replay(const ExploreOptions& asked) : options(asked) {
   const ProgramFiles named(options.program);
   options.conditions.check(named.named());
-  const ReplayRecord record = read_replay_record(options, fingerprint_of(named, options));
+  record = read_replay_record(options, fingerprint_of(named, options));
   check_memory(options, named);
-  const ReplayedProgram replayed(options);
-  std::optional<OutputFile> trace;
-  if (options.trace) trace.emplace(*options.trace);
-  const exploration::Profile profile = take_profile(replayed, options, record.plan);
-  const auto learn_from = [&](const Plan& plan) { return look(replayed, options, plan, {.pairs = true}, profile); };
+  replayed.emplace(options);
+  const exploration::Profile profile = take_profile(*replayed, options, record.plan);
+  const auto learn_from = [&](const Plan& plan) { return look(*replayed, options, plan, {.pairs = true}, profile); };
   const Plan plan = record.plan.drawn ? Feedback(options.strategy, options.seed).plan_of(record.plan.number, learn_from)
                                       : record.plan;
-  WantedEvidence wanted{.words = !record.plan.drawn, .places = true};
-  if (trace) wanted.events = {.trace = true};
-  RunMemory memory(settings_of(options));
-  ask_for_run(memory, replayed.files, options, plan, wanted, profile);
+  wanted = {.words = !record.plan.drawn, .places = true};
+  if (options.trace) wanted.events = {.trace = true};
+  ask_for_run(memory.emplace(settings_of(options)), replayed->files, options, plan, wanted, profile);
+}
+
+}  // namespace
+
+void replay_in(const ExploreOptions& options, const Start& start) {
+  const int own_input = fcntl(STDIN_FILENO, F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
+  Replay replay(options);
+  replay.replayed->begin_run();
+  dup2(own_input, STDIN_FILENO);
+  start(replay.replayed->files, *replay.memory, replay.replayed->streams.input());
+}
+
+int replay_program(const ExploreOptions& asked) {
+  std::optional<OutputFile> trace;
+  if (asked.trace) trace.emplace(*asked.trace);
+  Replay replay(asked);
+  auto& [options, record, prepared, wanted, run_memory] = replay;
+  ReplayedProgram& replayed = *prepared;
+  RunMemory& memory = *run_memory;
   const double limit_s = options.schedule_limit_s.value_or(ExploreOptions::usual_schedule_limit_s);
-  // The program's output is in the way of a document.
-  const ProgramRun run(replayed.files, memory, replayed.begin_run(options.json ? STDERR_FILENO : -1), limit_s);
-  const std::string output = replayed.streams ? replayed.streams->whole_output() : "";
-  write_text(output, options.json);
+  // Shown while the program writes it; it would be in the way of a document.
+  const auto show = [&] {
+    if (RunStreams::are_shown()) write_text(replayed.streams.new_output(), options.json);
+    std::fputs(replayed.streams.new_errors().c_str(), stderr);
+  };
+  const ProgramRun run(replayed.files, memory, replayed.begin_run(), limit_s, show);
+  show();
+  const std::string output = options.has_nodes ? replayed.streams.whole_output() : "";
   ProcessFinding finding = finding_of_run(memory, run.status(), output, wanted, options.races != Races::ignore);
   if (options.has_nodes) tell_unmet(finding);
   if (options.has_nodes) finding.words = finding.headline();
