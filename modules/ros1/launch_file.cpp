@@ -8,11 +8,11 @@
 #include <optional>
 
 #include "core/nearest_name.hpp"
+#include "core/xml/xml_reader.hpp"
 #include "modules/ros1/launch_element.hpp"
 #include "modules/ros1/launch_nodes.hpp"
 #include "modules/ros1/launch_parameters.hpp"
 #include "modules/ros1/launch_reading.hpp"
-#include "world/formats/xml_reader.hpp"
 
 namespace waitpoint::ros1 {
 namespace {
@@ -68,7 +68,7 @@ void read_file(LaunchScope& scope, LaunchReading& reading) {
     throw BadInput(file, "expected includes of at most " + std::to_string(depth_max) + " levels");
   if (++reading.files > files_max)
     throw BadInput(file, "expected at most " + std::to_string(files_max) + " launch files, each counted when included");
-  const world::XmlReader document(reading.contents_of(file, "a launch file"), file, "launch");
+  const XmlReader document(reading.contents_of(file, "a launch file"), file, "launch");
   std::error_code none;
   std::filesystem::path canonical = std::filesystem::weakly_canonical(file, none);
   if (std::find(reading.open.begin(), reading.open.end(), canonical) != reading.open.end())

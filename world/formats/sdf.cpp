@@ -13,12 +13,12 @@
 #include "core/confinement.hpp"
 #include "core/error.hpp"
 #include "core/exact_math.hpp"
+#include "core/xml/xml_reader.hpp"
 #include "world/formats/beside.hpp"
 #include "world/formats/included_files.hpp"
 #include "world/formats/limits.hpp"
 #include "world/formats/mesh_file.hpp"
 #include "world/formats/upright.hpp"
-#include "world/formats/xml_reader.hpp"
 
 namespace waitpoint::world {
 namespace {
@@ -166,9 +166,8 @@ class SdfReader {
     for (const Element* child = mesh.FirstChildElement(); child != nullptr; child = child->NextSiblingElement()) {
       const std::string_view kind = child->Name();
       if (kind == "scale") {
-        const std::array<double, 3> scale = xml_->numbers<3>(*child);
+        const std::array<double, 3> scale = xml_->scale(*child);
         placement.scale = {scale[0], scale[1], scale[2]};
-        if (scale[0] * scale[1] * scale[2] == 0) xml_->fail(*child, "expected <scale> not to be zero");
       } else if (kind == "submesh") {
         return tell(mesh, "a <mesh> with a <submesh>", "is left out");
       } else if (kind != "uri") {

@@ -12,12 +12,12 @@
 #include <utility>
 
 #include "core/confinement.hpp"
+#include "core/xml/xml_reader.hpp"
 #include "world/formats/beside.hpp"
 #include "world/formats/enclosing_solid.hpp"
 #include "world/formats/limits.hpp"
 #include "world/formats/mesh_file.hpp"
 #include "world/formats/upright.hpp"
-#include "world/formats/xml_reader.hpp"
 
 namespace waitpoint::world {
 namespace {
@@ -183,6 +183,11 @@ class UrdfReader {
   }
 
   void read_mesh(const Element& mesh, const SpacePose& pose) {
+    MeshPlacement placement;
+    if (mesh.Attribute("scale") != nullptr) {
+      const std::array<double, 3> scale = xml_.scale(mesh, "scale");
+      placement.scale = {scale[0], scale[1], scale[2]};
+    }
     const std::string uri = xml_.text(mesh, "filename"), file = found_file(uri);
     std::error_code error;
     if (file.empty() || !std::filesystem::is_regular_file(file, error)) {
@@ -190,11 +195,6 @@ class UrdfReader {
     }
     if (!reads_meshes_like(file)) {
       return tell(mesh, "the <mesh> '" + uri + "'", "is left out: this program does not read its kind");
-    }
-    MeshPlacement placement;
-    if (mesh.Attribute("scale") != nullptr) {
-      const std::array<double, 3> scale = xml_.numbers<3>(mesh, "scale");
-      placement.scale = {scale[0], scale[1], scale[2]};
     }
     if (++mesh_count_ > mesh_count_max)
       xml_.fail(mesh, "expected at most " + std::to_string(mesh_count_max) + " meshes");

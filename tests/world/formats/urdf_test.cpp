@@ -187,6 +187,8 @@ TEST(Urdf, BadInputIsOneLineAtItsPlace) {
   EXPECT_TRUE(rejects_urdf(link("a", collision("<cylinder radius='0.1'/>")), "r.urdf:2", "to have 'length'"));
   EXPECT_TRUE(rejects_urdf(link("a", collision("<sphere radius='nan'/>")), "r.urdf:2", "expected 1 number"));
   EXPECT_TRUE(rejects_urdf(link("a", collision(hull, "<origin rpy='90000 0 0'/>")), "r.urdf:2", "angles in radians"));
+  EXPECT_TRUE(rejects_urdf(link("a", collision("<mesh filename='a.stl' scale='1 0 1'/>")), "r.urdf:2",
+                           "expected 'scale' of <mesh> not to be zero"));
   EXPECT_TRUE(complains(
       [] {
         LeftOut left_out;

@@ -13,12 +13,13 @@ class XMLDocument;
 class XMLElement;
 }  // namespace tinyxml2
 
-namespace waitpoint::world {
+namespace waitpoint {
 
 /// Owns the parsed document; `file` is its name, for messages.
 class XmlReader {
  public:
   using Element = tinyxml2::XMLElement;
+  static constexpr double number_max = 1e5;  ///< metres, mostly
 
   /// BadInput for malformed XML, or a root element with another name than `root`.
   XmlReader(const std::string& contents, const std::string& file, const char* root);
@@ -37,14 +38,14 @@ class XmlReader {
   std::string text(const Element& element) const;
   /// "true", "1", "false" or "0".
   bool flag(const Element& element) const;
-  /// Exactly `count` numbers, none beyond coordinate_m_max.
+  /// Exactly `count` numbers, none beyond number_max.
   template <std::size_t count>
   std::array<double, count> numbers(const Element& element) const {
     std::array<double, count> values{};
     read_numbers(element, text_or_nothing(element), "", values);
     return values;
   }
-  /// Above 0, at most coordinate_m_max.
+  /// Above 0, at most number_max.
   double positive(const Element& element) const;
 
   /// The same of an attribute.
@@ -56,9 +57,12 @@ class XmlReader {
     return values;
   }
   double positive(const Element& element, const char* attribute) const;
+  /// Three factors, none of them 0; without an attribute of the element's own text.
+  std::array<double, 3> scale(const Element& element, const char* attribute = "") const;
 
  private:
-  // `attribute` is the source of the text, for messages; empty for the element's own text.
+  // `attribute` is the source of the text; empty: the element's own text.
+  static std::string source(const Element& element, const std::string& attribute);
   void read_numbers(const Element& element, const std::string& text, const std::string& attribute,
                     std::span<double> values) const;
 
@@ -66,4 +70,4 @@ class XmlReader {
   std::unique_ptr<tinyxml2::XMLDocument> document_;
 };
 
-}  // namespace waitpoint::world
+}  // namespace waitpoint

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "world/formats/xml_reader.hpp"
+#include "core/xml/xml_reader.hpp"
 
 #include <tinyxml2.h>
 
@@ -9,11 +9,11 @@
 
 #include "core/error.hpp"
 #include "core/number_text.hpp"
-#include "world/formats/limits.hpp"
 
-namespace waitpoint::world {
+namespace waitpoint {
 namespace {
 
+constexpr std::size_t bytes_max = 16 << 20;
 constexpr std::string_view xml_blanks = " \t\r\n";
 
 std::string in_brackets(const char* name) { return "<" + std::string(name) + ">"; }
@@ -22,8 +22,8 @@ std::string in_brackets(const char* name) { return "<" + std::string(name) + ">"
 
 XmlReader::XmlReader(const std::string& contents, const std::string& file, const char* root)
     : file_(file), document_(std::make_unique<tinyxml2::XMLDocument>()) {
-  if (contents.size() > tree_bytes_max) {
-    throw BadInput(file, "expected XML of at most " + std::to_string(tree_bytes_max >> 20) + " MiB");
+  if (contents.size() > bytes_max) {
+    throw BadInput(file, "expected XML of at most " + std::to_string(bytes_max >> 20) + " MiB");
   }
   // To tinyxml2, a zero byte ends the text.
   if (contents.find('\0') != std::string::npos) throw BadInput(file, 1, "expected XML, found a zero byte");
@@ -89,10 +89,19 @@ std::string XmlReader::text(const Element& element, const char* attribute) const
 
 double XmlReader::positive(const Element& element, const char* attribute) const {
   const double number = numbers<1>(element, attribute)[0];
-  if (!(number > 0)) {
-    fail(element, std::string("expected '") + attribute + "' of " + in_brackets(element.Name()) + " to be positive");
-  }
+  if (!(number > 0)) fail(element, "expected " + source(element, attribute) + " to be positive");
   return number;
+}
+
+std::array<double, 3> XmlReader::scale(const Element& element, const char* attribute) const {
+  std::array<double, 3> factors{};
+  read_numbers(element, *attribute == '\0' ? text_or_nothing(element) : text(element, attribute), attribute, factors);
+  if (std::ranges::count(factors, 0) > 0) fail(element, "expected " + source(element, attribute) + " not to be zero");
+  return factors;
+}
+
+std::string XmlReader::source(const Element& element, const std::string& attribute) {
+  return (attribute.empty() ? "" : "'" + attribute + "' of ") + in_brackets(element.Name());
 }
 
 void XmlReader::read_numbers(const Element& element, const std::string& text, const std::string& attribute,
@@ -108,11 +117,10 @@ void XmlReader::read_numbers(const Element& element, const std::string& text, co
   for (double& value : values) {
     std::string_view word = next_word();
     if (word.starts_with('+')) word.remove_prefix(1);
-    good = good && parse_number(word, value) && std::fabs(value) <= coordinate_m_max;
+    good = good && parse_number(word, value) && std::fabs(value) <= number_max;
   }
   if (good && next_word().empty()) return;
-  fail(element, "expected " + counted(values.size(), "number") + " within 100 km in " +
-                    (attribute.empty() ? "" : "'" + attribute + "' of ") + in_brackets(element.Name()));
+  fail(element, "expected " + counted(values.size(), "number") + " within 100 km in " + source(element, attribute));
 }
 
-}  // namespace waitpoint::world
+}  // namespace waitpoint
