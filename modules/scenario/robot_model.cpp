@@ -59,8 +59,8 @@ void mount_at_frame(const YamlNode& laser, const std::optional<RobotModel>& mode
     throw frame->written.bad("there is no link '" + name + "' in the urdf" + did_you_mean(name, names));
   }
   const world::SpacePose& pose = found->pose;
-  if (exact::hypot(pose.axes[2].x, pose.axes[2].y) > world::tilt_max_rad || pose.axes[2].z < 0)
-    throw frame->written.bad("expected link '" + name + "' to be upright: scans are level");
+  if (exact::hypot(pose.axes[2].x, pose.axes[2].y) > world::tilt_max_rad)
+    throw frame->written.bad("expected link '" + name + "' to be level, as scans are");
   device.mount = {pose.position.x, pose.position.y, exact::atan2(pose.axes[0].y, pose.axes[0].x)};
   device.height_m = pose.position.z;
 }

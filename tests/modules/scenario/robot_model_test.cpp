@@ -10,8 +10,11 @@ constexpr const char* rover = R"(<robot name="rover">
   <link name="base"><collision><geometry><box size="0.6 0.4 0.2"/></geometry></collision></link>
   <link name="mast"/>
   <link name="tilted"/>
+  <link name="hanging"/>
   <joint name="a" type="fixed"><parent link="base"/><child link="mast"/><origin xyz="0.2 0 0.3" rpy="0 0 0.5"/></joint>
   <joint name="b" type="fixed"><parent link="base"/><child link="tilted"/><origin rpy="0 0.3 0"/></joint>
+  <joint name="c" type="fixed"><parent link="base"/><child link="hanging"/>
+    <origin xyz="0.1 0 0.3" rpy="3.141592653589793 0 0"/></joint>
 </robot>)";
 
 const std::string own_shape = "shape: {radius_m: 0.26, height_m: 1.2}";
@@ -41,6 +44,12 @@ TEST_F(RobotModelOfAScenario, GivesShapeAndLaserMounts) {
   EXPECT_NEAR(laser.height_m, 0.4, 1e-12);  // the body stands on the floor, not in it
 }
 
+TEST_F(RobotModelOfAScenario, LaserUpsideDownIsMountedAsAnUprightOne) {
+  const world::LaserDescription laser = read("frame: hanging").robots.at(0).body.sensors<world::Lasers>().at(0);
+  EXPECT_NEAR(laser.mount.x, 0.1, 1e-12);
+  EXPECT_NEAR(laser.mount.heading, 0, 1e-12);
+}
+
 TEST_F(RobotModelOfAScenario, TakesXacroArguments) {
   folder_.write("rover.urdf", R"(<robot name="rover">
     <link name="${namespace}base"><collision><geometry><box size="${length} 0.4 0.2"/></geometry></collision></link>
@@ -61,7 +70,7 @@ TEST_F(RobotModelOfAScenario, TakesXacroArguments) {
 TEST_F(RobotModelOfAScenario, ContradictionsAreReportedInOneLine) {
   EXPECT_NE(complaint("frame: mst").find("there is no link 'mst' in the urdf, did you mean 'mast'?"), std::string::npos)
       << complaint("frame: mst");
-  EXPECT_NE(complaint("frame: tilted").find("expected link 'tilted' to be upright"), std::string::npos);
+  EXPECT_NE(complaint("frame: tilted").find("expected link 'tilted' to be level"), std::string::npos);
   EXPECT_NE(complaint("frame: mast, height_m: 0.4").find("expected either frame or height_m"), std::string::npos);
   const auto file = folder_.write("s.yaml", changed(own_mount, "frame: mast"));
   EXPECT_NE(message_of<BadInput>([&] { read_scenario(file); }).find("expected no frame: the robot has no urdf"),
