@@ -31,6 +31,25 @@ void at(const scenario::Location& written, Function&& function) {
   }
 }
 
+// The first that takes a mission carries it out.
+template <class... Executives>
+std::unique_ptr<executive::RobotExecutive> first_of(const executive::ExecutiveSetup& setup) {
+  std::unique_ptr<executive::RobotExecutive> made;
+  (void)((Executives::takes(setup) && (made = std::make_unique<Executives>(setup))) || ...);
+  return made;
+}
+
+std::unique_ptr<executive::RobotExecutive> executive_of(const executive::ExecutiveSetup& setup) {
+  return first_of<executive::GoalsForOthers, tcl::TclExecutive, executive::Executive, executive::TrajectoryFollower>(
+      setup);
+}
+
+template <class Named>  // a script or a trajectory
+std::optional<executive::MissionFile> mission_file(const std::optional<Named>& named) {
+  if (!named) return std::nullopt;
+  return executive::MissionFile{named->file, named->text, named->written.file, named->written.line};
+}
+
 constexpr Duration replan_period_unknown = std::chrono::milliseconds(200);
 
 std::string report_text(const executive::GoalRecord& record) {
@@ -54,12 +73,7 @@ Robot::Robot(const scenario::RobotScenario& scenario, std::span<const genom::Mod
     : scenario_(scenario), world_(world), body_(body), bridge_(std::in_place, scenario, world, body, names_) {
   for (const std::string& name : scenario.processors) names_.add_processor(name);
   make_modules(types, network, {known, &known->map()});
-  if (scenario.goals_are_for_nodes() && !scenario.goals.empty())
-    make_goals_for_nodes();
-  else if (!scenario.goals.empty() || scenario.script)
-    make_executive(std::move(known), seed);
-  if (scenario.plan != nullptr) make_plan();
-  if (scenario.trajectory) make_follower();
+  make_executive(std::move(known), seed);
   connect();
   if (scenario.control) make_controller();
 }
@@ -91,63 +105,38 @@ void Robot::make_modules(std::span<const genom::ModuleType> types, io::Network* 
   }
 }
 
+// The keys of `executive` are read for each robot, with a mission or without. With a script below a plan they are the
+// script's.
 void Robot::make_executive(std::shared_ptr<const executive::KnownSpace> known, std::uint64_t seed) {
-  executive::Parameters parameters;
+  executive::ExecutiveSetup setup{.names = names_,
+                                  .robot = scenario_.name,
+                                  .parameters = {},
+                                  .known = std::move(known),
+                                  .start = {},
+                                  .goals = {},
+                                  .is_for_others = scenario_.goals_are_for_nodes(),
+                                  .script = mission_file(scenario_.script),
+                                  .trajectory = mission_file(scenario_.trajectory),
+                                  .random = executive_stream(seed)};
   genom::Settings settings(scenario_.executive);
   derive_outline(robot_outline(scenario_.body.shape), settings, "planning.");
-  if (!known->is_known()) parameters.replan_ms = replan_period_unknown;
-  executive::read(settings, parameters);
-  genom::TaskComputing& computing = scenario_.plan != nullptr ? script_computing_ : computing_;
-  computing = genom::read_computing(settings, "", names_, {});
+  if (!setup.known->is_known()) setup.parameters.replan_ms = replan_period_unknown;
+  executive::read(settings, setup.parameters);
+  const genom::TaskComputing computing = genom::read_computing(settings, "", names_, {});
   settings.check_all_used();
-  std::vector<Point> goals;
-  for (const scenario::Goal& goal : scenario_.goals) goals.push_back(goal.position);
-  posters::KnownPose start;
-  start.pose = scenario_.body.start;
-  if (scenario_.script) return make_scripted_executive(parameters, start, std::move(goals), std::move(known), seed);
-  executive_ = std::make_unique<executive::Executive>(names_, parameters, std::move(known), start, goals,
-                                                      executive_stream(seed));
+  setup.start.pose = scenario_.body.start;
+  for (const scenario::Goal& goal : scenario_.goals) setup.goals.push_back(goal.position);
+  if (has_mission()) (scenario_.plan != nullptr && scenario_.script ? script_computing_ : computing_) = computing;
+  if (scenario_.plan != nullptr && scenario_.script) make_procedures();
+  executive_ = executive_of(setup);
+  if (scenario_.plan != nullptr)
+    plan_ = std::make_unique<plan::Executor>(names_, plan::read_plan(*scenario_.plan), setup.start);
 }
 
 RandomStream Robot::executive_stream(std::uint64_t seed) const { return {seed, scenario_.name, "executive"}; }
 
 void Robot::reseed(std::uint64_t seed) {
   if (executive_ != nullptr) executive_->reseed(executive_stream(seed));
-}
-
-// Of a task without parameters of its own.
-void Robot::read_computing() {
-  genom::Settings settings(scenario_.executive);
-  computing_ = genom::read_computing(settings, "", names_, {});
-  settings.check_all_used();
-}
-
-void Robot::make_follower() {
-  read_computing();
-  const scenario::TrajectoryScenario& of = *scenario_.trajectory;
-  executive::Trajectory trajectory(of.text, of.file);
-  posters::KnownPose start;
-  start.pose = scenario_.body.start;
-  at(scenario_.start_written,
-     [&] { executive_ = std::make_unique<executive::TrajectoryFollower>(names_, std::move(trajectory), start); });
-}
-
-void Robot::make_goals_for_nodes() {
-  read_computing();
-  std::vector<Point> goals;
-  goals.reserve(scenario_.goals.size());
-  for (const scenario::Goal& goal : scenario_.goals) goals.push_back(goal.position);
-  auto executive = std::make_unique<executive::GoalsForOthers>(goals);
-  goals_for_nodes_ = executive.get();
-  executive_ = std::move(executive);
-}
-
-// With a script, the keys of `executive` are the script's.
-void Robot::make_plan() {
-  if (!scenario_.script) read_computing();
-  posters::KnownPose start;
-  start.pose = scenario_.body.start;
-  plan_ = std::make_unique<plan::Executor>(names_, plan::read_plan(*scenario_.plan), start);
 }
 
 // The words of calls of procedures.
@@ -160,32 +149,15 @@ void Robot::check_calls() const {
   }
 }
 
-void Robot::make_scripted_executive(const executive::Parameters& parameters, const posters::KnownPose& start,
-                                    std::vector<Point> goals, std::shared_ptr<const executive::KnownSpace> known,
-                                    std::uint64_t seed) {
-  const scenario::ScriptScenario& script = *scenario_.script;
-  const tcl::Library& library = tcl::library(script.written.file, script.written.line);
-  if (const auto error = library.check(script.text)) throw BadInput(script.file, error->line, error->text);
-  tcl::MissionSetup setup;
-  setup.script = {script.file, script.text};
-  setup.robot = scenario_.name;
-  setup.planning = parameters.planning;
-  setup.mark_range_m = parameters.mark_range_m;
-  setup.plan_cost_us = parameters.plan_cost_us;
-  setup.start = start;
-  setup.goals = std::move(goals);
-  setup.seed = tcl::seed_of_script(executive_stream(seed));
-  if (scenario_.plan != nullptr) make_procedures(library);
-  executive_ = std::make_unique<tcl::TclExecutive>(names_, library, std::move(setup), std::move(known), procedures_);
-}
-
 // The script below a plan as a module among the others.
-void Robot::make_procedures(const tcl::Library& library) {
+void Robot::make_procedures() {
+  const scenario::ScriptScenario& script = *scenario_.script;
+  const tcl::Library& library = tcl::library_for(script.file, script.text, script.written.file, script.written.line);
   procedures_scenario_.name = plan::script_module;
-  procedures_scenario_.written = scenario_.script->written;
+  procedures_scenario_.written = script.written;
   genom::ModuleSetup setup{names_, procedures_scenario_.name, genom::Settings()};
   at(procedures_scenario_.written, [&] {
-    auto procedures = std::make_unique<tcl::Procedures>(setup, library, scenario_.script->text);
+    auto procedures = std::make_unique<tcl::Procedures>(setup, library, script.text);
     procedures_ = procedures.get();
     modules_.push_back(std::move(procedures));
   });
@@ -290,9 +262,8 @@ std::optional<std::size_t> Robot::current_goal() const {
 }
 
 bool Robot::end_goal(bool is_reached) {
-  if (goals_for_nodes_ == nullptr || !current_goal()) return false;
-  goals_for_nodes_->end_goal(is_reached ? executive::GoalState::reached : executive::GoalState::given_up);
-  return true;
+  return executive_ != nullptr &&
+         executive_->end_goal(is_reached ? executive::GoalState::reached : executive::GoalState::given_up);
 }
 
 void Robot::set_goals(std::uint64_t goals, std::uint64_t reached) {

@@ -26,9 +26,7 @@ namespace waitpoint::control {
 class Controller;
 }  // namespace waitpoint::control
 namespace waitpoint::executive {
-struct Parameters;
 class KnownSpace;
-class GoalsForOthers;
 class RobotExecutive;
 }  // namespace waitpoint::executive
 namespace waitpoint::plan {
@@ -39,7 +37,6 @@ class ModuleWatch;
 }  // namespace waitpoint::genom
 namespace waitpoint::tcl {
 class Procedures;
-struct Library;
 }  // namespace waitpoint::tcl
 
 namespace waitpoint::io {
@@ -129,16 +126,9 @@ class Robot {
   void make_executive(std::shared_ptr<const executive::KnownSpace> known, std::uint64_t seed);
   RandomStream executive_stream(std::uint64_t seed) const;
   bool has_script_below_plan() const { return plan_ != nullptr && executive_ != nullptr; }
-  void make_procedures(const tcl::Library& library);
-  void make_plan();
-  void make_follower();
-  void make_goals_for_nodes();
-  void read_computing();
+  void make_procedures();
   void check_calls() const;
   void run_script_below_plan();
-  void make_scripted_executive(const executive::Parameters& parameters, const posters::KnownPose& start,
-                               std::vector<Point> goals, std::shared_ptr<const executive::KnownSpace> known,
-                               std::uint64_t seed);
   void connect();
   void make_controller();
 
@@ -155,7 +145,6 @@ class Robot {
   genom::TaskComputing script_computing_;                 // of a script below a plan
   tcl::Procedures* procedures_ = nullptr;                 // of a script below a plan
   std::unique_ptr<executive::RobotExecutive> executive_;  // null without goals, script and trajectory
-  executive::GoalsForOthers* goals_for_nodes_ = nullptr;  // the executive, if it is that
   std::unique_ptr<control::Controller> controller_;       // null without rules
   std::unique_ptr<plan::Executor> plan_;                  // null without a plan
   Evaluation evaluation_;

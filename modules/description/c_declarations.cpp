@@ -73,7 +73,7 @@ void CDeclarations::declare(TokenStream& tokens) {
 
 void CDeclarations::define_typedefs(TokenStream& tokens, const TypeRef& base) {
   do {
-    const Place place = tokens.peek().place;
+    const SourcePlace place = tokens.peek().place;
     const Field defined = declarator(tokens, base, "the name of a type");
     const TypeRef before = find_type(defined.name);
     if (before != nullptr && structure(*before) != structure(*defined.type))
@@ -120,7 +120,7 @@ TypeRef CDeclarations::specifier(TokenStream& tokens, int depth) {
 }
 
 TypeRef CDeclarations::number_specifier(TokenStream& tokens) {
-  const Place place = tokens.peek().place;
+  const SourcePlace place = tokens.peek().place;
   std::map<std::string, int> words;
   std::string spelling;
   while (one_of(tokens.peek(), number_words) || tokens.next_is("const") || tokens.next_is("volatile")) {
@@ -157,7 +157,7 @@ TypeRef CDeclarations::number_specifier(TokenStream& tokens) {
 }
 
 TypeRef CDeclarations::struct_specifier(TokenStream& tokens, int depth) {
-  const Place place = tokens.take().place;
+  const SourcePlace place = tokens.take().place;
   const std::string name =
       tokens.peek().kind == TokenKind::name ? "struct " + tokens.expect_declared_name("the name of a struct").text : "";
   if (!tokens.next_is("{")) {
@@ -171,7 +171,7 @@ TypeRef CDeclarations::struct_specifier(TokenStream& tokens, int depth) {
   while (!tokens.accept("}")) {
     const TypeRef base = specifier(tokens, depth + 1);
     do {
-      const Place at = tokens.peek().place;
+      const SourcePlace at = tokens.peek().place;
       Field field = declarator(tokens, base, "the name of a member");
       for (const Field& other : fields)
         if (other.name == field.name)
@@ -188,7 +188,7 @@ TypeRef CDeclarations::struct_specifier(TokenStream& tokens, int depth) {
 }
 
 TypeRef CDeclarations::enum_specifier(TokenStream& tokens) {
-  const Place place = tokens.take().place;
+  const SourcePlace place = tokens.take().place;
   const std::string name =
       tokens.peek().kind == TokenKind::name ? "enum " + tokens.expect_declared_name("the name of an enum").text : "";
   if (!tokens.next_is("{")) {
@@ -220,9 +220,9 @@ Field CDeclarations::declarator(TokenStream& tokens, const TypeRef& base, const 
   if (tokens.next_is("*") || tokens.next_is("("))
     tokens.fail("expected " + std::string(what) + " (pointers and functions mean nothing in another process)");
   Field field{tokens.expect_declared_name(what).text, base};
-  std::vector<std::pair<std::size_t, Place>> dimensions;
+  std::vector<std::pair<std::size_t, SourcePlace>> dimensions;
   while (tokens.next_is("[")) {
-    const Place place = tokens.take().place;
+    const SourcePlace place = tokens.take().place;
     if (dimensions.size() == dimensions_max) reject(place, "expected at most 8 dimensions");
     const std::int64_t count = constant(tokens);
     if (count < 1) reject(place, "expected an array of at least 1 element, found " + std::to_string(count));

@@ -63,7 +63,7 @@ class Evaluation {
     }
   }
 
-  static std::int64_t apply(std::string_view text, const Place& place, std::int64_t a, std::int64_t b) {
+  static std::int64_t apply(std::string_view text, const SourcePlace& place, std::int64_t a, std::int64_t b) {
     std::int64_t result = 0;
     bool overflow = false;
     if (text == "+") overflow = __builtin_add_overflow(a, b, &result);

@@ -15,7 +15,7 @@ namespace waitpoint::description {
 /// A name, and where it stands.
 struct Name {
   std::string text;
-  Place place;
+  SourcePlace place;
 };
 
 /// `name::path`: a member of the internal data, by a name of its own; of a poster's `type`, without a path.
@@ -23,7 +23,7 @@ struct Parameter {
   std::string name;
   std::vector<std::string> path;
   TypeRef type;  ///< null until resolved
-  Place place;
+  SourcePlace place;
 
   bool operator==(const Parameter& other) const { return name == other.name && path == other.path; }
 };
@@ -33,7 +33,7 @@ struct InputInfo {
   std::string value;  ///< as C writes it
   bool is_text = false;
   std::string text;
-  Place place;
+  SourcePlace place;
 };
 
 enum class RequestKind : std::uint8_t { control, exec, init };

@@ -78,7 +78,7 @@ class Lexer {
   }
 
   void skip_comment() {
-    const Place begin = place_;
+    const SourcePlace begin = place_;
     advance(2);
     while (!begins("*/")) {
       if (at_ == contents_.size()) reject(begin, "expected '*/' at the end of this comment, found the end of the file");
@@ -152,13 +152,13 @@ class Lexer {
 
   std::string_view contents_;
   std::size_t at_ = 0;
-  Place place_;
+  SourcePlace place_;
   bool first_of_line_ = true, after_space_ = false;
 };
 
 }  // namespace
 
-void reject(const Place& place, const std::string& message) {
+void reject(const SourcePlace& place, const std::string& message) {
   throw BadInput(place.file ? *place.file : "", place.line, "column " + std::to_string(place.column) + ": " + message);
 }
 

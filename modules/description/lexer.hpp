@@ -17,7 +17,7 @@ enum class TokenKind : std::uint8_t { name, number, text, punctuation, end };
 struct Token {
   TokenKind kind = TokenKind::end;
   std::string text;  ///< of a quoted text: the letters between the quotes, escapes resolved
-  Place place;
+  SourcePlace place;
   bool first_of_line = false;
   bool after_space = false;
   std::size_t begin = 0, end = 0;  ///< in the file's bytes
@@ -29,7 +29,7 @@ inline bool is(const Token& token, std::string_view text) {
   return (token.kind == TokenKind::punctuation || token.kind == TokenKind::name) && token.text == text;
 }
 
-inline Token end_token(const Place& place) {
+inline Token end_token(const SourcePlace& place) {
   Token token;
   token.place = place;
   return token;

@@ -90,7 +90,7 @@ class Parser {
     return text;
   }
   std::int64_t read_number(std::int64_t least, std::int64_t most, const std::string& what) {
-    const Place place = tokens_.peek().place;
+    const SourcePlace place = tokens_.peek().place;
     const std::int64_t number = types_.constant(tokens_);
     if (number < least || number > most)
       reject(place, "expected " + what + " from " + std::to_string(least) + " to " + std::to_string(most) + ", found " +
@@ -137,7 +137,7 @@ class Parser {
   }
 
   void read_module() {
-    const Place place = tokens_.peek().place;
+    const SourcePlace place = tokens_.peek().place;
     if (!description_.name.text.empty()) reject(place, "expected one module in a file");
     description_.name = read_name("the name of a module");
     data_.place = place;
@@ -167,7 +167,7 @@ class Parser {
   }
 
   void read_language() {
-    const Place place = tokens_.peek().place;
+    const SourcePlace place = tokens_.peek().place;
     const std::string language = read_text("a language");
     if (language != "c" && language != "C" && language != "c++" && language != "C++")
       reject(place, "expected the language \"c\" or \"c++\", found '" + language + "'");

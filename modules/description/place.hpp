@@ -7,13 +7,13 @@
 
 namespace waitpoint::description {
 
-struct Place {
+struct SourcePlace {
   std::shared_ptr<const std::string> file;
   int line = 0;    ///< from 1
   int column = 0;  ///< from 1, in bytes
 };
 
 /// Throws BadInput at `place`.
-[[noreturn]] void reject(const Place& place, const std::string& message);
+[[noreturn]] void reject(const SourcePlace& place, const std::string& message);
 
 }  // namespace waitpoint::description

@@ -23,7 +23,7 @@ struct Macro {
 
 /// A nested #if: true while the following lines are in use.
 struct Condition {
-  Place place;
+  SourcePlace place;
   bool outer = true;  ///< the lines around it are in use
   bool in_use = true;
   bool was_in_use = true;  ///< this branch or an earlier one
@@ -84,7 +84,7 @@ class Preprocessor {
   }
 
   // The depth alone is no bound: constants that each have another one twice double with every level, and may be empty.
-  void count_replacement(const Macro& macro, const Place& place) {
+  void count_replacement(const Macro& macro, const SourcePlace& place) {
     replacement_tokens_ += macro.tokens.size();
     if (replacement_tokens_ > replacement_tokens_max)
       reject(place, "expected at most 200000 words of constants in place of their names");

@@ -43,7 +43,7 @@ TypeRef enum_type(std::vector<Enumerator> enumerators, std::string name) {
   return std::make_shared<const Type>(std::move(type));
 }
 
-TypeRef struct_type(std::vector<Field> fields, std::string name, const Place& place) {
+TypeRef struct_type(std::vector<Field> fields, std::string name, const SourcePlace& place) {
   Type type;
   type.kind = TypeKind::structure;
   type.name = std::move(name);
@@ -58,7 +58,7 @@ TypeRef struct_type(std::vector<Field> fields, std::string name, const Place& pl
   return std::make_shared<const Type>(std::move(type));
 }
 
-TypeRef array_type(TypeRef element, std::size_t count, const Place& place) {
+TypeRef array_type(TypeRef element, std::size_t count, const SourcePlace& place) {
   if (count == 0 || count > size_max / std::max<std::size_t>(element->size, 1))
     reject(place, "expected an array of 1 element to 1 GiB");
   Type type;

@@ -52,8 +52,8 @@ struct Type {
 TypeRef scalar_type(Scalar scalar, std::string name);
 TypeRef enum_type(std::vector<Enumerator> enumerators, std::string name);
 /// Lays out the fields. BadInput at `place` for a type of more than 1 GiB.
-TypeRef struct_type(std::vector<Field> fields, std::string name, const Place& place);
-TypeRef array_type(TypeRef element, std::size_t count, const Place& place);
+TypeRef struct_type(std::vector<Field> fields, std::string name, const SourcePlace& place);
+TypeRef array_type(TypeRef element, std::size_t count, const SourcePlace& place);
 /// The same type under the name of a typedef.
 TypeRef renamed(const Type& type, std::string name);
 

@@ -34,15 +34,14 @@ void read(genom::Settings& settings, Parameters& parameters) {
   settings.check_most("planning.escape_m_max", parameters.planning.escape_m_max, escape_most_m);
 }
 
-Executive::Executive(genom::NameSpace& names, const Parameters& parameters, std::shared_ptr<const KnownSpace> known,
-                     const posters::KnownPose& start, const std::vector<Point>& goals, const RandomStream& random)
-    : names_(names),
-      parameters_(parameters),
-      client_(names, "executive"),
-      planner_(std::move(known), parameters.planning),
-      mission_(planner_, parameters.mission, goals, random),
-      start_(start),
-      looks_(parameters.mark_range_m) {
+Executive::Executive(const ExecutiveSetup& setup)
+    : names_(setup.names),
+      parameters_(setup.parameters),
+      client_(names_, "executive"),
+      planner_(setup.known, parameters_.planning),
+      mission_(planner_, parameters_.mission, setup.goals, setup.random),
+      start_(setup.start),
+      looks_(parameters_.mark_range_m) {
   if (parameters_.replan_ms > Duration()) surveyor_.emplace(planner_.space().map(), parameters_.seen_range_m);
 }
 
@@ -63,9 +62,9 @@ void Executive::run() {
   if (lost()) find_robot();
   // A separate statement: the order of evaluation of arguments differs between compilers, and the read may take time.
   Point position = place_of_planning();
-  const Order* order = planned(mission_.start(threads::now(), position));
-  while (order->kind != Order::Kind::finished && !stopping_) {
-    if (order->kind == Order::Kind::wait) {
+  const MissionOrder* order = planned(mission_.start(threads::now(), position));
+  while (order->kind != MissionOrder::Kind::finished && !stopping_) {
+    if (order->kind == MissionOrder::Kind::wait) {
       wait_until(order->until);
       position = place_of_planning();
       order = planned(mission_.waited(threads::now(), position));
@@ -87,8 +86,8 @@ void Executive::run() {
 }
 
 // Adds the cost of planning the order.
-const Order* Executive::planned(const Order& order) const {
-  if (order.kind != Order::Kind::finished) threads::compute(parameters_.plan_cost_us);
+const MissionOrder* Executive::planned(const MissionOrder& order) const {
+  if (order.kind != MissionOrder::Kind::finished) threads::compute(parameters_.plan_cost_us);
   return &order;
 }
 
@@ -164,7 +163,7 @@ std::span<const Point> Executive::reroute(std::span<const Point> via_points) {
   if (threads::now() < next_plan_) return via_points;
   next_plan_ = threads::now() + parameters_.replan_ms;
   const Point position = place_of_planning();
-  const Order* const order = mission_.replanned(position);
+  const MissionOrder* const order = mission_.replanned(position);
   threads::compute(parameters_.plan_cost_us);
   if (order == nullptr || !client_.send("ndd", "Reroute", first_of(order->via_points))) return via_points;
   return order->via_points;

@@ -16,50 +16,20 @@
 #include <string>
 #include <vector>
 
+#include "modules/executive/executive_setup.hpp"
 #include "modules/executive/looks.hpp"
 #include "modules/executive/robot_executive.hpp"
 #include "modules/executive/surveyor.hpp"
 #include "modules/executive/whereabouts.hpp"
 #include "modules/genom/client.hpp"
-#include "modules/genom/settings.hpp"
 #include "modules/posters/navigation.hpp"
 
 namespace waitpoint::executive {
 
-/// Parameters of the executive.
-struct Parameters {
-  PlanningParameters planning;
-  MissionParameters mission;
-  double mark_range_m = 3;
-  Duration plan_cost_us = {};
-  /// Period of planning again in motion, on the map that the robot has seen; 0: only when the way is blocked. Unless
-  /// set, 0 on a known map and 200 ms on one that is not.
-  Duration replan_ms = {};
-  double seen_range_m = 10;
-  bool start_known = true;
-  double find_s = 60;
-
-  static void fields(auto field) {
-    field("planning", &Parameters::planning);
-    field("mission", &Parameters::mission);
-    field("mark_range_m", &Parameters::mark_range_m, "greatest distance of echoes to be marked on the map");
-    field("plan_cost_us", &Parameters::plan_cost_us, "cost of planning a route");
-    field("replan_ms", &Parameters::replan_ms);
-    field("seen_range_m", &Parameters::seen_range_m, "what the laser sees beyond this is left out of that map");
-    field("start_known", &Parameters::start_known,
-          "false: the robot must be found at its start, by the module `locate`");
-    field("find_s", &Parameters::find_s, "a lost robot looks for so long for what tells its localisation where it is");
-  }
-};
-
-/// Overwrites the parameters that are set. BadInput for values that do not fit.
-void read(genom::Settings& settings, Parameters& parameters);
-
 class Executive : public RobotExecutive {
  public:
-  /// `start` is the robot's known pose in the map frame. `random` is the executive's own stream.
-  Executive(genom::NameSpace& names, const Parameters& parameters, std::shared_ptr<const KnownSpace> known,
-            const posters::KnownPose& start, const std::vector<Point>& goals, const RandomStream& random);
+  explicit Executive(const ExecutiveSetup& setup);
+  static bool takes(const ExecutiveSetup& setup) { return !setup.goals.empty(); }
 
   /// Connects its posters. A missing module, or a missing poster or one of another type, is BadInput.
   void connect() override;
@@ -78,7 +48,7 @@ class Executive : public RobotExecutive {
   void find_robot();
   void turn_on_the_spot(Time until);
   void drive_on();
-  const Order* planned(const Order& order) const;
+  const MissionOrder* planned(const MissionOrder& order) const;
   void stop_modules();
   void look();
   Point place_of_planning();

@@ -3,9 +3,9 @@
 
 namespace waitpoint::executive {
 
-GoalsForOthers::GoalsForOthers(std::span<const Point> goals) {
-  goals_.reserve(goals.size());
-  for (const Point& goal : goals) {
+GoalsForOthers::GoalsForOthers(const ExecutiveSetup& setup) {
+  goals_.reserve(setup.goals.size());
+  for (const Point& goal : setup.goals) {
     GoalRecord& record = goals_.emplace_back();
     record.goal = goal;
     record.visits = 1;
@@ -21,14 +21,15 @@ void GoalsForOthers::stop() {
   ended_.release();
 }
 
-void GoalsForOthers::end_goal(GoalState state) {
-  if (current_ == goals_.size()) return;
+bool GoalsForOthers::end_goal(GoalState state) {
+  if (current_ == goals_.size()) return false;
   GoalRecord& goal = goals_[current_];
   goal.state = state;
   goal.date = threads::now();
   if (state == GoalState::reached) ++goal.times_reached;
   ++current_;
   ended_.release();
+  return true;
 }
 
 }  // namespace waitpoint::executive

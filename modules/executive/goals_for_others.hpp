@@ -4,25 +4,26 @@
 #pragma once
 
 #include <atomic>
-#include <span>
 #include <vector>
 
 #include "fibers/sync/threads.hpp"
+#include "modules/executive/executive_setup.hpp"
 #include "modules/executive/robot_executive.hpp"
 
 namespace waitpoint::executive {
 
 class GoalsForOthers : public RobotExecutive {
  public:
-  explicit GoalsForOthers(std::span<const Point> goals);
+  explicit GoalsForOthers(const ExecutiveSetup& setup);
+  static bool takes(const ExecutiveSetup& setup) { return setup.is_for_others && !setup.goals.empty(); }
 
   void connect() override {}
   /// Returns when the last goal has ended.
   void run() override;
   void stop() override;
 
-  /// From another task: the present goal has ended. Nothing after the last one.
-  void end_goal(GoalState state);
+  /// Nothing after the last one.
+  bool end_goal(GoalState state) override;
 
   const std::vector<GoalRecord>& goals() const override { return goals_; }
   std::size_t current_goal() const override { return current_; }

@@ -27,20 +27,20 @@ Mission::Mission(RoutePlanner& planner, const MissionParameters& parameters, con
   }
 }
 
-const Order& Mission::start(Time now, Point robot) { return make_for_goal(now, robot); }
+const MissionOrder& Mission::start(Time now, Point robot) { return make_for_goal(now, robot); }
 
-const Order& Mission::arrived(Time now, Point robot) {
+const MissionOrder& Mission::arrived(Time now, Point robot) {
   WAITPOINT_CHECK(current_ < goals_.size(), "arrived without a goal");
   leave_goal(now, GoalState::reached);
   return make_for_goal(now, robot);
 }
 
-const Order& Mission::waited(Time now, Point robot) {
+const MissionOrder& Mission::waited(Time now, Point robot) {
   WAITPOINT_CHECK(current_ < goals_.size(), "waited without a goal");
   return make_for_goal(now, robot);
 }
 
-const Order& Mission::blocked(Time now, Point robot, std::span<const Point> echoes) {
+const MissionOrder& Mission::blocked(Time now, Point robot, std::span<const Point> echoes) {
   WAITPOINT_CHECK(current_ < goals_.size(), "blocked without a goal");
   if (goals_[current_].tries >= parameters_.tries_max) {
     leave_goal(now, GoalState::given_up);
@@ -57,7 +57,7 @@ const Order& Mission::blocked(Time now, Point robot, std::span<const Point> echo
   return wait(now);
 }
 
-const Order* Mission::replanned(Point robot) {
+const MissionOrder* Mission::replanned(Point robot) {
   WAITPOINT_CHECK(current_ < goals_.size(), "replanning without a goal");
   planner_.plan(robot, goals_[current_].goal, other_);
   if (other_.outcome != PlanOutcome::found) return nullptr;
@@ -72,7 +72,7 @@ const Order* Mission::replanned(Point robot) {
   return &order_;
 }
 
-const Order& Mission::make_for_goal(Time now, Point robot) {
+const MissionOrder& Mission::make_for_goal(Time now, Point robot) {
   for (std::size_t unreachable = 0; current_ < goals_.size(); leave_goal(now, GoalState::no_route)) {
     if (unreachable++ == goals_.size()) return wait(now);  // rounds of goals without routes take time, too
     planner_.plan(robot, goals_[current_].goal, plan_);
@@ -85,24 +85,24 @@ const Order& Mission::make_for_goal(Time now, Point robot) {
     if (planner_.space().has_seen() && !is_final(plan_.outcome) && goals_[current_].tries < parameters_.tries_max)
       return wait(now);
   }
-  order_.kind = Order::Kind::finished;
+  order_.kind = MissionOrder::Kind::finished;
   order_.via_points.clear();
   return order_;
 }
 
-const Order& Mission::drive() {
+const MissionOrder& Mission::drive() {
   if (goals_[current_].tries++ == 0) better_by_ = parameters_.better_by;
   is_substitute_ = false;
   path_ = planner_.path();
-  order_.kind = Order::Kind::drive;
+  order_.kind = MissionOrder::Kind::drive;
   order_.via_points = plan_.via_points;
   return order_;
 }
 
-const Order& Mission::wait(Time now) {
+const MissionOrder& Mission::wait(Time now) {
   ++goals_[current_].tries;
   const double span = parameters_.wait_s_max - parameters_.wait_s_min;
-  order_.kind = Order::Kind::wait;
+  order_.kind = MissionOrder::Kind::wait;
   order_.via_points.clear();
   order_.until = now + Duration::from_seconds(parameters_.wait_s_min + span * random_.uniform(draws_++));
   return order_;

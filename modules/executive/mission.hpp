@@ -29,8 +29,8 @@ struct MissionParameters {
   static void fields(auto field) {
     field("rounds", &MissionParameters::rounds, "number of visits to each goal; 0: without end");
     field("tries_max", &MissionParameters::tries_max, "per visit, before the goal is abandoned");
-    field("wait_s_min", &MissionParameters::wait_s_min);
-    field("wait_s_max", &MissionParameters::wait_s_max);
+    field("wait_s_min", &MissionParameters::wait_s_min, "least time of a wait before the next try,");
+    field("wait_s_max", &MissionParameters::wait_s_max, "and the greatest; it is drawn");
     field("detour_max", &MissionParameters::detour_max,
           "a detour longer by this factor is not taken at first: wait instead");
     field("detour_m_min", &MissionParameters::detour_m_min, "unless it is no longer than this");
@@ -57,7 +57,7 @@ struct GoalRecord {
   Time date;                                 ///< of reaching or abandoning it
 };
 
-struct Order {
+struct MissionOrder {
   enum class Kind : std::uint8_t {
     drive,     ///< along `via_points`, then report arrived or blocked
     wait,      ///< until `until`, then report waited
@@ -78,26 +78,26 @@ class Mission {
   void reseed(const RandomStream& random) { random_ = random; }
 
   /// The next order: at the start, after arrival at the last via point, or after a wait. Valid until the next call.
-  const Order& start(Time now, Point robot);
-  const Order& arrived(Time now, Point robot);
-  const Order& waited(Time now, Point robot);
+  const MissionOrder& start(Time now, Point robot);
+  const MissionOrder& arrived(Time now, Point robot);
+  const MissionOrder& waited(Time now, Point robot);
   /// The order after blocked motion; `echoes` are the visible obstacle points in the map frame.
-  const Order& blocked(Time now, Point robot, std::span<const Point> echoes);
+  const MissionOrder& blocked(Time now, Point robot, std::span<const Point> echoes);
 
   /// In motion, on a map that changes: the order of a better route to the present goal, or null to keep the present
   /// one. A route with a cell that can no longer be kept is given up for any other. The required gain of another one
   /// doubles when it takes the place of such a substitute: a narrow gap may seem open in one scan and closed in the
   /// next.
-  const Order* replanned(Point robot);
+  const MissionOrder* replanned(Point robot);
 
   const std::vector<GoalRecord>& goals() const { return goals_; }
   /// Index of the current goal; the number of goals when finished.
   std::size_t current() const { return current_; }
 
  private:
-  const Order& make_for_goal(Time now, Point robot);
-  const Order& drive();
-  const Order& wait(Time now);
+  const MissionOrder& make_for_goal(Time now, Point robot);
+  const MissionOrder& drive();
+  const MissionOrder& wait(Time now);
   void leave_goal(Time now, GoalState state);
   void begin_next_round();
 
@@ -108,11 +108,11 @@ class Mission {
   std::size_t current_ = 0;
   std::uint32_t rounds_begun_ = 1;
   std::uint64_t draws_ = 0;
-  Plan plan_, other_;
+  RoutePlan plan_, other_;
   std::vector<CellIndex> path_;  // of plan_
   double better_by_ = 0;         // as of now, for the present goal
   bool is_substitute_ = false;   // the present route, of one that was given up
-  Order order_;
+  MissionOrder order_;
 };
 
 }  // namespace waitpoint::executive

@@ -24,6 +24,8 @@ class RobotExecutive {
 
   /// The state of each goal. While run() is active, only from tasks that cannot run concurrently with it.
   virtual const std::vector<GoalRecord>& goals() const = 0;
+  /// From another task, of software that drives the robot: the present goal has ended. False: the executive drives.
+  virtual bool end_goal(GoalState) { return false; }
   /// Index of the goal that it is on its way to; the number of goals when it has none.
   virtual std::size_t current_goal() const = 0;
 };

@@ -35,7 +35,7 @@ PlanOutcome RoutePlanner::check_goal(Point goal) const {
   return PlanOutcome::goal_too_close;
 }
 
-void RoutePlanner::plan(Point start, Point goal, Plan& plan) {
+void RoutePlanner::plan(Point start, Point goal, RoutePlan& plan) {
   plan.via_points.clear();
   plan.length_m = 0;
   plan.cost = 0;

@@ -21,7 +21,7 @@ enum class PlanOutcome : std::uint8_t {
 /// The outcome as a phrase: "the goal lies in an obstacle".
 const char* to_string(PlanOutcome outcome);
 
-struct Plan {
+struct RoutePlan {
   PlanOutcome outcome = PlanOutcome::unreachable;
   std::vector<Point> via_points;  ///< in the map frame, without the start; the last is the goal itself
   double length_m = 0;            ///< from the start over the via points
@@ -37,7 +37,7 @@ class RoutePlanner {
 
   /// Plans with the known map and its marks. From an impassable start the route first goes to the nearest passable cell
   /// in sight; from one outside the map, to the map's nearest cell, or one in its sight. The plan's memory is reused.
-  void plan(Point start, Point goal, Plan& plan);
+  void plan(Point start, Point goal, RoutePlan& plan);
 
   /// The cost of the rest of a path of cells, from that nearest to `robot` on, as of now; unreachable if a cell of
   /// it can no longer be kept.

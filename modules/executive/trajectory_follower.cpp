@@ -26,18 +26,18 @@ double pace(double away_m) { return std::clamp((far_m - away_m) / (far_m - near_
 
 }  // namespace
 
-TrajectoryFollower::TrajectoryFollower(genom::NameSpace& names, Trajectory trajectory, const posters::KnownPose& start)
-    : names_(names),
-      trajectory_(std::move(trajectory)),
-      start_(start),
-      client_(names, "executive"),
-      speed_(names.create_poster<posters::SpeedReference>(speed_poster, "executive")),
+TrajectoryFollower::TrajectoryFollower(const ExecutiveSetup& setup)
+    : names_(setup.names),
+      trajectory_(setup.trajectory->text, setup.trajectory->file),
+      start_(setup.start),
+      client_(names_, "executive"),
+      speed_(names_.create_poster<posters::SpeedReference>(speed_poster, "executive")),
       goals_(1) {
   goals_.front().goal = trajectory_.at(trajectory_.duration()).pose.position();
   goals_.front().visits = 1;
   const Pose first = trajectory_.at(Duration()).pose, off = between(first, start_.pose);
   if (length(off.position()) > near_m || std::fabs(off.heading) > near_rad)
-    throw BadInput("the executive",
+    throw BadInput(setup.trajectory->named_in, setup.trajectory->named_at,
                    fmt::format("expected a start near the trajectory's first pose, [{:.2f}, {:.2f}, {:.0f}]", first.x,
                                first.y, first.heading / degree));
 }

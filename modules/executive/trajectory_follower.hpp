@@ -10,6 +10,7 @@
 #include <atomic>
 #include <vector>
 
+#include "modules/executive/executive_setup.hpp"
 #include "modules/executive/robot_executive.hpp"
 #include "modules/executive/trajectory.hpp"
 #include "modules/genom/client.hpp"
@@ -23,8 +24,8 @@ class TrajectoryFollower : public RobotExecutive {
  public:
   static constexpr const char* speed_poster = "trajectory.speed";
 
-  /// `start` is the robot's known pose in the map frame.
-  TrajectoryFollower(genom::NameSpace& names, Trajectory trajectory, const posters::KnownPose& start);
+  explicit TrajectoryFollower(const ExecutiveSetup& setup);
+  static bool takes(const ExecutiveSetup& setup) { return setup.trajectory.has_value(); }
 
   /// A missing module or poster is BadInput.
   void connect() override;

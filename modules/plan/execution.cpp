@@ -8,7 +8,7 @@ namespace {
 constexpr Duration tick = Duration::from_ns(1);
 }
 
-Execution::Execution(const Plan& plan)
+Execution::Execution(const TemporalPlan& plan)
     : plan_(plan),
       situation_(plan),
       running_(plan.actions.size()),
@@ -37,17 +37,17 @@ bool Execution::is_ahead(PointId point) const {
   return !situation_.times[point] && situation_.is_active(plan_, action_of(point));
 }
 
-Order Execution::next(Duration now) {
+PlanOrder Execution::next(Duration now) {
   if (now > bound_max) abort(now, "it lasts longer than 1000000 s");
   while (failure_.empty() && !completed_ && check_late(now)) {
   }
   for (std::size_t i = 0; i < to_stop_.size(); ++i) {
     if (!to_stop_[i]) continue;
     to_stop_[i] = running_[i] = false;
-    return {Order::Kind::stop, i};
+    return {PlanOrder::Kind::stop, i};
   }
   if (completed_ || !failure_.empty()) return {};
-  Order order{Order::Kind::wait, 0, Duration::max()};
+  PlanOrder order{PlanOrder::Kind::wait, 0, Duration::max()};
   bool is_done = true;
   for (PointId point = 1; point < situation_.times.size(); ++point) {
     if (!is_ahead(point)) continue;
@@ -61,13 +61,13 @@ Order Execution::next(Duration now) {
     if (*ready > now) {
       order.until = std::min(order.until, *ready);
     } else if (is_start(point)) {
-      return {Order::Kind::start, action};
+      return {PlanOrder::Kind::start, action};
     } else {
       set(point, now);
       note(now, EventKind::stop, action);
       const bool runs = running_[action];
       running_[action] = false;
-      if (runs) return {Order::Kind::stop, action};
+      if (runs) return {PlanOrder::Kind::stop, action};
       return next(now);
     }
   }

@@ -34,7 +34,7 @@ struct Event {
   std::string detail = {};
 };
 
-struct Order {
+struct PlanOrder {
   enum class Kind : std::uint8_t { start, stop, wait, finish };
   Kind kind = Kind::finish;
   std::size_t action = 0;
@@ -44,9 +44,9 @@ struct Order {
 class Execution {
  public:
   /// The plan has passed check() and must outlive the execution.
-  explicit Execution(const Plan& plan);
+  explicit Execution(const TemporalPlan& plan);
 
-  Order next(Duration now);
+  PlanOrder next(Duration now);
   void started(std::size_t action, Duration now);
   /// The conditions of a start do not hold: it is due again at `until`.
   void postponed(std::size_t action, Duration until) { not_before_[action] = until; }
@@ -74,7 +74,7 @@ class Execution {
     log_.push_back({time, kind, index, std::move(detail)});
   }
 
-  const Plan& plan_;
+  const TemporalPlan& plan_;
   Situation situation_;
   std::unique_ptr<PlanNetwork> network_;
   std::unique_ptr<Dispatcher> dispatcher_;

@@ -36,7 +36,7 @@ Request meet() { return {.module = "meeting", .name = "Meet", .input = {}, .take
 
 }  // namespace
 
-Executor::Executor(genom::NameSpace& names, Plan plan, const posters::KnownPose& start)
+Executor::Executor(genom::NameSpace& names, TemporalPlan plan, const posters::KnownPose& start)
     : names_(names),
       plan_(std::move(plan)),
       checked_(check(plan_)),
@@ -117,12 +117,12 @@ void Executor::run() {
   origin_ = threads::now();
   for (;;) {
     if (stopping_) execution_.abort(now(), "stopped");
-    const Order order = execution_.next(now());
+    const PlanOrder order = execution_.next(now());
     publish();
-    if (order.kind == Order::Kind::finish) break;
-    if (order.kind == Order::Kind::start) start(order.action);
-    if (order.kind == Order::Kind::stop) stop(order.action);
-    if (order.kind == Order::Kind::wait) wait(order.until);
+    if (order.kind == PlanOrder::Kind::finish) break;
+    if (order.kind == PlanOrder::Kind::start) start(order.action);
+    if (order.kind == PlanOrder::Kind::stop) stop(order.action);
+    if (order.kind == PlanOrder::Kind::wait) wait(order.until);
     publish();
   }
   settle();

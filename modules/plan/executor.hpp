@@ -35,7 +35,7 @@ struct LoggedEvent {
 class Executor {
  public:
   /// Checks the plan (BadInput if it is not consistent). `start` is the robot's known pose.
-  Executor(genom::NameSpace& names, Plan plan, const posters::KnownPose& start);
+  Executor(genom::NameSpace& names, TemporalPlan plan, const posters::KnownPose& start);
 
   /// Looks up modules, requests and posters: a missing one is BadInput at its line.
   void connect();
@@ -44,7 +44,7 @@ class Executor {
   /// From another task: run() aborts the plan and returns soon.
   void stop() { stopping_ = true; }
 
-  const Plan& plan() const { return plan_; }
+  const TemporalPlan& plan() const { return plan_; }
   const PlanCheck& checked() const { return checked_; }
   // While run() is active, only from tasks that cannot run concurrently with it.
   bool completed() const { return execution_.completed(); }
@@ -78,7 +78,7 @@ class Executor {
   void publish();
 
   genom::NameSpace& names_;
-  Plan plan_;
+  TemporalPlan plan_;
   PlanCheck checked_;
   posters::KnownPose start_;
   genom::Client client_;

@@ -78,7 +78,7 @@ struct Alternative {
   std::size_t branches = 0;
 };
 
-struct Plan {
+struct TemporalPlan {
   std::string file, name;
   std::vector<Request> setup;    ///< sent before the origin, each answered
   std::vector<Condition> ready;  ///< the origin waits for all

@@ -14,7 +14,8 @@ constexpr int order_tries_max = 1000;
 /// The order of actions at one resource.
 class ResourceOrder {
  public:
-  ResourceOrder(const Plan& plan, std::vector<std::size_t> actions, std::size_t resource, TemporalNetwork& network)
+  ResourceOrder(const TemporalPlan& plan, std::vector<std::size_t> actions, std::size_t resource,
+                TemporalNetwork& network)
       : plan_(plan), actions_(std::move(actions)), resource_(resource), network_(network) {}
 
   /// Adds constraints "end of the first to start of the second" to the network until no overlap is possible that needs
@@ -88,7 +89,7 @@ class ResourceOrder {
     return {};
   }
 
-  const Plan& plan_;
+  const TemporalPlan& plan_;
   std::vector<std::size_t> actions_;
   std::size_t resource_;
   TemporalNetwork& network_;
@@ -98,17 +99,17 @@ class ResourceOrder {
 
 }  // namespace
 
-Situation::Situation(const Plan& plan)
+Situation::Situation(const TemporalPlan& plan)
     : branch(plan.alternatives.size()), times(plan.points()), loosened(plan.actions.size()) {
   times[origin] = Duration();
 }
 
-bool Situation::is_active(const Plan& plan, std::size_t action) const {
+bool Situation::is_active(const TemporalPlan& plan, std::size_t action) const {
   const Action& of = plan.actions[action];
   return !of.alternative || branch[*of.alternative] == of.branch;
 }
 
-PlanNetwork::PlanNetwork(const Plan& plan, const Situation& situation) {
+PlanNetwork::PlanNetwork(const TemporalPlan& plan, const Situation& situation) {
   network_.points = plan.points();
   network_.natural.assign(network_.points, false);
   label("the order of time", {});
@@ -134,7 +135,7 @@ std::uint32_t PlanNetwork::label(std::string name, const scenario::Location& wri
   return static_cast<std::uint32_t>(labels_.size() - 1);
 }
 
-void PlanNetwork::add_action(const Plan& plan, const Situation& situation, std::size_t i) {
+void PlanNetwork::add_action(const TemporalPlan& plan, const Situation& situation, std::size_t i) {
   const Action& action = plan.actions[i];
   const PointId start = start_of(i), end = end_of(i);
   const std::uint32_t own = label("duration of " + action.name, action.written);
@@ -152,7 +153,7 @@ void PlanNetwork::add_action(const Plan& plan, const Situation& situation, std::
   }
 }
 
-void PlanNetwork::add_resources(const Plan& plan, const Situation& situation) {
+void PlanNetwork::add_resources(const TemporalPlan& plan, const Situation& situation) {
   if (plan.resources.empty()) return;
   TemporalNetwork trial(network_.points);
   for (const Edge& edge : network_.edges)
@@ -178,7 +179,7 @@ void PlanNetwork::add_resources(const Plan& plan, const Situation& situation) {
   }
 }
 
-std::string PlanNetwork::told(const std::vector<std::uint32_t>& labels) const {
+std::string PlanNetwork::conflict_text(const std::vector<std::uint32_t>& labels) const {
   std::string text;
   std::vector<std::uint32_t> seen;
   for (const std::uint32_t label : labels) {
@@ -196,7 +197,7 @@ const scenario::Location& PlanNetwork::place(const std::vector<std::uint32_t>& l
   return labels_[*first].written;
 }
 
-PlanCheck check(const Plan& plan) {
+PlanCheck check(const TemporalPlan& plan) {
   PlanCheck result;
   const auto look = [&](const Situation& situation, bool is_first) {
     const PlanNetwork of(plan, situation);
@@ -209,7 +210,7 @@ PlanCheck check(const Plan& plan) {
     if (!dispatcher.consistent())
       throw of.place(dispatcher.conflict())
           .bad("expected a consistent plan, found a cycle of constraints that contradict each other: " +
-               of.told(dispatcher.conflict()));
+               of.conflict_text(dispatcher.conflict()));
     if (is_first) {
       result.points = 1;
       for (std::size_t i = 0; i < plan.actions.size(); ++i) result.points += situation.is_active(plan, i) ? 2 : 0;
@@ -217,7 +218,7 @@ PlanCheck check(const Plan& plan) {
     }
     if (dispatcher.controllability().controllable || !result.controllable) return;
     result.controllable = false;
-    result.conflict = of.told(dispatcher.controllability().conflict);
+    result.conflict = of.conflict_text(dispatcher.controllability().conflict);
   };
   Situation situation(plan);
   look(situation, true);

@@ -16,25 +16,25 @@ namespace waitpoint::plan {
 
 /// How far a plan has come.
 struct Situation {
-  explicit Situation(const Plan& plan);
+  explicit Situation(const TemporalPlan& plan);
 
   std::vector<std::size_t> branch;             ///< by alternative; the number of branches: none is left
   std::vector<std::optional<Duration>> times;  ///< by point, of executed ones
   std::vector<bool> loosened;                  ///< by action: its bounds no longer hold
   Duration now;                                ///< the lower bound of future points
 
-  bool is_active(const Plan& plan, std::size_t action) const;
+  bool is_active(const TemporalPlan& plan, std::size_t action) const;
 };
 
 class PlanNetwork {
  public:
-  PlanNetwork(const Plan& plan, const Situation& situation);
+  PlanNetwork(const TemporalPlan& plan, const Situation& situation);
 
   const Network& network() const { return network_; }
   /// The resource at which the search for an order of its actions was given up: the network then contradicts itself.
   std::optional<std::size_t> unordered() const { return unordered_; }
   /// "'the light' (line 12), 'duration of visit' (line 5)": for conflicts.
-  std::string told(const std::vector<std::uint32_t>& labels) const;
+  std::string conflict_text(const std::vector<std::uint32_t>& labels) const;
   /// The place of the first of them.
   const scenario::Location& place(const std::vector<std::uint32_t>& labels) const;
 
@@ -44,8 +44,8 @@ class PlanNetwork {
     scenario::Location written;
   };
   std::uint32_t label(std::string name, const scenario::Location& written);
-  void add_action(const Plan& plan, const Situation& situation, std::size_t action);
-  void add_resources(const Plan& plan, const Situation& situation);
+  void add_action(const TemporalPlan& plan, const Situation& situation, std::size_t action);
+  void add_resources(const TemporalPlan& plan, const Situation& situation);
 
   Network network_;
   std::optional<std::size_t> unordered_;
@@ -61,7 +61,7 @@ struct PlanCheck {
 
 /// With the first branches, and each other branch in the place of the first of its alternative. Throws BadInput with a
 /// negative cycle, at its first constraint, if one of these networks is not consistent.
-PlanCheck check(const Plan& plan);
+PlanCheck check(const TemporalPlan& plan);
 
 /// "13 time points, 30 constraints: consistent, dynamically controllable".
 std::string to_string(const PlanCheck& check);

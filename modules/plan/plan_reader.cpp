@@ -132,7 +132,7 @@ void check_new(const std::vector<Named>& known, const std::string& name, const s
     throw written.bad("there are two " + what + "s called '" + name + "'");
 }
 
-void read_resources(const YamlMap& map, Plan& plan) {
+void read_resources(const YamlMap& map, TemporalPlan& plan) {
   const YamlNode* list = map.find("resources");
   if (list == nullptr) return;
   for (const YamlNode& item : read_list(*list, "resources")) {
@@ -161,7 +161,7 @@ void read_duration(const YamlMap& row, Action& action) {
   if (action.most < action.least) throw node->written.bad("expected the least duration before the greatest");
 }
 
-void read_uses(const YamlMap& row, const Plan& plan, Action& action) {
+void read_uses(const YamlMap& row, const TemporalPlan& plan, Action& action) {
   const YamlNode* uses = row.find("uses");
   if (uses == nullptr) return;
   if (uses->kind != YamlNode::Kind::map)
@@ -174,7 +174,7 @@ void read_uses(const YamlMap& row, const Plan& plan, Action& action) {
   }
 }
 
-void read_action(const YamlNode& item, Plan& plan) {
+void read_action(const YamlNode& item, TemporalPlan& plan) {
   const std::string title = name_of(item).empty() ? "an action" : "action '" + std::string(name_of(item)) + "'";
   const YamlMap row(item, title, action_keys().names());
   Action action;
@@ -204,7 +204,7 @@ void read_action(const YamlNode& item, Plan& plan) {
 }
 
 // "after: visit", "after: [visit, wait]": ends before this start.
-void read_after(const YamlNode& item, std::size_t action, Plan& plan) {
+void read_after(const YamlNode& item, std::size_t action, TemporalPlan& plan) {
   const YamlNode* after = item.find("after");
   if (after == nullptr) return;
   const auto add = [&](const YamlNode& name) {
@@ -220,7 +220,7 @@ void read_after(const YamlNode& item, std::size_t action, Plan& plan) {
 }
 
 // The script's task evaluates one procedure at a time.
-void share_script(Plan& plan) {
+void share_script(TemporalPlan& plan) {
   const auto calls = [](const Action& action) { return action.request && action.request->is_to_script(); };
   if (std::none_of(plan.actions.begin(), plan.actions.end(), calls)) return;
   for (Action& action : plan.actions)
@@ -228,7 +228,7 @@ void share_script(Plan& plan) {
   plan.resources.push_back({"the task of the script", 1, plan.actions.front().written});
 }
 
-PointId read_point(const YamlMap& row, std::string_view key, const Plan& plan) {
+PointId read_point(const YamlMap& row, std::string_view key, const TemporalPlan& plan) {
   const YamlNode& node = row.require(key);
   const std::string text = read_text(node, key);
   if (text == "start") return origin;
@@ -241,7 +241,7 @@ PointId read_point(const YamlMap& row, std::string_view key, const Plan& plan) {
   return side == "start" ? start_of(action) : end_of(action);
 }
 
-void read_constraints(const YamlMap& map, Plan& plan) {
+void read_constraints(const YamlMap& map, TemporalPlan& plan) {
   const YamlNode* list = map.find("constraints");
   if (list == nullptr) return;
   for (const YamlNode& item : read_list(*list, "constraints")) {
@@ -260,7 +260,7 @@ void read_constraints(const YamlMap& map, Plan& plan) {
   }
 }
 
-void read_branch(const YamlNode& branch, const Alternative& alternative, Plan& plan) {
+void read_branch(const YamlNode& branch, const Alternative& alternative, TemporalPlan& plan) {
   for (const YamlNode& item : read_list(branch, "a branch")) {
     Action& action = plan.actions[find(plan.actions, read_text(item, "an action of a branch"), "action", item.written)];
     if (action.alternative) throw item.written.bad("action '" + action.name + "' is in two branches");
@@ -269,7 +269,7 @@ void read_branch(const YamlNode& branch, const Alternative& alternative, Plan& p
   }
 }
 
-void read_alternatives(const YamlMap& map, Plan& plan) {
+void read_alternatives(const YamlMap& map, TemporalPlan& plan) {
   const YamlNode* list = map.find("alternatives");
   if (list == nullptr) return;
   for (const YamlNode& item : read_list(*list, "alternatives")) {
@@ -307,10 +307,10 @@ bool parse_seconds(std::string_view text, Duration& duration) {
   return true;
 }
 
-Plan read_plan(const YamlNode& document) {
+TemporalPlan read_plan(const YamlNode& document) {
   const YamlMap map(document, "the plan", plan_keys().names());
   read_count(map.require("format"), "format", 1, 1);
-  Plan plan;
+  TemporalPlan plan;
   plan.file = document.written.file;
   plan.name = map.text("name");
   map.read("poll_ms", plan.poll, std::chrono::milliseconds(1));

@@ -17,7 +17,7 @@
 namespace waitpoint::plan {
 
 /// Throws BadInput with file and line for anything but a plan. Modules, requests and posters are not looked up.
-Plan read_plan(const scenario::YamlNode& document);
+TemporalPlan read_plan(const scenario::YamlNode& document);
 
 /// Seconds as a decimal with at most nine places, exactly. False for anything else, or more than bound_max.
 bool parse_seconds(std::string_view text, Duration& duration);

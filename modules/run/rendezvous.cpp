@@ -9,7 +9,7 @@
 namespace waitpoint::run {
 
 void check_rendezvous(const scenario::Scenario& scenario) {
-  std::map<std::string, plan::Plan> plans;
+  std::map<std::string, plan::TemporalPlan> plans;
   for (const scenario::RobotScenario& robot : scenario.robots)
     if (robot.plan != nullptr) plans.emplace(robot.name, plan::read_plan(*robot.plan));
   for (const auto& [name, plan] : plans) {

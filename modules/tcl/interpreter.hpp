@@ -74,7 +74,7 @@ class RobotLink {
 inline Answer RobotLink::carry_out(const std::string&, const std::vector<std::string>&) { return {}; }
 
 /// The end of a script: its result, or its error with the innermost known place.
-struct Outcome {
+struct ScriptEnd {
   bool ok = true;
   bool exited = false;  ///< by the command `exit`
   std::string text;
@@ -86,9 +86,9 @@ class Interpreter {
  public:
   virtual ~Interpreter() = default;
   /// Evaluates a script of a file; from the task that made the interpreter.
-  virtual Outcome run(const std::string& file, const std::string& script) = 0;
+  virtual ScriptEnd run(const std::string& file, const std::string& script) = 0;
   /// Evaluates a command of a person.
-  virtual Outcome evaluate(const std::string& command) = 0;
+  virtual ScriptEnd evaluate(const std::string& command) = 0;
   /// From any task, while the interpreter's blocks: rand() goes on from this seed.
   virtual void reseed(std::uint32_t seed) = 0;
 };
@@ -125,6 +125,8 @@ struct Library {
 
 /// Loads the library at the first call; BadInput at `where` if it is not there.
 const Library& library(const std::string& where, int line);
+/// The same, for a script whose name stands there; BadInput for a syntax error.
+const Library& library_for(const std::string& file, const std::string& script, const std::string& where, int line);
 /// Tells the place of the library; by default, and if `path` is empty, it is one folder above the program.
 void set_library_path(const std::string& path);
 

@@ -37,4 +37,10 @@ const Library& library(const std::string& where, int line) {
   return loaded;
 }
 
+const Library& library_for(const std::string& file, const std::string& script, const std::string& where, int line) {
+  const Library& loaded = library(where, line);
+  if (const auto error = loaded.check(script)) throw BadInput(file, error->line, error->text);
+  return loaded;
+}
+
 }  // namespace waitpoint::tcl

@@ -35,7 +35,7 @@ void Shell::run() {
       command = std::move(commands_.front());
       commands_.pop_front();
     }
-    const Outcome outcome = interpreter->evaluate(command);
+    const ScriptEnd outcome = interpreter->evaluate(command);
     tell_(threads::now(), outcome.ok ? outcome.text : "error: " + outcome.text, true);
   }
 }

@@ -23,7 +23,7 @@ bool read_point(const std::vector<std::string>& words, Point& point) {
 }
 
 // The trace without the message, with which it begins: its lines behind one another.
-std::string levels_of(const Outcome& outcome) {
+std::string levels_of(const ScriptEnd& outcome) {
   std::string_view rest = outcome.trace;
   rest.remove_prefix(std::min(rest.size(), outcome.text.size()));
   std::string levels;
@@ -37,23 +37,32 @@ std::string levels_of(const Outcome& outcome) {
 }
 
 // The place, the message and the levels of an error.
-std::string error_of(const std::string& file, const Outcome& outcome) {
+std::string error_of(const std::string& file, const ScriptEnd& outcome) {
   return file + ":" + std::to_string(outcome.line) + ": " + outcome.text + levels_of(outcome);
+}
+
+// Of rand().
+std::uint32_t seed_of_script(const RandomStream& random) { return random.block(0)[0]; }
+
+// Null if the robot has none.
+Procedures* procedures_among(const genom::NameSpace& names) {
+  for (const auto& [name, module] : names.modules())
+    if (auto* const procedures = dynamic_cast<Procedures*>(module)) return procedures;
+  return nullptr;
 }
 
 std::string list_of(const std::vector<Point>& points) { return waitpoint::text_of(points); }
 
 }  // namespace
 
-TclExecutive::TclExecutive(genom::NameSpace& names, const Library& library, MissionSetup setup,
-                           std::shared_ptr<const executive::KnownSpace> known, Procedures* procedures)
-    : ModuleLink(names, setup.robot, "executive",
+TclExecutive::TclExecutive(const executive::ExecutiveSetup& setup)
+    : ModuleLink(setup.names, setup.robot, "executive",
                  [robot = setup.robot](Time date, const std::string& line) { write_line(robot, date, line); }),
-      library_(library),
-      setup_(std::move(setup)),
-      planner_(std::move(known), setup_.planning),
-      looks_(setup_.mark_range_m),
-      procedures_(procedures) {
+      setup_(setup),
+      library_(library_for(setup.script->file, setup.script->text, setup.script->named_in, setup.script->named_at)),
+      planner_(setup.known, setup.parameters.planning),
+      looks_(setup.parameters.mark_range_m),
+      procedures_(procedures_among(setup.names)) {
   if (procedures_ != nullptr) procedures_->set_wake([this] { client().wake(); });
   for (const Point goal : setup_.goals) {
     goals_.emplace_back();
@@ -69,13 +78,13 @@ void TclExecutive::connect() {
 }
 
 void TclExecutive::run() {
-  const std::unique_ptr<Interpreter> interpreter = library_.make(*this, setup_.seed, &threads::now);
+  const std::unique_ptr<Interpreter> interpreter = library_.make(*this, seed_of_script(setup_.random), &threads::now);
   interpreter_ = interpreter.get();
   const std::unique_ptr<Interpreter*, void (*)(Interpreter**)> until_the_end(
       &interpreter_, [](Interpreter** running) { *running = nullptr; });
   try {
-    const Outcome outcome = interpreter->run(setup_.script.file, setup_.script.text);
-    if (!outcome.ok) throw std::runtime_error(error_of(setup_.script.file, outcome));
+    const ScriptEnd outcome = interpreter->run(setup_.script->file, setup_.script->text);
+    if (!outcome.ok) throw std::runtime_error(error_of(setup_.script->file, outcome));
     if (procedures_ != nullptr) serve(*interpreter);
   } catch (const Stopped&) {
     if (procedures_ == nullptr) stop_modules();
@@ -83,8 +92,8 @@ void TclExecutive::run() {
 }
 
 void TclExecutive::reseed(const RandomStream& random) {
-  setup_.seed = seed_of_script(random);
-  if (interpreter_ != nullptr) interpreter_->reseed(setup_.seed);
+  setup_.random = random;
+  if (interpreter_ != nullptr) interpreter_->reseed(seed_of_script(random));
 }
 
 // The calls of procedures, until stop().
@@ -98,9 +107,9 @@ void TclExecutive::serve(Interpreter& interpreter) {
     }
     running_.clear();
     try {
-      const Outcome outcome = interpreter.evaluate(*command);
-      if (!outcome.ok) say(error_of(setup_.script.file, outcome));
-      if (outcome.exited) say(setup_.script.file + ": exit, in place of a procedure's end, in: " + *command);
+      const ScriptEnd outcome = interpreter.evaluate(*command);
+      if (!outcome.ok) say(error_of(setup_.script->file, outcome));
+      if (outcome.exited) say(setup_.script->file + ": exit, in place of a procedure's end, in: " + *command);
       procedures_->end(outcome.ok && !outcome.exited);
     } catch (const Interrupted&) {
       abort_requests();
@@ -196,8 +205,8 @@ std::vector<std::string> TclExecutive::commands() const {
 
 Answer TclExecutive::carry_out(const std::string& command, const std::vector<std::string>& words) {
   if (command == "goals") return {true, list_of(setup_.goals)};
-  if (command == "reached") return end_goal(words, executive::GoalState::reached);
-  if (command == "missed") return end_goal(words, executive::GoalState::given_up);
+  if (command == "reached") return finish_goal(words, executive::GoalState::reached);
+  if (command == "missed") return finish_goal(words, executive::GoalState::given_up);
   if (command == "start") return {true, waitpoint::text_of(setup_.start.pose)};
   if (command == "compute") {
     std::int64_t us = 0;
@@ -223,7 +232,7 @@ Answer TclExecutive::carry_out(const std::string& command, const std::vector<std
   return {};
 }
 
-Answer TclExecutive::end_goal(const std::vector<std::string>& words, executive::GoalState state) {
+Answer TclExecutive::finish_goal(const std::vector<std::string>& words, executive::GoalState state) {
   std::size_t number = 0;
   if (words.size() != 1 || !parse_number(words[0], number) || number >= goals_.size())
     return {false, "expected the number of a goal, less than " + std::to_string(goals_.size())};
@@ -237,9 +246,9 @@ Answer TclExecutive::end_goal(const std::vector<std::string>& words, executive::
 Answer TclExecutive::plan(const std::vector<std::string>& words) {
   Point goal;
   if (!read_point(words, goal)) return {false, "expected a point, X Y"};
-  executive::Plan plan;
+  executive::RoutePlan plan;
   planner_.plan(looks_.position(), goal, plan);
-  threads::compute(setup_.plan_cost_us);
+  threads::compute(setup_.parameters.plan_cost_us);
   if (plan.outcome != executive::PlanOutcome::found) return {false, executive::to_string(plan.outcome)};
   return {true, list_of(plan.via_points)};
 }

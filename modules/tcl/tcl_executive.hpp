@@ -21,38 +21,19 @@
 #include <deque>
 #include <map>
 
+#include "modules/executive/executive_setup.hpp"
 #include "modules/executive/looks.hpp"
 #include "modules/executive/robot_executive.hpp"
-#include "modules/posters/navigation.hpp"
 #include "modules/tcl/module_link.hpp"
 #include "modules/tcl/procedures.hpp"
 
 namespace waitpoint::tcl {
 
-struct Script {
-  std::string file, text;
-};
-
-/// A scripted mission, as a scenario has it.
-struct MissionSetup {
-  Script script;
-  std::string robot;
-  executive::PlanningParameters planning;
-  double mark_range_m = 3;
-  Duration plan_cost_us;
-  posters::KnownPose start;
-  std::vector<Point> goals;
-  std::uint32_t seed = 0;  ///< of the script's rand(): see seed_of_script()
-};
-
-/// The seed of rand() that follows from the executive's stream.
-inline std::uint32_t seed_of_script(const RandomStream& random) { return random.block(0)[0]; }
-
 class TclExecutive : public executive::RobotExecutive, private ModuleLink {
  public:
-  /// `library` is Tcl's, loaded. `procedures` is the module whose calls are evaluated after the script; null: none.
-  TclExecutive(genom::NameSpace& names, const Library& library, MissionSetup setup,
-               std::shared_ptr<const executive::KnownSpace> known, Procedures* procedures = nullptr);
+  /// The calls of the robot's module Procedures, if it has one, are evaluated after the script.
+  explicit TclExecutive(const executive::ExecutiveSetup& setup);
+  static bool takes(const executive::ExecutiveSetup& setup) { return setup.script.has_value(); }
 
   void connect() override;
   void run() override;
@@ -81,7 +62,7 @@ class TclExecutive : public executive::RobotExecutive, private ModuleLink {
   void sleep_until(Time time) override;
   std::vector<std::string> commands() const override;
   Answer carry_out(const std::string& command, const std::vector<std::string>& words) override;
-  Answer end_goal(const std::vector<std::string>& words, executive::GoalState state);
+  Answer finish_goal(const std::vector<std::string>& words, executive::GoalState state);
   Answer plan(const std::vector<std::string>& words);
   void serve(Interpreter& interpreter);
   void check_stop() const;
@@ -89,8 +70,8 @@ class TclExecutive : public executive::RobotExecutive, private ModuleLink {
   void abort_requests();
   void stop_modules();
 
+  executive::ExecutiveSetup setup_;
   const Library& library_;
-  MissionSetup setup_;
   executive::RoutePlanner planner_;
   executive::Looks looks_;
   bool can_look_ = false;

@@ -11,11 +11,12 @@
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string contents(reinterpret_cast<const char*>(data), size);
   waitpoint::fuzz::reads_or_refuses([&] {
-    const waitpoint::plan::Plan plan = waitpoint::plan::read_plan(waitpoint::scenario::parse_yaml(contents, "plan"));
+    const waitpoint::plan::TemporalPlan plan =
+        waitpoint::plan::read_plan(waitpoint::scenario::parse_yaml(contents, "plan"));
     check(plan);
     waitpoint::plan::Execution execution(plan);
-    const waitpoint::plan::Order order = execution.next({});
-    if (order.kind == waitpoint::plan::Order::Kind::start) execution.started(order.action, {});
+    const waitpoint::plan::PlanOrder order = execution.next({});
+    if (order.kind == waitpoint::plan::PlanOrder::Kind::start) execution.started(order.action, {});
   });
   return 0;
 }

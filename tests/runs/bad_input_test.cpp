@@ -93,6 +93,12 @@ TEST_F(BadInputTest, AnUnknownKeyWithTheNearestKnownOne) {
   EXPECT_TRUE(says(complaint_of_run(), {at("office.yaml", line), "setp_ms", "step_ms"}));
 }
 
+TEST_F(BadInputTest, AnUnknownKeyOfTheExecutiveOfARobotWithoutGoals) {
+  EXPECT_TRUE(says(complaint({"run", path("office.yaml"), "--set", "robots.0.goals=[]", "--set",
+                              "robots.0.executive.mission.round=2"}),
+                   {"unknown key 'mission.round'", "did you mean 'mission.rounds'?"}));
+}
+
 TEST_F(BadInputTest, ANegativeStep) {
   const int line = edit("office.yaml", "step_ms: 10", "step_ms: -10");
   EXPECT_TRUE(says(complaint_of_run(), {at("office.yaml", line), "step_ms"}));

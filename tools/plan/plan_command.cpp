@@ -21,7 +21,7 @@ struct Row {
   Duration earliest_start, latest_start, earliest_end, latest_end;
 };
 
-std::vector<Row> rows(const plan::Plan& plan) {
+std::vector<Row> rows(const plan::TemporalPlan& plan) {
   const plan::Situation situation(plan);
   const plan::PlanNetwork network(plan, situation);
   const plan::Dispatcher dispatcher(network.network());
@@ -42,7 +42,7 @@ std::string window(Duration earliest, Duration latest) {
                             : fmt::format("from {:.3f}", earliest.seconds());
 }
 
-std::string plan_json(const plan::Plan& plan, const std::string& verdict) {
+std::string plan_json(const plan::TemporalPlan& plan, const std::string& verdict) {
   using Json = nlohmann::ordered_json;
   Json json{{"plan", plan.name}, {"verdict", verdict}, {"actions", Json::array()}};
   for (const Row& row : rows(plan)) {
@@ -70,7 +70,7 @@ void declare(Command& command, PlanOptions& options) {
   command.json(options.json);
 }
 
-std::string plan_picture(const plan::Plan& plan) {
+std::string plan_picture(const plan::TemporalPlan& plan) {
   constexpr double left = 190, width = 620, row_height = 24, top = 30;
   const std::vector<Row> all = rows(plan);
   Duration last = std::chrono::seconds(1);
@@ -103,7 +103,7 @@ std::string plan_picture(const plan::Plan& plan) {
 }
 
 int show_plan(const PlanOptions& options) {
-  const plan::Plan plan = plan::read_plan(scenario::load_yaml(options.file));
+  const plan::TemporalPlan plan = plan::read_plan(scenario::load_yaml(options.file));
   const std::string verdict = to_string(check(plan));
   std::string text =
       fmt::format("plan '{}': {}\n\n  {:<40} {:>22} {:>22}\n", plan.name, verdict, "action", "start in s", "end in s");

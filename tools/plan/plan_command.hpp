@@ -24,6 +24,6 @@ void declare(Command& command, PlanOptions& options);
 int show_plan(const PlanOptions& options);
 
 /// A row for each action: the times in which it can be, and within them its least duration from its earliest start.
-std::string plan_picture(const plan::Plan& plan);
+std::string plan_picture(const plan::TemporalPlan& plan);
 
 }  // namespace waitpoint::tools

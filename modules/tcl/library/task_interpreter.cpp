@@ -114,7 +114,7 @@ int TaskInterpreter::usage(Words words, const char* arguments) {
   return TCL_ERROR;
 }
 
-Outcome TaskInterpreter::run(const std::string& file, const std::string& script) {
+ScriptEnd TaskInterpreter::run(const std::string& file, const std::string& script) {
   procedures_.clear();
   (void)check_syntax(script, &procedures_);
   Tcl_Obj* const words[] = {Tcl_NewStringObj("info", -1), Tcl_NewStringObj("script", -1),
@@ -125,15 +125,15 @@ Outcome TaskInterpreter::run(const std::string& file, const std::string& script)
   return outcome(Tcl_EvalEx(tcl_, script.data(), static_cast<int>(script.size()), TCL_EVAL_GLOBAL));
 }
 
-Outcome TaskInterpreter::evaluate(const std::string& command) {
+ScriptEnd TaskInterpreter::evaluate(const std::string& command) {
   return outcome(Tcl_EvalEx(tcl_, command.data(), static_cast<int>(command.size()), TCL_EVAL_GLOBAL));
 }
 
-Outcome TaskInterpreter::outcome(int result) {
+ScriptEnd TaskInterpreter::outcome(int result) {
   Tcl_LimitTypeReset(tcl_, TCL_LIMIT_COMMANDS);
   if (thrown_ != nullptr) std::rethrow_exception(std::exchange(thrown_, nullptr));
   if (!line_.empty()) link_.say(std::exchange(line_, {}));
-  Outcome outcome;
+  ScriptEnd outcome;
   const bool has_exited = std::exchange(exited_, false);
   if (has_exited || result == TCL_OK || result == TCL_RETURN) {
     outcome.exited = has_exited;

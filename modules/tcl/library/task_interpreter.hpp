@@ -32,8 +32,8 @@ class TaskInterpreter : public Interpreter {
   TaskInterpreter(const TaskInterpreter&) = delete;
   TaskInterpreter& operator=(const TaskInterpreter&) = delete;
 
-  Outcome run(const std::string& file, const std::string& script) override;
-  Outcome evaluate(const std::string& command) override;
+  ScriptEnd run(const std::string& file, const std::string& script) override;
+  ScriptEnd evaluate(const std::string& command) override;
   void reseed(std::uint32_t seed) override { set_seed(tcl_, seed); }
 
  private:
@@ -78,7 +78,7 @@ class TaskInterpreter : public Interpreter {
   int fail(const std::string& message, const char* kind = "ERROR");
   int succeed(const std::string& text);
   int usage(Words words, const char* arguments);
-  Outcome outcome(int result);
+  ScriptEnd outcome(int result);
 
   // Requests: requests.cpp.
   int connect(Words words);

@@ -36,7 +36,7 @@ TEST_F(MissionTest, VisitsTheGoalsInOrder) {
   Mission mission(planner, parameters, {{1, 1}, {5, 2}}, random);
   EXPECT_EQ(mission.start(seconds(0), {2, 2}).via_points.back(), (Point{1, 1}));
   EXPECT_EQ(mission.arrived(seconds(5), {1, 1}).via_points.back(), (Point{5, 2}));
-  EXPECT_EQ(mission.arrived(seconds(9), {5, 2}).kind, Order::Kind::finished);
+  EXPECT_EQ(mission.arrived(seconds(9), {5, 2}).kind, MissionOrder::Kind::finished);
   EXPECT_EQ(mission.goals()[0].state, GoalState::reached);
   EXPECT_EQ(mission.goals()[1].date, seconds(9));
 }
@@ -53,8 +53,8 @@ TEST_F(MissionTest, GoalWithoutARouteIsLeftWithItsReason) {
 TEST_F(MissionTest, BlockedDoorIsPlannedRound) {
   Mission mission(planner, parameters, {{5, 2.3}}, random);
   mission.start(seconds(0), {1, 2.3});
-  const Order& order = mission.blocked(seconds(9), {2, 2.3}, in_the_upper_door);
-  ASSERT_EQ(order.kind, Order::Kind::drive);
+  const MissionOrder& order = mission.blocked(seconds(9), {2, 2.3}, in_the_upper_door);
+  ASSERT_EQ(order.kind, MissionOrder::Kind::drive);
   bool by_the_lower_door = false;
   for (const Point p : order.via_points) by_the_lower_door |= p.y < 1.2;
   EXPECT_TRUE(by_the_lower_door);
@@ -63,11 +63,11 @@ TEST_F(MissionTest, BlockedDoorIsPlannedRound) {
 TEST_F(MissionTest, WithoutAnotherWayItWaitsAndTriesTheSameAgain) {
   Mission mission(narrow_planner, parameters, {{5, 2.3}}, random);
   mission.start(seconds(0), {1, 2.3});
-  const Order& order = mission.blocked(seconds(9), {2, 2.3}, in_the_upper_door);
-  ASSERT_EQ(order.kind, Order::Kind::wait);
+  const MissionOrder& order = mission.blocked(seconds(9), {2, 2.3}, in_the_upper_door);
+  ASSERT_EQ(order.kind, MissionOrder::Kind::wait);
   EXPECT_GE(order.until, seconds(11));
   EXPECT_LE(order.until, seconds(17));
-  EXPECT_EQ(mission.waited(order.until, {2, 2.3}).kind, Order::Kind::drive);
+  EXPECT_EQ(mission.waited(order.until, {2, 2.3}).kind, MissionOrder::Kind::drive);
 }
 
 TEST_F(MissionTest, RobotsWaitForDifferentTimes) {
@@ -85,8 +85,8 @@ TEST_F(MissionTest, GivesUpAfterTheTriesAllowed) {
   std::int64_t blocked = 0;
   while (mission.current() == 0 && blocked < 20) {
     ++blocked;
-    const Order& order = mission.blocked(seconds(10 * blocked), {2, 2.3}, in_the_upper_door);
-    if (order.kind == Order::Kind::wait) mission.waited(order.until, {2, 2.3});
+    const MissionOrder& order = mission.blocked(seconds(10 * blocked), {2, 2.3}, in_the_upper_door);
+    if (order.kind == MissionOrder::Kind::wait) mission.waited(order.until, {2, 2.3});
   }
   EXPECT_EQ(mission.goals()[0].state, GoalState::given_up);
   EXPECT_LE(mission.goals()[0].tries, 5u);
@@ -99,7 +99,7 @@ TEST_F(MissionTest, InMotionAnotherRouteIsTakenOnlyIfItIsBetterByAPart) {
   mission.start(seconds(0), {1, 2.3});
   EXPECT_EQ(mission.replanned({1, 2.3}), nullptr);
   planner.space().mark(in_the_upper_door);
-  const Order* const order = mission.replanned({2, 2.3});
+  const MissionOrder* const order = mission.replanned({2, 2.3});
   ASSERT_NE(order, nullptr);
   EXPECT_EQ(order->via_points.back(), (Point{5, 2.3}));
   EXPECT_EQ(mission.replanned({2, 2.3}), nullptr);  // it is the present one now
@@ -125,8 +125,8 @@ TEST_F(MissionTest, MarksOutliveTheGoal) {
   Mission mission(planner, parameters, {{5, 2.3}, {1, 2.3}}, random);
   mission.start(seconds(0), {1, 2.3});
   mission.blocked(seconds(9), {2, 2.3}, in_the_upper_door);
-  const Order& order = mission.arrived(seconds(30), {5, 2.3});
-  ASSERT_EQ(order.kind, Order::Kind::drive);
+  const MissionOrder& order = mission.arrived(seconds(30), {5, 2.3});
+  ASSERT_EQ(order.kind, MissionOrder::Kind::drive);
   bool by_the_lower_door = false;
   for (const Point via : order.via_points) by_the_lower_door |= via.y < 1.2;
   EXPECT_TRUE(by_the_lower_door);
@@ -136,7 +136,7 @@ TEST_F(MissionTest, MarksThatLeaveNoWayAreForgotten) {
   Mission mission(planner, parameters, {{5, 2.3}}, random);
   planner.space().mark(in_the_upper_door);
   planner.space().mark(std::vector<Point>{{3.02, 0.4}, {3.02, 0.65}, {3.02, 0.9}});
-  EXPECT_EQ(mission.start(seconds(0), {1, 2.3}).kind, Order::Kind::drive);
+  EXPECT_EQ(mission.start(seconds(0), {1, 2.3}).kind, MissionOrder::Kind::drive);
   EXPECT_FALSE(planner.space().marked());
 }
 
@@ -149,7 +149,7 @@ TEST_F(MissionTest, VisitsItsGoalsAsOftenAsThereAreRounds) {
   EXPECT_EQ(mission.goals()[0].visits, 2u);
   EXPECT_EQ(mission.goals()[0].times_reached, 1u);
   EXPECT_EQ(mission.arrived(seconds(3), {1, 1}).via_points.back(), (Point{5, 2}));
-  EXPECT_EQ(mission.arrived(seconds(4), {5, 2}).kind, Order::Kind::finished);
+  EXPECT_EQ(mission.arrived(seconds(4), {5, 2}).kind, MissionOrder::Kind::finished);
   EXPECT_EQ(mission.goals()[1].times_reached, 2u);
   EXPECT_EQ(mission.goals()[1].date, seconds(4));
 }
@@ -161,8 +161,8 @@ TEST_F(MissionTest, RoundsWithoutEndRememberTheVisitThatMissed) {
   mission.start(seconds(0), {2, 2});
   for (std::int64_t round = 0; round < 1000; ++round) {
     ASSERT_EQ(mission.arrived(seconds(2 * round), {1, 1}).via_points.back(), (Point{5, 2}));
-    const Order& order = round == 500 ? mission.blocked(seconds(2 * round + 1), {2, 2}, {})
-                                      : mission.arrived(seconds(2 * round + 1), {5, 2});
+    const MissionOrder& order = round == 500 ? mission.blocked(seconds(2 * round + 1), {2, 2}, {})
+                                             : mission.arrived(seconds(2 * round + 1), {5, 2});
     ASSERT_EQ(order.via_points.back(), (Point{1, 1}));
   }
   EXPECT_EQ(mission.goals()[0].visits, 1000u);
@@ -179,7 +179,7 @@ TEST_F(MissionTest, EveryRoundHasItsTries) {
   Mission mission(planner, parameters, {{5, 2.3}}, random);
   mission.start(seconds(0), {1, 2.3});
   for (int round = 0; round < 4; ++round) {
-    ASSERT_EQ(mission.blocked(seconds(9), {2, 2.3}, in_the_upper_door).kind, Order::Kind::drive);
+    ASSERT_EQ(mission.blocked(seconds(9), {2, 2.3}, in_the_upper_door).kind, MissionOrder::Kind::drive);
     mission.arrived(seconds(30), {5, 2.3});
   }
   EXPECT_EQ(mission.goals()[0].times_reached, 4u);
@@ -188,10 +188,10 @@ TEST_F(MissionTest, EveryRoundHasItsTries) {
 TEST_F(MissionTest, RoundsOfGoalsWithoutARouteTakeTime) {
   parameters.rounds = 0;
   Mission mission(planner, parameters, {{0.1, 1}, {-5, 0}}, random);
-  const Order& order = mission.start(seconds(0), {2, 2});
-  ASSERT_EQ(order.kind, Order::Kind::wait);
+  const MissionOrder& order = mission.start(seconds(0), {2, 2});
+  ASSERT_EQ(order.kind, MissionOrder::Kind::wait);
   EXPECT_GE(order.until, seconds(2));
-  EXPECT_EQ(mission.waited(order.until, {2, 2}).kind, Order::Kind::wait);
+  EXPECT_EQ(mission.waited(order.until, {2, 2}).kind, MissionOrder::Kind::wait);
   EXPECT_EQ(mission.goals()[0].visits, 2u);
   EXPECT_EQ(mission.goals()[0].times_reached, 0u);
 }

@@ -44,7 +44,7 @@ TEST_P(RealMaps, EveryGoalThatIsConnectedWithTheClearanceHasARoute) {
   }
   ASSERT_GT(largest.size(), 1000u);
   const RandomStream random(1, GetParam().name, "goals");
-  Plan plan;
+  RoutePlan plan;
   for (std::uint64_t k = 0; k < 25; ++k) {
     const CellIndex start = largest[random.below(largest.size(), k, 0)],
                     goal = largest[random.below(largest.size(), k, 1)];

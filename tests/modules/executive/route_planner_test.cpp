@@ -41,7 +41,7 @@ TEST(RoutePlanner, RouteKeepsTheClearanceAllAlong) {
   for (const int door : {13, 14, 18, 24}) {
     RoutePlanner planner(test::drawn_map(two_rooms(door), 0.05), {});
     const Point start = {0.6, 2.5}, goal = {5.5, 0.7};
-    Plan plan;
+    RoutePlan plan;
     planner.plan(start, goal, plan);
     ASSERT_EQ(plan.outcome, PlanOutcome::found) << door;
     EXPECT_EQ(plan.via_points.back(), goal);
@@ -61,7 +61,7 @@ TEST(RoutePlanner, RouteKeepsTheClearanceAllAlong) {
 
 TEST(RoutePlanner, DoorHasAViaPointBeforeAndBehindIt) {
   RoutePlanner planner(test::drawn_map(two_rooms(18), 0.05), {});
-  Plan plan;
+  RoutePlan plan;
   planner.plan({0.6, 2.5}, {5.5, 2.5}, plan);
   ASSERT_EQ(plan.outcome, PlanOutcome::found);
   const auto beside = [&](double from_x, double to_x) {
@@ -75,7 +75,7 @@ TEST(RoutePlanner, DoorHasAViaPointBeforeAndBehindIt) {
 
 TEST(RoutePlanner, StraightWayInTheOpenIsOneLegDividedIfLong) {
   RoutePlanner planner(test::drawn_map(std::vector<std::string>(100, std::string(400, ' ')), 0.05), {});
-  Plan plan;
+  RoutePlan plan;
   planner.plan({1, 1}, {4.5, 2}, plan);
   EXPECT_EQ(plan.via_points.size(), 1u);
   planner.plan({1, 1}, {19, 4}, plan);
@@ -95,7 +95,7 @@ TEST(RoutePlanner, ARectangleGoesThroughADoorThatIsTooNarrowForTheDiscAboutIt) {
   const OccupancyGrid map = test::drawn_map(two_rooms(11), 0.05);  // 0.55 m
   PlanningParameters disc;
   disc.robot_radius_m = of_a_rectangle(0.42, 0.43).robot_radius_m;
-  Plan plan;
+  RoutePlan plan;
   RoutePlanner(map, disc).plan({0.6, 2.5}, {5.5, 0.7}, plan);
   EXPECT_EQ(plan.outcome, PlanOutcome::unreachable);
   RoutePlanner planner(map, of_a_rectangle(0.42, 0.43));
@@ -123,7 +123,7 @@ std::vector<std::string> bend(int room) {
 
 TEST(RoutePlanner, ALongRobotTurnsOnlyWhereItsHullSweepsFreeSpace) {
   const PlanningParameters parameters = of_a_rectangle(0.9, 0.42);
-  Plan plan;
+  RoutePlan plan;
   RoutePlanner(test::drawn_map(bend(0), 0.05), parameters).plan({0.9, 0.8}, {1.8, 2.3}, plan);
   EXPECT_EQ(plan.outcome, PlanOutcome::unreachable);
   RoutePlanner(test::drawn_map(bend(7), 0.05), parameters).plan({0.9, 0.8}, {1.8, 2.3}, plan);
@@ -134,7 +134,7 @@ TEST(RoutePlanner, EveryReasonIsTold) {
   std::vector<std::string> rows = two_rooms(0);  // no door
   for (int r = 40; r < 50; ++r) rows[static_cast<std::size_t>(r)].replace(100, 10, "??????????");
   RoutePlanner planner(test::drawn_map(rows, 0.05), {});
-  Plan plan;
+  RoutePlan plan;
   const auto outcome = [&](Point start, Point goal) {
     planner.plan(start, goal, plan);
     return plan.outcome;
@@ -152,7 +152,7 @@ TEST(RoutePlanner, EveryReasonIsTold) {
 
 TEST(RoutePlanner, FromBeyondTheEdgeOfTheMapTheRouteBeginsAtItsNearestCell) {
   RoutePlanner planner(test::drawn_map(std::vector<std::string>(40, std::string(60, ' ')), 0.05), {});
-  Plan plan;
+  RoutePlan plan;
   planner.plan({3.8, 1.01}, {0.5, 1}, plan);  // the map ends at x = 3
   ASSERT_EQ(plan.outcome, PlanOutcome::found);
   EXPECT_LT(length(plan.via_points.front() - Point{2.975, 1.025}), 1e-9);
@@ -161,7 +161,7 @@ TEST(RoutePlanner, FromBeyondTheEdgeOfTheMapTheRouteBeginsAtItsNearestCell) {
 
 TEST(RoutePlanner, RemainingCostFallsAlongTheRoute) {
   RoutePlanner planner(test::drawn_map(two_rooms(20), 0.05), {});
-  Plan plan;
+  RoutePlan plan;
   planner.plan({0.625, 2.525}, {5.525, 0.725}, plan);
   const std::vector<CellIndex> path = planner.path();
   EXPECT_EQ(planner.remaining_cost(path, {0.625, 2.525}), plan.cost);
@@ -175,7 +175,7 @@ TEST(RoutePlanner, RemainingCostFallsAlongTheRoute) {
 
 TEST(RoutePlanner, StartInTheInflationIsLeftOnItsOwnSideOfTheWall) {
   RoutePlanner planner(test::drawn_map(two_rooms(20), 0.05), {});
-  Plan plan;
+  RoutePlan plan;
   planner.plan({2.95, 0.5}, {5.5, 0.5}, plan);  // 5 cm before the wall
   ASSERT_EQ(plan.outcome, PlanOutcome::found);
   EXPECT_LT(plan.via_points.front().x, 2.8);
@@ -186,7 +186,7 @@ TEST(RoutePlanner, StartThatIsShutInIsToldSo) {
   std::vector<std::string> rows(60, std::string(60, ' '));
   for (std::size_t i = 25; i < 35; ++i) rows[25][i] = rows[34][i] = rows[i][25] = rows[i][34] = '#';
   RoutePlanner planner(test::drawn_map(rows, 0.05), {});
-  Plan plan;
+  RoutePlan plan;
   planner.plan({1.5, 1.5}, {0.5, 0.5}, plan);
   EXPECT_EQ(plan.outcome, PlanOutcome::start_blocked);
 }
@@ -195,7 +195,7 @@ TEST(RoutePlanner, MarkedObstacleIsPlannedRound) {
   std::vector<std::string> rows = two_rooms(18);
   for (std::size_t r = 41; r < 57; ++r) rows[r].replace(60, 2, "  ");  // a second door, farther down
   RoutePlanner planner(test::drawn_map(rows, 0.05), {});
-  Plan plan;
+  RoutePlan plan;
   planner.plan({1.5, 1.7}, {4.6, 1.7}, plan);
   const double direct_m = plan.length_m;
   EXPECT_LT(direct_m, 3.3);
@@ -213,7 +213,7 @@ TEST(RoutePlanner, MarkedObstacleIsPlannedRound) {
 TEST(RoutePlanner, TightestPassageIsFoundInAllPlacesOnTheGrid) {
   for (int columns = 12; columns <= 14; ++columns) {
     RoutePlanner planner(test::drawn_map(two_rooms(columns), 0.05), {});
-    Plan plan;
+    RoutePlan plan;
     planner.plan({1.5, 1.5}, {4.6, 1.5}, plan);
     const bool wide_enough = columns * 0.05 >= 2 * 0.31;
     if (wide_enough) {

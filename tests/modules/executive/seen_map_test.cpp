@@ -65,7 +65,7 @@ TEST_F(SeenMapTest, AThinObstacleOutlastsTheBeamsBesideIt) {
 
 TEST_F(SeenMapTest, RoutesKeepClearOfWhatHasBeenSeenUntilItIsGone) {
   RoutePlanner planner(std::make_shared<const KnownSpace>(map, false), {});
-  Plan plan;
+  RoutePlan plan;
   const auto length_m = [&] {
     planner.space().see(seen);
     planner.plan({0.6, 2.5}, {4.5, 2.5}, plan);

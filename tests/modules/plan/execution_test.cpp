@@ -9,7 +9,7 @@ namespace waitpoint::plan {
 namespace {
 
 using namespace std::chrono_literals;
-using Kind = Order::Kind;
+using Kind = PlanOrder::Kind;
 
 std::vector<EventKind> kinds(const Execution& execution) {
   std::vector<EventKind> kinds;
@@ -19,14 +19,14 @@ std::vector<EventKind> kinds(const Execution& execution) {
 
 /// The next order is of this kind, for this action.
 void expect_order(Execution& execution, Duration now, Kind kind, std::size_t action) {
-  const Order order = execution.next(now);
+  const PlanOrder order = execution.next(now);
   EXPECT_EQ(order.kind, kind);
   EXPECT_EQ(order.action, action);
   if (kind == Kind::start) execution.started(action, now);
 }
 
 Duration waits(Execution& execution, Duration now) {
-  const Order order = execution.next(now);
+  const PlanOrder order = execution.next(now);
   EXPECT_EQ(order.kind, Kind::wait);
   return order.until;
 }
@@ -39,7 +39,7 @@ constraints: [{from: start, to: look.end, most_s: 10}]
 )";
 
 TEST(Execution, DispatchesInItsWindows) {
-  const Plan plan = test::plan_of(drive_and_look);
+  const TemporalPlan plan = test::plan_of(drive_and_look);
   Execution execution(plan);
   expect_order(execution, 0s, Kind::start, 0);
   EXPECT_EQ(waits(execution, 0s), Duration(4s) + Duration(1ns));
@@ -52,7 +52,7 @@ TEST(Execution, DispatchesInItsWindows) {
 }
 
 TEST(Execution, EarlyAndLateEndsAreRepaired) {
-  const Plan plan = test::plan_of(drive_and_look);
+  const TemporalPlan plan = test::plan_of(drive_and_look);
   Execution early(plan);
   expect_order(early, 0s, Kind::start, 0);
   early.ended(0, 1s, true, "");
@@ -69,7 +69,7 @@ TEST(Execution, EarlyAndLateEndsAreRepaired) {
 }
 
 TEST(Execution, LateActionThatCannotBeRepairedIsStoppedAndThePlanAborted) {
-  const Plan plan = test::plan_of(drive_and_look);
+  const TemporalPlan plan = test::plan_of(drive_and_look);
   Execution execution(plan);
   expect_order(execution, 0s, Kind::start, 0);
   waits(execution, 5s);
@@ -79,7 +79,7 @@ TEST(Execution, LateActionThatCannotBeRepairedIsStoppedAndThePlanAborted) {
 }
 
 TEST(Execution, FailedActionIsReplacedByTheNextBranchThatIsStillPossible) {
-  const Plan plan = test::plan_of(R"(
+  const TemporalPlan plan = test::plan_of(R"(
 actions:
   - {name: by lift, kind: contingent, duration_s: [1, 5], request: ndd.GoTo}
   - {name: by stairs, kind: contingent, duration_s: [8, 9], request: ndd.GoTo}
@@ -99,7 +99,7 @@ alternatives: [{name: the way, branches: [[by lift], [by stairs], [by ramp]]}]
 }
 
 TEST(Execution, StartThatTookTooLongIsStopped) {
-  const Plan plan = test::plan_of(
+  const TemporalPlan plan = test::plan_of(
       "actions: [{name: look, duration_s: 1, request: sick.SegmentsOn}]\n"
       "constraints: [{from: start, to: look.start, most_s: 0.3}]");
   Execution execution(plan);
@@ -110,7 +110,7 @@ TEST(Execution, StartThatTookTooLongIsStopped) {
 }
 
 TEST(Execution, ViolatedConditionWithoutABranchAborts) {
-  const Plan plan = test::plan_of(drive_and_look);
+  const TemporalPlan plan = test::plan_of(drive_and_look);
   Execution execution(plan);
   expect_order(execution, 0s, Kind::start, 0);
   execution.violated(0, 1s, "the battery is low");
@@ -120,7 +120,7 @@ TEST(Execution, ViolatedConditionWithoutABranchAborts) {
 }
 
 TEST(Execution, StartThatIsPostponedBeyondItsWindowFails) {
-  const Plan plan = test::plan_of(
+  const TemporalPlan plan = test::plan_of(
       "actions: [{name: look, duration_s: 1}]\n"
       "constraints: [{from: start, to: look.start, most_s: 0.3}]");
   Execution execution(plan);

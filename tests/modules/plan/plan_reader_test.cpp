@@ -33,7 +33,7 @@ TEST(PlanReader, SecondsAreExactToTheTick) {
 }
 
 TEST(PlanReader, ReadsActionsWithTheirBounds) {
-  const Plan plan = test::plan_of(R"(
+  const TemporalPlan plan = test::plan_of(R"(
 actions:
   - {name: drive, kind: contingent, duration_s: [1, 2.5], request: ndd.GoTo, input: {via: [{x: 1, y: 2}]}}
   - name: look
@@ -123,7 +123,7 @@ constraints: [{name: just before, from: look.start, to: drive.end, least_s: 0.5,
 }
 
 TEST(PlanReader, PutsProceduresOfTheScriptInAnOrder) {
-  Plan plan = test::plan_of(R"(
+  TemporalPlan plan = test::plan_of(R"(
 actions:
   - {name: a, kind: contingent, duration_s: [1, 2], tcl: visit 20 6.4}
   - {name: b, duration_s: 3, request: m.Go}
@@ -134,7 +134,7 @@ actions:
   EXPECT_TRUE(plan.actions[2].request->input.empty());
   Execution execution(plan);
   std::string started;
-  for (Order order = execution.next({}); order.kind == Order::Kind::start; order = execution.next({})) {
+  for (PlanOrder order = execution.next({}); order.kind == PlanOrder::Kind::start; order = execution.next({})) {
     execution.started(order.action, {});
     started += plan.actions[order.action].name;
   }

@@ -8,7 +8,7 @@
 
 namespace waitpoint::plan::test {
 
-inline Plan plan_of(const std::string& text) {
+inline TemporalPlan plan_of(const std::string& text) {
   const bool begins_with_a_line = text.starts_with('\n');
   return read_plan(
       scenario::parse_yaml("format: 1\nname: test" + (begins_with_a_line ? text : "\n" + text), "plan.yaml"));

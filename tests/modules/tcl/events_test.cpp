@@ -18,7 +18,7 @@ TEST(After, BlocksInVirtualTime) {
 
 TEST(After, RunsScriptsByTheirDatesThenTheirOrder) {
   ScriptedRobot robot;
-  const Outcome outcome = robot.run(
+  const ScriptEnd outcome = robot.run(
       "after 20 {lappend log c}; after 10 {lappend log a}; after 10 {lappend log b}; after idle {lappend log idle}; "
       "set gone [after 15 {lappend log never}]; after cancel $gone; "
       "after 30 {set done [clock milliseconds]}; vwait done; list $log $done");
@@ -43,7 +43,7 @@ TEST(Update, IdletasksRunsPresentIdleEventsOnly) {
 
 TEST(Vwait, IsAnErrorWhereNothingCanHappen) {
   ScriptedRobot robot;
-  const Outcome outcome = robot.run("vwait never");
+  const ScriptEnd outcome = robot.run("vwait never");
   EXPECT_FALSE(outcome.ok);
   EXPECT_EQ(outcome.text, "can't wait for variable \"never\": would wait forever");
 }

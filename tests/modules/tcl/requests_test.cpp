@@ -9,7 +9,7 @@ namespace {
 
 std::string result(const std::string& script) {
   ScriptedRobot robot;
-  const Outcome outcome = robot.run("connect; lm m; " + script);
+  const ScriptEnd outcome = robot.run("connect; lm m; " + script);
   return (outcome.ok ? "" : "error: ") + outcome.text;
 }
 

@@ -50,13 +50,13 @@ class ScriptedRobot : public genom::TestRobot {
   }
 
   /// In virtual time: the outcome of a script.
-  Outcome run(const std::string& script) {
-    Outcome outcome;
+  ScriptEnd run(const std::string& script) {
+    ScriptEnd outcome;
     genom::TestRobot::run([&] { outcome = run_here(script); });
     return outcome;
   }
   /// The same in a running task.
-  Outcome run_here(const std::string& script) {
+  ScriptEnd run_here(const std::string& script) {
     ModuleLink link(names, "robot", "executive", [this](Time, const std::string& line) { said.push_back(line); });
     const std::unique_ptr<Interpreter> interpreter = tcl_library().make(link, 1, &threads::now);
     return interpreter->run("script.tcl", script);

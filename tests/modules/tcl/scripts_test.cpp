@@ -30,14 +30,14 @@ TEST(Errors, HaveTheLineOfTheirCommand) {
   EXPECT_EQ(robot.run("set a 1\nset b 2\nerror c").line, 3);
   EXPECT_EQ(robot.run("set a 1\nforeach b {1 2} {\n  set a 2\n  unknown_command\n}").line, 4);
   EXPECT_EQ(robot.run("proc f {} {\n  set a 1\n  if 1 {\n    g\n  }\n}\nproc g {} {\n\n  error here\n}\nf").line, 9);
-  const Outcome outcome = robot.run("proc f {} { error here }\nf");
+  const ScriptEnd outcome = robot.run("proc f {} { error here }\nf");
   EXPECT_EQ(outcome.text, "here");
   EXPECT_NE(outcome.trace.find("(procedure \"f\" line 1)"), std::string::npos) << outcome.trace;
 }
 
 TEST(Exit, EndsTheScriptAlone) {
   ScriptedRobot robot;
-  const Outcome outcome = robot.run("catch {exit}\nputs late");
+  const ScriptEnd outcome = robot.run("catch {exit}\nputs late");
   EXPECT_TRUE(outcome.ok) << outcome.text;
   EXPECT_TRUE(robot.said.empty());
 }
