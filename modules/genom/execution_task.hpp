@@ -33,8 +33,9 @@ struct TaskOptions {
   Duration cost_us = {};
 
   static void fields(auto field) {
-    field("period_ms", &TaskOptions::period_ms, "0: aperiodic, woken by events");
-    field("delay_ms", &TaskOptions::delay_ms, "phase of a periodic task's ticks");
+    field("period_ms", &TaskOptions::period_ms,
+          "period of its wake-ups, more than 0; a task has none if its module declares none: it is woken by events");
+    field("delay_ms", &TaskOptions::delay_ms, "phase of a periodic task's wake-ups");
     field("cost_us", &TaskOptions::cost_us, "of each permanent codel");
   }
 };

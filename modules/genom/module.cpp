@@ -11,6 +11,8 @@ Module::Module(ModuleSetup& setup, std::uint16_t number, threads::kind)
       of_control_task_(read_computing(settings_, "tasks.control.", names_, of_all_tasks_)),
       data_(setup.name, number),
       control_(*this, data_, tasks_, names_.create_poster<ModuleStatus>(setup.name + ".control", setup.name)) {
+  settings_.describe_map("tasks", "its tasks by name: period, cost and clock, processor, priority of each");
+  settings_.describe_map("tasks.control", "the module's control task, which takes requests");
   names_.add(name_, *this);
   add_control<AbortInput>("Abort",
                           [this](const AbortInput& input, Nothing&) { return control_.abort(input.activity); });
@@ -20,6 +22,7 @@ Module::~Module() = default;
 
 ExecutionTask& Module::add_task(const std::string& name, TaskOptions options) {
   const bool is_periodic = options.period_ms > Duration();
+  settings_.describe_map("tasks." + name, "an execution task of the module");
   settings_.read(options, "tasks." + name + ".");
   if (is_periodic) {
     const std::string key = "tasks." + name + ".period_ms";

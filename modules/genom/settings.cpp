@@ -66,6 +66,10 @@ void Settings::describe(const std::string& key, SettingRow::Kind kind, double le
   if (rows_ != nullptr) rows_->push_back({key, kind, least, most, std::move(otherwise), {}});
 }
 
+void Settings::describe_map(const std::string& key, std::string_view description) {
+  if (rows_ != nullptr) rows_->push_back({key, SettingRow::Kind::map, 0, 0, "", description});
+}
+
 SettingRow* Settings::row_of(const std::string& key) const {
   if (rows_ == nullptr) return nullptr;
   const auto row = std::find_if(rows_->begin(), rows_->end(), [&](const SettingRow& r) { return r.key == key; });
@@ -162,11 +166,13 @@ void Settings::read_one(const std::string& key, Time& value) {
 }
 
 void Settings::read_one(const std::string& key, Point& value) {
+  describe_map(key);
   read_one(key + ".x", value.x);
   read_one(key + ".y", value.y);
 }
 
 void Settings::read_one(const std::string& key, Pose& value) {
+  describe_map(key);
   read_one(key + ".x", value.x);
   read_one(key + ".y", value.y);
   read_one(key + ".heading", value.heading);

@@ -22,11 +22,12 @@ namespace waitpoint::genom {
 
 /// A key that is read.
 struct SettingRow {
-  enum class Kind : std::uint8_t { truth, integer, number, text, list };
+  enum class Kind : std::uint8_t { truth, integer, number, text, list, map };
 
   std::string key;
   Kind kind = Kind::text;
-  double least = 0, most = 0;  ///< of a number; a list has `most` elements at most, its first one has a row of its own
+  double least = 0, most = 0;  ///< of a number; a list has `most` elements at most, its first one has a row of its own,
+                               ///< as keys within a map have
   std::string otherwise;       ///< the default; empty: none
   std::string_view description;
 };
@@ -43,11 +44,9 @@ class Settings {
   template <HasFields T>
   void read(T& values, const std::string& prefix = "") {
     T::fields([&](std::string_view name, auto member, const auto&... facts) {
-      const std::size_t before = rows_ == nullptr ? 0 : rows_->size();
       const std::string key = prefix + std::string(name);
-      read_one(key, values.*member);
       const FieldFacts known = facts_of(facts...);
-      if (rows_ != nullptr && rows_->size() > before) (*rows_)[before].description = known.description;
+      read_described(key, values.*member, known.description);
       if constexpr (std::is_arithmetic_v<std::remove_reference_t<decltype(values.*member)>>) {
         if (known.range) check_within(key, static_cast<double>(values.*member), known.range->low, known.range->high);
         if (known.count)
@@ -88,8 +87,19 @@ class Settings {
   /// Throws BadInput for the first unread setting.
   void check_all_used() const;
 
+  /// Adds a row for a map of keys to settings that describe.
+  void describe_map(const std::string& key, std::string_view description = "");
+
+  /// A value that is no declared field; `description` is of static storage.
+  template <class T>
+  void read_described(const std::string& key, T& value, std::string_view description) {
+    const std::size_t before = rows_ == nullptr ? 0 : rows_->size();
+    read_one(key, value);
+    if (rows_ != nullptr && rows_->size() > before) (*rows_)[before].description = description;
+  }
   template <HasFields T>
   void read_one(const std::string& key, T& values) {
+    describe_map(key);
     read(values, key + ".");
   }
   void read_one(const std::string& key, double& value);

@@ -8,6 +8,17 @@
 namespace waitpoint::genom {
 namespace {
 
+struct ProcessorKeys {
+  std::string processor;
+  int priority = 0;
+
+  static void fields(auto field) {
+    field("processor", &ProcessorKeys::processor,
+          "one of the robot's `processors`, which tasks share; without it each task has one of its own");
+    field("priority", &ProcessorKeys::priority, "on a shared processor; greater is more urgent");
+  }
+};
+
 using threads::ClockKind;
 
 constexpr std::string_view kinds[] = {"fixed", "proportional", "cpu", "interval", "counted"};
@@ -69,13 +80,13 @@ std::span<const std::string_view> clock_kinds() { return kinds; }
 
 TaskComputing read_processor(Settings& settings, const std::string& prefix, const NameSpace& names,
                              TaskComputing defaults) {
-  std::string name;
-  settings.read_one(prefix + "processor", name);
+  ProcessorKeys keys{"", defaults.priority};
+  settings.read(keys, prefix);
   if (settings.has(prefix + "processor")) {
-    defaults.on = names.find_processor(name);
+    defaults.on = names.find_processor(keys.processor);
     if (defaults.on == nullptr) settings.reject(prefix + "processor", "one of this robot's processors");
   }
-  settings.read_one(prefix + "priority", defaults.priority);
+  defaults.priority = keys.priority;
   return defaults;
 }
 

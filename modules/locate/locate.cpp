@@ -56,7 +56,7 @@ Locate::Locate(genom::ModuleSetup& setup)
       localisation_poster_(add_poster<posters::Localisation>("localisation", locating_)),
       search_cost_us_(200ms) {
   if (map_ == nullptr) throw BadInput("locate", "expected a known map");
-  setup.settings.read_one("search_cost_us", search_cost_us_);
+  setup.settings.read_described("search_cost_us", search_cost_us_, "cost of a search on the whole map");
   const auto run = [this](auto&) {
     locate();
     return State::exec;
@@ -78,8 +78,8 @@ Locate::Locate(genom::ModuleSetup& setup)
                                       .exec = run},
                                      {"Localise", "Find"});
   localise.cost = find.cost = 1ms;
-  setup.settings.read_one("localise_cost_us", localise.cost);
-  setup.settings.read_one("find_cost_us", find.cost);
+  setup.settings.read_described("localise_cost_us", localise.cost, "cost of a codel of the request Localise");
+  setup.settings.read_described("find_cost_us", find.cost, "cost of a codel of the request Find");
   add_control<Nothing>("Stop", [](const Nothing&, Nothing&) { return genom::ok; }, {"Localise", "Find"});
 }
 

@@ -9,12 +9,9 @@
 namespace waitpoint::locate {
 
 struct TrackingParameters {
-  // Random errors of the odometry.
   double travel_noise_m_per_sqrt_m = 0.03;
   double drift_noise_rad_per_sqrt_m = 0.03;
   double turn_noise_rad_per_sqrt_rad = 0.04;
-  // Neighbouring echoes share errors, of the wall and of its cells on the map: the information of all echoes together
-  // counts as that of this share of them, and the position is never surer than the floors.
   double independent_share = 0.1;
   double position_floor_m = 0.01;
   double heading_floor_rad = 0.004;
@@ -25,17 +22,19 @@ struct TrackingParameters {
 
   static void fields(auto field) {
     using P = TrackingParameters;
-    field("travel_noise_m_per_sqrt_m", &P::travel_noise_m_per_sqrt_m);
-    field("drift_noise_rad_per_sqrt_m", &P::drift_noise_rad_per_sqrt_m);
-    field("turn_noise_rad_per_sqrt_rad", &P::turn_noise_rad_per_sqrt_rad);
-    field("independent_share", &P::independent_share);
-    field("position_floor_m", &P::position_floor_m);
-    field("heading_floor_rad", &P::heading_floor_rad);
+    field("travel_noise_m_per_sqrt_m", &P::travel_noise_m_per_sqrt_m, "random error of the odometry's travel");
+    field("drift_noise_rad_per_sqrt_m", &P::drift_noise_rad_per_sqrt_m, "random error of its heading, by travel");
+    field("turn_noise_rad_per_sqrt_rad", &P::turn_noise_rad_per_sqrt_rad, "random error of its heading, by turns");
+    field("independent_share", &P::independent_share,
+          "of a scan's echoes, by whose number the information of all counts: neighbours share the errors of the wall "
+          "and its cells");
+    field("position_floor_m", &P::position_floor_m, "least standard deviation of the position");
+    field("heading_floor_rad", &P::heading_floor_rad, "least standard deviation of the heading");
     field("explained_min", &P::explained_min, "share of the echoes that the map must explain for a scan to be used");
     field("lost_scans", &P::lost_scans, "consecutive scans below it after which the robot is lost");
     field("rest_scans", &P::rest_scans, "a robot at rest uses every so many scans");
-    field("rest_m", &P::rest_m);
-    field("rest_rad", &P::rest_rad);
+    field("rest_m", &P::rest_m, "a robot is at rest that moved less than this between two scans,");
+    field("rest_rad", &P::rest_rad, "and turned less than this");
   }
 };
 
@@ -65,8 +64,8 @@ struct Parameters {
   FindingParameters finding;
 
   static void fields(auto field) {
-    field("tracking", &Parameters::tracking);
-    field("finding", &Parameters::finding);
+    field("tracking", &Parameters::tracking, "by scans, around the position by the odometry");
+    field("finding", &Parameters::finding, "on the whole map, of a robot that is lost");
   }
 };
 

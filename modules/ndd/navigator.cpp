@@ -119,8 +119,8 @@ Decision Navigator::decide(Time now, const posters::PositionEstimate& position) 
   Decision decision;
   decision.remaining_m = route_.remaining_m(robot.position());
   decision.outcome = outcome(now, decision.remaining_m, length(target));
-  if (decision.outcome != Outcome::driving) route_.clear();
-  if (decision.outcome == Outcome::driving && !at_goal(decision.remaining_m, length(target)))
+  if (decision.outcome != RouteState::driving) route_.clear();
+  if (decision.outcome == RouteState::driving && !at_goal(decision.remaining_m, length(target)))
     steer(now, target, decision);
   return decision;
 }
@@ -131,13 +131,13 @@ bool Navigator::at_goal(double remaining_m, double target_distance_m) const {
          (remaining_m <= parameters_.goal_near_m && target_distance_m <= parameters_.goal_tolerance_m);
 }
 
-Outcome Navigator::outcome(Time now, double remaining_m, double target_distance_m) {
+RouteState Navigator::outcome(Time now, double remaining_m, double target_distance_m) {
   if (at_goal(remaining_m, target_distance_m)) {
-    return std::fabs(measured_.v_m_s) <= standing_m_s ? Outcome::arrived : Outcome::driving;
+    return std::fabs(measured_.v_m_s) <= standing_m_s ? RouteState::arrived : RouteState::driving;
   }
-  if (watch_.progressing(now, remaining_m)) return Outcome::driving;
+  if (watch_.progressing(now, remaining_m)) return RouteState::driving;
   const bool near_enough = route_.target_is_last() && remaining_m <= parameters_.goal_near_m;
-  return near_enough ? Outcome::arrived : Outcome::blocked;
+  return near_enough ? RouteState::arrived : RouteState::blocked;
 }
 
 void Navigator::steer(Time now, Point target, Decision& decision) {

@@ -28,7 +28,7 @@
 
 namespace waitpoint::ndd {
 
-enum class Outcome : std::uint8_t {
+enum class RouteState : std::uint8_t {
   idle,     ///< no route
   driving,  ///< following the route
   arrived,  ///< at rest within the tolerance of the last via point, or as close as possible
@@ -36,7 +36,7 @@ enum class Outcome : std::uint8_t {
 };
 
 struct Decision {
-  Outcome outcome = Outcome::idle;
+  RouteState outcome = RouteState::idle;
   Situation situation = Situation::no_region;
   Speeds speeds;             ///< command until the next decision
   double direction_rad = 0;  ///< desired direction, in the robot's frame
@@ -69,7 +69,7 @@ class Navigator {
  private:
   Pose in_map(const posters::PositionEstimate& position) const;
   bool at_goal(double remaining_m, double target_distance_m) const;
-  Outcome outcome(Time now, double remaining_m, double target_distance_m);
+  RouteState outcome(Time now, double remaining_m, double target_distance_m);
   void steer(Time now, Point target, Decision& decision);
   void steer_among_standing(Point target, Decision& decision);
   Speeds foresee(Time now, const Speeds& wanted);

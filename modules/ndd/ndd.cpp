@@ -43,8 +43,8 @@ Ndd::Ndd(genom::ModuleSetup& setup)
            [this](auto& activity) {
              const Decision decision = navigator_.decide(threads::now(), position_.position);
              reference(decision.speeds);
-             if (decision.outcome == Outcome::driving) return State::exec;
-             if (decision.outcome == Outcome::blocked)
+             if (decision.outcome == RouteState::driving) return State::exec;
+             if (decision.outcome == RouteState::blocked)
                activity.report = own_report(static_cast<std::uint16_t>(NavigationReport::blocked));
              return State::ether;
            },
@@ -56,7 +56,7 @@ Ndd::Ndd(genom::ModuleSetup& setup)
            }},
       {"GoTo"});
   go_to.cost = 2ms;
-  setup.settings.read_one("goto_cost_us", go_to.cost);
+  setup.settings.read_described("goto_cost_us", go_to.cost, "cost of a codel of the request GoTo");
   add_control<Nothing>("Stop", [](const Nothing&, Nothing&) { return genom::ok; }, {"GoTo"});
   add_control<GoToInput>("Reroute", [this](const GoToInput& input, Nothing&) {
     if (input.via.empty()) return report(genom::StandardReport::control_codel_error);

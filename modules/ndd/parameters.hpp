@@ -38,8 +38,8 @@ struct Parameters {
     field("robot_radius_m", &Parameters::robot_radius_m, "of the smallest disc about the robot's centre that holds it");
     field("footprint", &Parameters::footprint,
           "corners of its outline, convex, counter-clockwise; none: it is that disc");
-    field("v_m_s_max", &Parameters::v_m_s_max);
-    field("w_rad_s_max", &Parameters::w_rad_s_max);
+    field("v_m_s_max", &Parameters::v_m_s_max, "greatest speed");
+    field("w_rad_s_max", &Parameters::w_rad_s_max, "greatest turning speed");
     field("braking_m_s2", &Parameters::braking_m_s2, "assumed deceleration, slightly less than the base's limit");
     field("turn_braking_rad_s2", &Parameters::turn_braking_rad_s2,
           "the same of turning on the spot, for a robot that is no disc");

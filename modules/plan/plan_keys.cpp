@@ -108,17 +108,21 @@ const KeyTable& action_keys() {
           .add("name", name_schema, "its name", Need::required)
           .add(
               "kind", [](SchemaDefinitions&) { return scenario::word_schema(action_kinds); },
-              "its end is the plan's choice, or its request's report")
+              "`controllable`: the executor ends it, at the first time that the constraints allow; `contingent`: its "
+              "request's final report ends it")
           .add("duration_s", duration_schema, "seconds, or `[least, greatest]`")
-          .add("request", dotted_schema, "`MODULE.NAME`, which it calls")
-          .add("input", input_schema, "of the request: `start`, or a map of fields")
-          .add("tcl", text_form().schema, "`PROCEDURE ARGUMENT ...` of the robot's script")
-          .add("stop", dotted_schema, "the request that ends it")
-          .add("rendezvous", text_form().schema, "a meeting with another robot")
-          .add("when", list_of(condition_keys()), "conditions of its start")
-          .add("during", list_of(condition_keys()), "conditions until its end")
-          .add("uses", uses_schema, "amounts of resources")
-          .add("after", names_schema, "actions that end before it starts")
+          .add("request", dotted_schema, "`MODULE.REQUEST`, sent at its start")
+          .add("input", input_schema, "the request's input by field, or `start`: the robot's known pose")
+          .add("tcl", text_form().schema,
+               "`PROCEDURE ARGUMENT ...`: a procedure of the robot's script, in place of a request")
+          .add("stop", dotted_schema, "a request sent at its end by the executor, in place of an abort of the activity")
+          .add("rendezvous", text_form().schema,
+               "another robot, whose plan has a rendezvous of the same name with this one: both wait for each other, "
+               "over the scenario's `medium`, by the module `meeting`")
+          .add("when", list_of(condition_keys()), "conditions on posters for which its start waits")
+          .add("during", list_of(condition_keys()), "conditions on posters; it fails when one does not hold")
+          .add("uses", uses_schema, "amounts of resources: `{base: 1}`")
+          .add("after", names_schema, "an action or a list: it starts after their ends")
           .require(at_most_one({"request", "tcl", "rendezvous"}))
           .require({{"if", needed({"input"})}, {"then", needed({"request"})}})
           .require({{"if",
@@ -159,15 +163,19 @@ const KeyTable& plan_keys() {
           .add(
               "description", [](SchemaDefinitions&) { return Json::object(); }, "for people")
           .add("poll_ms", scenario::duration_form(std::chrono::milliseconds(1)).schema,
-               "period at which conditions are looked at")
-          .add("setup", requests_schema, "requests before the plan")
-          .add("ready", list_of(condition_keys()), "conditions of the plan's start")
-          .add("resources", list_of(resource_keys()), "what actions use")
-          .add("actions", actions_schema, "the actions", Need::required)
-          .add("constraints", list_of(constraint_keys()), "times between starts and ends of actions")
-          .add("alternatives", list_of(alternative_keys()), "branches, of which one is executed")
-          .add("safe", requests_schema, "requests when the plan fails")
-          .add("done", requests_schema, "requests at its end");
+               "period of looks at the posters of conditions")
+          .add("setup", requests_schema, "requests sent in order before the plan's start, each until its first reply")
+          .add("ready", list_of(condition_keys()), "conditions for which the plan's start waits")
+          .add("resources", list_of(resource_keys()), "a list of `{name, capacity}`")
+          .add("actions", actions_schema, "the list of actions, at most 200", Need::required)
+          .add("constraints", list_of(constraint_keys()),
+               "a list of `{name, from, to, least_s, most_s}`: bounds on `to - from`, each a point: `start` (of the "
+               "plan), `ACTION.start`, `ACTION.end`")
+          .add("alternatives", list_of(alternative_keys()),
+               "a list of `{name, branches: [[ACTION, ...], ...]}`: the first branch is planned, the next ones replace "
+               "it after a failure; `[]` is a branch without actions")
+          .add("safe", requests_schema, "requests, or `{tcl: PROCEDURE ...}`, sent in order after an abort")
+          .add("done", requests_schema, "requests, or `{tcl: PROCEDURE ...}`, sent in order after the last action");
   return keys;
 }
 

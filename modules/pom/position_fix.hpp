@@ -24,7 +24,7 @@ struct FixParameters {
   static void fields(auto field) {
     field("gps", &FixParameters::gps, "true: the robot's receiver is a source");
     field("gps_antenna_x_m", &FixParameters::gps_antenna_x_m, "in the robot's frame");
-    field("gps_antenna_y_m", &FixParameters::gps_antenna_y_m);
+    field("gps_antenna_y_m", &FixParameters::gps_antenna_y_m, "in the robot's frame");
     field("gps_noise_m", &FixParameters::gps_noise_m, "standard deviation per axis, independent in every fix");
     field("gps_drift_m", &FixParameters::gps_drift_m, "standard deviation per axis of the error shared by fixes");
     field("gps_gate", &FixParameters::gps_gate, "chi square of 2 degrees of freedom at 99.9 %");

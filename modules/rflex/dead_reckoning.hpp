@@ -20,9 +20,11 @@ struct OdometryNoise {
   double turn_variance_rad2_per_m = 1e-4;
 
   static void fields(auto field) {
-    field("travel_variance_m2_per_m", &OdometryNoise::travel_variance_m2_per_m);
-    field("turn_variance_rad2_per_rad", &OdometryNoise::turn_variance_rad2_per_rad);
-    field("turn_variance_rad2_per_m", &OdometryNoise::turn_variance_rad2_per_m);
+    field("travel_variance_m2_per_m", &OdometryNoise::travel_variance_m2_per_m, "growth of the variance of travel");
+    field("turn_variance_rad2_per_rad", &OdometryNoise::turn_variance_rad2_per_rad,
+          "growth of the variance of the heading, by turns");
+    field("turn_variance_rad2_per_m", &OdometryNoise::turn_variance_rad2_per_m,
+          "growth of the variance of the heading, by travel");
   }
 };
 

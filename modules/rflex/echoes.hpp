@@ -14,23 +14,23 @@ struct SonarRing {
   double radius_m = 0;
 
   static void fields(auto field) {
-    field("count", &SonarRing::count);
-    field("radius_m", &SonarRing::radius_m);
+    field("count", &SonarRing::count, "number of its sonars");
+    field("radius_m", &SonarRing::radius_m, "of the ring");
   }
 };
 
 /// The range of an infrared range finder is (gain_per_v V)^exponent, in metres.
 struct InfraredCalibration {
   double gain_per_v = 3.7, exponent = -1;
-  double range_max_m = 0.8;  ///< greater ranges count as no echo
+  double range_max_m = 0.8;
   double ring_radius_m = 0.25;
 
   static void fields(auto field) {
     using I = InfraredCalibration;
-    field("gain_per_v", &I::gain_per_v);
-    field("exponent", &I::exponent);
-    field("range_max_m", &I::range_max_m);
-    field("ring_radius_m", &I::ring_radius_m);
+    field("gain_per_v", &I::gain_per_v, "range in metres is (gain_per_v * volts) ^ exponent");
+    field("exponent", &I::exponent, "see gain_per_v");
+    field("range_max_m", &I::range_max_m, "greater ranges are no echoes");
+    field("ring_radius_m", &I::ring_radius_m, "distance of the range finders from the robot's centre");
   }
 };
 

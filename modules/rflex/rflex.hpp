@@ -30,33 +30,36 @@ namespace waitpoint::rflex {
 /// Parameters of the module.
 struct Parameters {
   OdometryNoise noise;
-  double units_per_m = 103000, units_per_rad = 35000;  ///< of a B21r's controller
-  std::string speed_poster = "ndd.speed";              ///< the reference of TrackSpeedStart
+  double units_per_m = 103000, units_per_rad = 35000;
+  std::string speed_poster = "ndd.speed";
   Duration reference_timeout_ms = std::chrono::milliseconds(500);
-  double battery_low_v = 22.5, battery_low_charge = 0;  ///< the battery is low below either of these
-  double sonar_ring_radius_m = 0.25;                    ///< of a single ring of sonars
-  double cruise_height_m = 0;                           ///< held while tracking; 0: climb speed of the reference
-  double climb_m_s_max = 0.5;                           ///< towards cruise_height_m
-  Bounded<SonarRing, 4> sonar_rings;                    ///< for several rings; sonars beyond their count are ignored
+  double battery_low_v = 22.5, battery_low_charge = 0;
+  double sonar_ring_radius_m = 0.25;
+  double cruise_height_m = 0;
+  double climb_m_s_max = 0.5;
+  Bounded<SonarRing, 4> sonar_rings;
   InfraredCalibration infrared;
-  bool gyro_turns = false;  ///< odometry uses the gyro's turns; requires a gyro
+  bool gyro_turns = false;
   Duration gyro_calibration_ms = std::chrono::seconds(5);
 
   static void fields(auto field) {
-    field("noise", &Parameters::noise);
-    field("units_per_m", &Parameters::units_per_m);
-    field("units_per_rad", &Parameters::units_per_rad);
-    field("speed_poster", &Parameters::speed_poster);
-    field("reference_timeout_ms", &Parameters::reference_timeout_ms);
-    field("battery_low_v", &Parameters::battery_low_v);
-    field("sonar_ring_radius_m", &Parameters::sonar_ring_radius_m);
-    field("cruise_height_m", &Parameters::cruise_height_m);
-    field("climb_m_s_max", &Parameters::climb_m_s_max);
-    field("sonar_rings", &Parameters::sonar_rings);
-    field("infrared", &Parameters::infrared);
-    field("battery_low_charge", &Parameters::battery_low_charge);
-    field("gyro_turns", &Parameters::gyro_turns);
-    field("gyro_calibration_ms", &Parameters::gyro_calibration_ms);
+    field("noise", &Parameters::noise, "growth of the uncertainty of dead reckoning");
+    field("units_per_m", &Parameters::units_per_m, "counts of the controller, by default of a B21r's");
+    field("units_per_rad", &Parameters::units_per_rad, "the same of turns");
+    field("speed_poster", &Parameters::speed_poster, "poster with the reference of the request TrackSpeedStart");
+    field("reference_timeout_ms", &Parameters::reference_timeout_ms,
+          "the base stops when the reference is older than this");
+    field("battery_low_v", &Parameters::battery_low_v, "the battery is low below this voltage,");
+    field("sonar_ring_radius_m", &Parameters::sonar_ring_radius_m, "of a single ring of sonars");
+    field("cruise_height_m", &Parameters::cruise_height_m,
+          "height that an aerial robot holds while it tracks; 0: the reference has its climb speed");
+    field("climb_m_s_max", &Parameters::climb_m_s_max, "towards cruise_height_m");
+    field("sonar_rings", &Parameters::sonar_rings,
+          "rings of sonars, if there are several; sonars beyond their count are ignored");
+    field("infrared", &Parameters::infrared, "calibration of the infrared range finders");
+    field("battery_low_charge", &Parameters::battery_low_charge, "or below this charge, from 0 to 1");
+    field("gyro_turns", &Parameters::gyro_turns, "the odometry has its turns from the gyro, which the robot must have");
+    field("gyro_calibration_ms", &Parameters::gyro_calibration_ms, "time at rest in which the gyro is calibrated");
   }
 };
 

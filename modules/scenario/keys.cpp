@@ -11,7 +11,7 @@ void KeyTable::add_row(Row row) {
 }
 
 Json KeyTable::schema(SchemaDefinitions& definitions) const {
-  return definitions.reference(name_, [&] { return whole_schema(definitions); });
+  return definitions.reference(name_, [this](SchemaDefinitions& made) { return whole_schema(made); });
 }
 
 Json KeyTable::whole_schema(SchemaDefinitions& definitions) const {

@@ -35,7 +35,8 @@ void read_written_pose(const YamlNode& node, std::string_view what, Pose& pose) 
 
 /// Of a map with x_m and y_m.
 Json place_map_schema(const SchemaDefinitions& definitions, Json properties) {
-  properties["x_m"] = properties["y_m"] = number_schema(ranges::coordinate);
+  properties["x_m"] = described("forward, or to the east on a map [m]", number_schema(ranges::coordinate));
+  properties["y_m"] = described("to the left, or to the north on a map [m]", number_schema(ranges::coordinate));
   Json schema = {{"type", "object"}, {"properties", std::move(properties)}, {"additionalProperties", false}};
   if (!definitions.is_partial()) schema["required"] = {"x_m", "y_m"};
   return schema;
@@ -72,8 +73,10 @@ Form<Point> point_form() {
 Form<Pose> pose_form() {
   return {read_written_pose,
           [](SchemaDefinitions& definitions) {
-            return any_of({pose_list_schema(),
-                           place_map_schema(definitions, {{"heading_deg", or_null(number_schema(heading_range))}})});
+            return any_of(
+                {pose_list_schema(),
+                 place_map_schema(definitions, {{"heading_deg", described("counter-clockwise [deg]",
+                                                                          or_null(number_schema(heading_range)))}})});
           },
           [](const Pose& pose) {
             return Json::array({pose.x, pose.y, pose.heading / exact::pi * 180});

@@ -20,10 +20,10 @@ Json name_schema(SchemaDefinitions&) {
 
 Json dotted_schema(SchemaDefinitions&) { return {{"type", "string"}, {"pattern", "^[^.]+[.]."}}; }
 
-/// A definition that is given from outside.
-SchemaMaker outer(std::string name) {
-  return [name](SchemaDefinitions& definitions) {
-    return Json{{"$ref", "#/$defs/" + std::string(definitions.is_partial() ? "part_of_" : "") + name}};
+/// A definition that is given from outside, `name` in parts, and `complete`.
+SchemaMaker outer(std::string name, std::string complete) {
+  return [name, complete](SchemaDefinitions& definitions) {
+    return Json{{"$ref", "#/$defs/" + (definitions.is_partial() ? name : complete)}};
   };
 }
 
@@ -44,30 +44,45 @@ Json goals_schema(SchemaDefinitions& definitions) {
 
 Json urdf_schema(SchemaDefinitions&) {
   const Json value = {{"type", {"string", "number", "boolean", "null"}}};
-  return any_of({text_schema(),
-                 {{"type", "object"},
-                  {"properties", {{"file", text_schema()}, {"arguments", or_null(map_schema(value))}}},
-                  {"required", {"file"}},
-                  {"additionalProperties", false}}});
+  return any_of(
+      {text_schema(),
+       {{"type", "object"},
+        {"properties",
+         {{"file", described("the URDF, or a file of xacro", text_schema())},
+          {"arguments", described("values of xacro's arguments by their names", or_null(map_schema(value)))}}},
+        {"required", {"file"}},
+        {"additionalProperties", false}}});
 }
 
-SchemaMaker list_of_outer(std::string name) {
-  return [name](SchemaDefinitions& definitions) { return list_schema(outer(name)(definitions)); };
+Json modules_schema(SchemaDefinitions& definitions) {
+  return list_schema(outer("module", "complete_module")(definitions));
 }
 
 /// What a robot consists of, without its body.
 KeyTable software(std::string name) {
   return KeyTable(std::move(name))
-      .add("modules", list_of_outer("module"),
-           "a list, in starting order: `name`, `type`, `enabled`, and the module's own parameters")
-      .add("bridge", whole(list_of(bridge_row_keys())), "the table of posters and values of devices")
-      .add("executive", outer("executive"), "parameters of the executive")
+      .add("modules", modules_schema,
+           "a list, in starting order: `name`, `type` (default: the name), `enabled`, and the module's own parameters, "
+           "which the module checks")
+      .add("bridge", whole(list_of(bridge_row_keys())),
+           "the table: rows `{poster: MODULE.POSTER, device: DEVICE.VALUE}`; devices are `base`, the lasers by name, "
+           "and the other sensors by their keys; values are `command` and `reading` (of sensors but lasers only "
+           "`reading`)")
+      .add("executive", outer("executive", "executive"),
+           "parameters of the executive; `clock`, `processor`, `priority` as of a module's task; `tcl`, a script in "
+           "Tcl in place of the executive, or below a `plan`")
       .add("processors", names_schema,
-           "names of processors that tasks of the modules can share; without it, each task has one of its own")
-      .add("programs", list_of(program_keys()), "programs: commands, or shared objects")
-      .add("control", control_schema, "rules between the clients of the modules and the modules")
+           "a list of names: processors that tasks of the modules can share; without it, each task has one of its own")
+      .add("programs", list_of(program_keys()),
+           "a list: `name`, `command` (a program and its arguments: processes), or `file` (a shared object with a "
+           "`main()`, from unmodified sources) and `arguments`, `after` (what its start waits for), `enabled`")
+      .add("control", control_schema,
+           "a file of rules between the clients of the modules and the modules, or `{rules: FILE}` with `clock`, "
+           "`processor`, `priority` of the controller's task")
       .add("ros", map_of(robot_ros_keys()), "names and topics of the robot's nodes of ROS")
-      .add("launch", launch_schema, "a launch file of ROS")
+      .add("launch", launch_schema,
+           "a launch file, or `{file, args}` with values of its arguments; the file may begin with `$(find PACKAGE)`, "
+           "`$(env NAME)` or `$(optenv NAME DEFAULT)`")
       .add("nodes", nodes_schema, "nodes of ROS, after those of the launch file");
 }
 
@@ -83,7 +98,9 @@ KeyTable equipment(std::string name) {
   return KeyTable(std::move(name))
       .add("shape", map_of(body_shape_keys()),
            "`{radius_m, height_m}` or `{size_m: [length, width], height_m}`, about the robot's centre")
-      .add("urdf", urdf_schema, "instead of `shape`: a URDF, or `{file, arguments}`")
+      .add("urdf", urdf_schema,
+           "instead of `shape`: a URDF (or `{file, arguments}`, with values for arguments of xacro), for the shape and "
+           "for the places of lasers, whose `frame` names a link")
       .add(device_keys())
       .add(software(""))
       .require(battery_twice())
@@ -95,7 +112,7 @@ const KeyTable& logged_robot_keys() {
   static const KeyTable keys = KeyTable("robot of a log")
                                    .add("name", name_schema, "its name", Need::required)
                                    .add("type", text_form().schema, "one of `robot_types`")
-                                   .add("modules", list_of_outer("module"), "as of a robot")
+                                   .add("modules", modules_schema, "as of a robot")
                                    .add("bridge", whole(list_of(bridge_row_keys())), "as of a robot")
                                    .add("processors", names_schema, "as of a robot");
   return keys;
@@ -107,8 +124,8 @@ Json no_goals() { return {{"properties", {{"goals", {{"maxItems", 0}}}}}}; }
 
 const KeyTable& goal_keys() {
   static const KeyTable keys = KeyTable("goal")
-                                   .add("x_m", number_form(ranges::coordinate).schema, "", Need::required)
-                                   .add("y_m", number_form(ranges::coordinate).schema, "", Need::required)
+                                   .add("x_m", number_form(ranges::coordinate).schema, "on the map", Need::required)
+                                   .add("y_m", number_form(ranges::coordinate).schema, "on the map", Need::required)
                                    .add("name", text_form().schema, "its name in messages");
   return keys;
 }
@@ -192,6 +209,8 @@ Json robots_from_map_schema(SchemaDefinitions& definitions) {
   return any_of({text_schema(), list_schema(std::move(row), 1)});
 }
 
-Json control_schema(SchemaDefinitions& definitions) { return any_of({text_schema(), outer("control")(definitions)}); }
+Json control_schema(SchemaDefinitions& definitions) {
+  return any_of({text_schema(), outer("control", "complete_control")(definitions)});
+}
 
 }  // namespace waitpoint::scenario

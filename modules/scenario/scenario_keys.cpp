@@ -59,7 +59,7 @@ Json shapes_schema(SchemaDefinitions& definitions) {
 
 Json types_schema(SchemaDefinitions& definitions) {
   return {{"type", "object"},
-          {"properties", {{"include", text_schema()}}},
+          {"properties", {{"include", described("a file of robot types", text_schema())}}},
           {"additionalProperties", robot_type_keys().schema(definitions)}};
 }
 
@@ -114,10 +114,13 @@ const Keys<Scenario>& world_keys() {
           .add("step_ms", &Scenario::step, step_form(),
                "period of the world's step, at most 1000; a warning if above the least period of the robots' software")
           .add("engine", &Scenario::engine, word_form<world::Engine>(engines),
-               "the engine for beams and for obstacles near a robot: `fcl`, or `slice`, which is faster, with the same "
-               "result; or `bullet`: another world server, with masses and forces")
-          .add("include", text_form().schema, "a floor: a file on which this world is built")
-          .add("map", text_or(map_keys().table()), "a file in another format with obstacles")
+               "the engine for beams and for obstacles near a robot: `fcl`, or `slice`, which is faster; both give the "
+               "same bits, so the same digest. Or `bullet`: another world server, with masses and forces")
+          .add("include", text_form().schema,
+               "a floor: a file with `format`, `shapes`, `shape_height_m`, `map`, on which this world is built")
+          .add("map", text_or(map_keys().table()),
+               "`FILE`, or `{file, height_m, known}`: a map of ROS's `map_server`, a segment map, an SDF world, a "
+               "world of Stage")
           .add("shape_height_m", number_form(ranges::length).schema, "height of shapes that have none of their own")
           .add("shapes", shapes_schema, "the list of shapes; one with the name of a floor's shape changes that one");
   return keys;
@@ -150,22 +153,27 @@ const KeyTable& robot_types_keys() {
 
 const KeyTable& scenario_keys() {
   static const KeyTable keys = [] {
-    KeyTable table = headed("scenario", title_schema, text_form().schema)
-                         .add("expect", map_of(expectation_table().table()), "results, otherwise exit status 1")
-                         .add("until_s", duration_form(1s).schema, "time limit, in virtual time")
-                         .add("world", unless_included(map_of(world_keys().table())), "obstacles")
-                         .add("hosting", word_form<Hosting>(hosting_words).schema, "how robots' programs are hosted")
-                         .add("medium", map_of(medium_keys().table()), "model of communication between robots")
-                         .add("robot_types", unless_included(types_schema),
-                              "robots' equipment by name; `include: FILE` reads a file of types")
-                         .add("robots", robots_schema, "the list of robots")
-                         .add("robots_from_map", robots_from_map_schema, "software for the robots in the map's file")
-                         .add("control", control_schema, "rules of execution control for all robots without their own")
-                         .add("log", text_or(log_keys().table()), "in place of `world`: a log of a real robot")
-                         .add("ros", map_of(ros_keys().table()), "what the nodes of ROS of all robots have in common")
-                         .add("play", map_of(play_keys().table()), "a bag of ROS in the place of a world, for nodes")
-                         .add("launch", launch_schema, "beside `play`: a launch file of ROS")
-                         .add("nodes", nodes_schema, "beside `play`: nodes of ROS");
+    KeyTable table =
+        headed("scenario", title_schema, text_form().schema)
+            .add("expect", map_of(expectation_table().table()),
+                 "expected results over all robots, otherwise exit status 1: `goals_reached: all` or a number, "
+                 "`collisions`, `position_error_max_m`, `plans: completed`; of nodes of ROS `node_failures`, "
+                 "`service_call_max_s`, `topics`, `tests: passed`")
+            .add("until_s", duration_form(1s).schema, "time limit, in virtual time")
+            .add("world", unless_included(map_of(world_keys().table())), "the obstacles, and how the world is stepped")
+            .add("hosting", word_form<Hosting>(hosting_words).schema,
+                 "how robots' programs are hosted: `processes`, or `in-process`")
+            .add("medium", map_of(medium_keys().table()), "model of communication between robots")
+            .add("robot_types", unless_included(types_schema),
+                 "robots' equipment by name; `include: FILE` reads a file of types")
+            .add("robots", robots_schema, "the list of robots")
+            .add("robots_from_map", robots_from_map_schema, "software for the robots in the map's file")
+            .add("control", control_schema, "rules of execution control for all robots without their own")
+            .add("log", text_or(log_keys().table()), "in place of `world`: a log of a real robot")
+            .add("ros", map_of(ros_keys().table()), "what the nodes of ROS of all robots have in common")
+            .add("play", map_of(play_keys().table()), "a bag of ROS in the place of a world, for nodes")
+            .add("launch", launch_schema, "beside `play`: a launch file of ROS")
+            .add("nodes", nodes_schema, "beside `play`: nodes of ROS");
     table.require_also(keys_beside_log(table));
     table.require_also(bodies_of_robots);
     table.require_also(shapes_of_types());

@@ -5,16 +5,46 @@
 #include <utility>
 
 namespace waitpoint::scenario {
+namespace {
 
-Json SchemaDefinitions::reference(const std::string& name, const std::function<Json()>& make) {
-  const std::string full = is_partial_ ? "part of " + name : name;
-  std::string key = full;
-  std::replace(key.begin(), key.end(), ' ', '_');
-  if (const auto [at, is_new] = made_.emplace(key, nullptr); is_new) {
-    Json schema = make();
-    made_[key] = std::move(schema);
+/// What `whole` demands of a value for which `part` holds; an empty object: nothing.
+Json beyond(const Json& whole, const Json& part) {
+  if (!whole.is_object() || !part.is_object()) return whole;
+  Json more = Json::object();
+  for (const auto& [key, value] : whole.items()) {
+    const auto same = part.find(key);
+    if (key == "description" || key == "default" || (same != part.end() && *same == value)) continue;
+    if (key == "items" && same != part.end()) {
+      more[key] = beyond(value, *same);
+    } else if (key == "properties" && same != part.end()) {
+      for (const auto& [name, property] : value.items())
+        if (Json each = same->contains(name) ? beyond(property, (*same)[name]) : property; !each.empty())
+          more[key][name] = std::move(each);
+    } else {
+      more[key] = value;
+    }
   }
-  return {{"$ref", "#/$defs/" + key}};
+  // These mean something together.
+  if (more.contains("if") || more.contains("then") || more.contains("else"))
+    for (const char* key : {"if", "then", "else"})
+      if (whole.contains(key)) more[key] = whole[key];
+  return more;
+}
+
+Json reference_to(const std::string& key) { return {{"$ref", "#/$defs/" + key}}; }
+
+}  // namespace
+
+Json SchemaDefinitions::reference(const std::string& name, const std::function<Json(SchemaDefinitions&)>& make) {
+  std::string key = name;
+  std::replace(key.begin(), key.end(), ' ', '_');
+  if (const auto [at, is_new] = complete_.emplace(key, key); is_new) {
+    made_[key] = made_by(true, make);
+    Json complete = reference_to(key);
+    complete.update(beyond(made_by(false, make), made_[key]));
+    if (complete.size() > 1) made_[at->second = "complete_" + key] = std::move(complete);
+  }
+  return reference_to(is_partial_ ? key : complete_[key]);
 }
 
 Json SchemaDefinitions::part(const std::function<Json(SchemaDefinitions&)>& make) { return made_by(true, make); }
@@ -73,6 +103,12 @@ Json any_of(std::initializer_list<Json> schemas) {
   Json list = Json::array();
   for (const Json& schema : schemas) list.push_back(schema);
   return {{"anyOf", list}};
+}
+
+Json described(std::string_view text, const Json& schema) {
+  Json all = {{"description", text}};
+  all.update(schema);
+  return all;
 }
 
 Json needed(std::initializer_list<const char*> keys) {

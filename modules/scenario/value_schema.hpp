@@ -19,7 +19,8 @@ namespace waitpoint::scenario {
 
 using Json = nlohmann::ordered_json;
 
-/// The parts of a schema that other parts refer to by their names.
+/// The parts of a schema that other parts refer to by their names: `shape` has the keys of a shape, `complete_shape`
+/// refers to it and has what a shape needs that is not laid over another one, if it needs anything.
 class SchemaDefinitions {
  public:
   /// A partial one is of what is laid over other values: it requires no keys.
@@ -27,7 +28,7 @@ class SchemaDefinitions {
 
   bool is_partial() const { return is_partial_; }
   /// A reference to the definition `name`, which `make` makes at first use.
-  Json reference(const std::string& name, const std::function<Json()>& make);
+  Json reference(const std::string& name, const std::function<Json(SchemaDefinitions&)>& make);
   /// The schema of a part, or of a whole within a part: what replaces a value as a whole.
   Json part(const std::function<Json(SchemaDefinitions&)>& make);
   Json whole(const std::function<Json(SchemaDefinitions&)>& make);
@@ -38,6 +39,7 @@ class SchemaDefinitions {
 
   bool is_partial_;
   std::map<std::string, Json> made_;
+  std::map<std::string, std::string> complete_;  // the name of the complete definition by that of its keys
 };
 
 Json number_schema(const NumberRange& range);
@@ -53,6 +55,8 @@ Json numbers_schema(const NumberRange& range, std::size_t size_min, std::size_t 
 /// A map of any keys, whose values are each of this kind.
 Json map_schema(Json value);
 Json any_of(std::initializer_list<Json> schemas);
+/// The same with a text about it.
+Json described(std::string_view text, const Json& schema);
 /// The keys are there, with values.
 Json needed(std::initializer_list<const char*> keys);
 /// The same or null: a key without a value is the same as no key.

@@ -11,21 +11,22 @@
 namespace waitpoint::segloc {
 
 struct CandidateParameters {
-  double angle_rad_max = 0.06, offset_m_max = 0.08;  ///< greatest difference between sightings of one line
-  std::uint32_t sightings_min = 4;                   ///< before a line is accepted
-  double travel_m_min = 0.15, turn_rad_min = 0.15;   ///< required motion in between: either of the two
-  std::uint32_t sightings_enough = 8;                ///< accepted even without motion
-  std::uint32_t patience_updates = 15;               ///< forgotten after so many updates without a sighting
+  double angle_rad_max = 0.06, offset_m_max = 0.08;
+  std::uint32_t sightings_min = 4;
+  double travel_m_min = 0.15, turn_rad_min = 0.15;
+  std::uint32_t sightings_enough = 8;
+  std::uint32_t patience_updates = 15;
 
   static void fields(auto field) {
     using P = CandidateParameters;
-    field("angle_rad_max", &P::angle_rad_max);
-    field("offset_m_max", &P::offset_m_max);
-    field("sightings_min", &P::sightings_min);
-    field("travel_m_min", &P::travel_m_min);
-    field("turn_rad_min", &P::turn_rad_min);
-    field("sightings_enough", &P::sightings_enough);
-    field("patience_updates", &P::patience_updates);
+    field("angle_rad_max", &P::angle_rad_max, "greatest difference in angle between sightings of one line");
+    field("offset_m_max", &P::offset_m_max, "the same of their offsets");
+    field("sightings_min", &P::sightings_min, "before a line is accepted");
+    field("travel_m_min", &P::travel_m_min, "motion in between that is needed, this travel");
+    field("turn_rad_min", &P::turn_rad_min, "or this turn");
+    field("sightings_enough", &P::sightings_enough, "so many are accepted without motion, too");
+    field("patience_updates", &P::patience_updates,
+          "a candidate is forgotten after so many updates without a sighting");
   }
 };
 

@@ -8,7 +8,7 @@ namespace waitpoint::segloc {
 
 PointParameters read_point_parameters(genom::Settings& settings) {
   PointParameters p;
-  settings.read_one("points", p);
+  settings.read_described("points", p, "localisation on the points of scans");
   const auto check = [&](const char* name, double value, double least, double most) {
     settings.check_least(std::string("points.") + name, value, least);
     settings.check_most(std::string("points.") + name, value, most);

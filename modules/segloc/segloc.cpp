@@ -47,7 +47,7 @@ Segloc::Segloc(genom::ModuleSetup& setup)
                                                          }},
                                                     {"Localise"});
   localise.cost = 1ms;
-  setup.settings.read_one("localise_cost_us", localise.cost);
+  setup.settings.read_described("localise_cost_us", localise.cost, "cost of a codel of the request Localise");
   add_control<Nothing>("Stop", [](const Nothing&, Nothing&) { return genom::ok; }, {"Localise"});
 }
 
@@ -125,13 +125,13 @@ void Segloc::use_points(const Pose& then) {
   surface.range_m_max = point_parameters_.range_m_max;
   matching::surface_of(*scan_of_points_, surface, surface_);
   points_->observe(scan_.date, between(*odometry_at_filter_, then), surface_);
-  posters::Localisation told;
-  told.position = {scan_.date, points_->pose(), points_->covariance()};
-  told.observed = static_cast<std::uint32_t>(surface_.size());
-  told.matched = static_cast<std::uint32_t>(std::lround(points_->explained() * static_cast<double>(surface_.size())));
-  told.lost = points_->lost();
-  told.jumps = points_->jumps();
-  localisation_.write(told);
+  posters::Localisation result;
+  result.position = {scan_.date, points_->pose(), points_->covariance()};
+  result.observed = static_cast<std::uint32_t>(surface_.size());
+  result.matched = static_cast<std::uint32_t>(std::lround(points_->explained() * static_cast<double>(surface_.size())));
+  result.lost = points_->lost();
+  result.jumps = points_->jumps();
+  localisation_.write(result);
   if (scans_++ % scans_per_map == 0) export_points();
 }
 

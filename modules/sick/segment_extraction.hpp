@@ -50,7 +50,7 @@ struct SegmentExtractionParameters {
     field("range_noise_growth_m_per_m", &P::range_noise_growth_m_per_m, "growth beyond range_noise_near_m");
     field("range_resolution_m", &P::range_resolution_m, "quantisation, a uniform error");
     field("range_bias_m", &P::range_bias_m, "standard deviation of the error shared by all echoes of a scan");
-    field("bearing_noise_rad", &P::bearing_noise_rad);
+    field("bearing_noise_rad", &P::bearing_noise_rad, "standard deviation of a beam's direction");
     field("roughness_m", &P::roughness_m,
           "standard deviation of a wall about its line: plaster, cells of a raster map");
     field("range_min_m", &P::range_min_m, "nearer echoes are of the robot itself");

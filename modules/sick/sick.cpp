@@ -43,7 +43,7 @@ Sick::Sick(genom::ModuleSetup& setup)
                                           }},
                                      {"ContinuousShot"});
   shot.cost = 500us;
-  setup.settings.read_one("shot_cost_us", shot.cost);
+  setup.settings.read_described("shot_cost_us", shot.cost, "cost of a codel of the request ContinuousShot");
   add_control<Nothing>("Stop", [](const Nothing&, Nothing&) { return genom::ok; }, {"ContinuousShot"});
   const auto switch_segments = [this](bool on) {
     return [this, on](const Nothing&, Nothing&) -> Report {

@@ -16,16 +16,16 @@ namespace waitpoint::sick {
 /// Parameters of the module.
 struct Parameters {
   double mount_x_m = 0.1, mount_y_m = 0, mount_heading_deg = 0;
-  /// Age of a scan at its date, which is that of its last beam: half the mirror's time for a scan.
   Duration scan_age_ms;
   SegmentExtractionParameters segments;
 
   static void fields(auto field) {
     field("mount_x_m", &Parameters::mount_x_m, "pose of the device on the robot");
-    field("mount_y_m", &Parameters::mount_y_m);
-    field("mount_heading_deg", &Parameters::mount_heading_deg);
-    field("scan_age_ms", &Parameters::scan_age_ms);
-    field("segments", &Parameters::segments);
+    field("mount_y_m", &Parameters::mount_y_m, "the same");
+    field("mount_heading_deg", &Parameters::mount_heading_deg, "the same");
+    field("scan_age_ms", &Parameters::scan_age_ms,
+          "age of a scan at its date, which is that of its last beam: half the mirror's time for a scan");
+    field("segments", &Parameters::segments, "extraction of segments from scans");
   }
 };
 

@@ -23,14 +23,17 @@ struct Parameters {
   bool on = true;
 
   static void fields(auto field) {
-    field("v_m_s", &Parameters::v_m_s);
-    field("w_rad_s", &Parameters::w_rad_s);
-    field("clear_m", &Parameters::clear_m, "turns if an obstacle in the lane is closer than this to the range finder");
+    field("v_m_s", &Parameters::v_m_s, "driving speed");
+    field("w_rad_s", &Parameters::w_rad_s, "turning speed");
+    field("clear_m", &Parameters::clear_m,
+          "it turns if an obstacle in the lane ahead is nearer than this to the range finder");
     field("slow_m", &Parameters::slow_m, NumberRange{least_nonzero, 1e5, "a positive length"},
-          "full speed if the lane is clear this far beyond clear_m");
-    field("half_width_m", &Parameters::half_width_m);
-    field("back_off_ms", &Parameters::back_off_ms, "duration of driving backwards after a stall");
-    field("on", &Parameters::on, "drives from the start; false: from the request Go");
+          "it slows down within this distance beyond `clear_m`");
+    field("half_width_m", &Parameters::half_width_m, "of the lane: half the robot's width and a margin");
+    field("back_off_ms", &Parameters::back_off_ms,
+          "duration of reversing after the base reports a stall; without `wander.base_reading` there are no such "
+          "reports");
+    field("on", &Parameters::on, "active from the start; false: from the request Go");
   }
 };
 

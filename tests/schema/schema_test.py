@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """`waitpoint schema` agrees with the readers: schema_test.py BUILD."""
 
+import itertools
 import json
 import pathlib
 import random
@@ -41,7 +42,15 @@ def schema_of(kind):
 
 
 SCHEMAS = {kind: schema_of(kind) for kind in KINDS}
-VALIDATORS = {kind: jsonschema.Draft202012Validator(schema) for kind, (_, schema) in SCHEMAS.items()}
+DEFINITIONS = {name: part for kind in ("scenario", "plan") for name, part in SCHEMAS[kind][1]["$defs"].items()}
+
+
+def in_one_file(schema):
+    """The schema with the definitions of the file that it refers to."""
+    return {"$defs": DEFINITIONS} | schema | {"$ref": schema["$ref"].removeprefix("scenario.json")}
+
+
+VALIDATORS = {kind: jsonschema.Draft202012Validator(in_one_file(schema)) for kind, (_, schema) in SCHEMAS.items()}
 
 
 class Readers:
@@ -88,7 +97,7 @@ def parameters(definition, left_out=()):
 
 def complete_documents():
     """(kind, document): of each kind documents that have all keys."""
-    definitions = SCHEMAS["scenario"][1]["$defs"]
+    definitions = DEFINITIONS
     for file in sorted((pathlib.Path(__file__).parent / "documents").glob("*.yaml")):
         document = documents.load(file.read_text().replace("@ROOT@", str(ROOT)))
         if file.stem != "scenario":
@@ -116,58 +125,62 @@ def complete_documents():
 
 
 def tables_of_keys():
-    """(place, name of a map, what is in front of its keys, whether all are there, rows of cells): of each table behind
-    <!-- keys: NAME -->, <!-- keys: NAME, behind FRONT --> or <!-- keys: NAME, some -->."""
+    """(place, name of a map, what is in front of its keys, whether all are there, titles, rows of cells): of each table
+    behind <!-- keys: NAME -->, <!-- keys: NAME, behind FRONT --> or <!-- keys: NAME, some -->."""
     for page in sorted((ROOT / "docs").glob("*.md")):
         lines = page.read_text().splitlines()
         for number, line in enumerate(lines):
             marked = re.match(r"<!-- keys: ([\w.]+)(?:, behind (\S+?))?(, some)? -->$", line)
             if not marked:
                 continue
-            columns = 3 if lines[number + 1].endswith("| default |") else 2
-            rows = []
-            for row in lines[number + 3:]:
-                if not row.startswith("|"):
-                    break
-                rows.append([cell.strip() for cell in re.split(r"(?<!\\)\|", row)[1:-1]][:columns])
-            yield f"docs/{page.name}:{number + 1}", marked[1], marked[2] or "", not marked[3], rows
+            cells = [[cell.strip() for cell in re.split(r"(?<!\\)\|", row)[1:-1]]
+                     for row in itertools.takewhile(lambda line: line.startswith("|"), lines[number + 1:])]
+            yield f"docs/{page.name}:{number + 1}", marked[1], marked[2] or "", not marked[3], cells[0], cells[2:]
 
 
 def schema_of_map(name):
+    """The keys of a map, and what a complete one has beyond them."""
     name, *path = name.split(".")
-    _, schema = SCHEMAS[name] if name in SCHEMAS else (None, None)
-    for _, whole in SCHEMAS.values():
-        schema = schema or whole["$defs"].get(name)
+    keys, complete = DEFINITIONS[name], DEFINITIONS.get(f"complete_{name}", {})
     for key in path:
-        schema = schema["properties"][key]
-    return schema
+        keys, complete = keys["properties"][key], complete.get("properties", {}).get(key, {})
+    return keys, complete
 
 
-def property_at(schema, path):
-    """The key of a map, and the map, by names joined by dots; None if there is no such key."""
+def property_at(schema, complete, path):
+    """The key of a map, by names joined by dots, None if there is no such key; and whether it is required."""
     for key in path[:-1]:
-        schema = schema["properties"].get(key, {"properties": {}})
-    return schema["properties"].get(path[-1]), path[-1] in schema.get("required", [])
+        schema, complete = schema["properties"].get(key, {"properties": {}}), complete.get("properties", {}).get(key, {})
+    return schema["properties"].get(path[-1]), path[-1] in complete.get("required", [])
 
 
 def written(default):
     return str(default).lower() if isinstance(default, bool) else str(default).removesuffix(".0")
 
 
-def differing_rows(schema, front, is_whole, rows):
+def meaning(cell):
+    """Of a key, without links, and without "; see LINK" at its end."""
+    link = r"\[([^\]]*)\]\([^)]*\)"
+    return re.sub(link, r"\1", re.sub(f"; see {link}$", "", cell))
+
+
+def differing_rows(schema, complete, front, is_whole, titles, rows):
     """What a table says that the schema does not, and the other way round."""
     given = set()
     for row in rows:
         keys = [key for key in re.findall(r"`([^`]+)`", row[0]) if key.startswith(front)]
-        defaults = [cell.strip() for cell in row[2].split(",")] if len(row) > 2 else []
+        defaults = [cell.strip() for cell in row[2].split(",")] if titles[2:] == ["default"] else []
         for index, key in enumerate(keys):
             key = key[len(front):]
             given.add(key)
-            found, is_needed = property_at(schema, key.split("."))
+            found, is_needed = property_at(schema, complete, key.split("."))
             if found is None:
                 yield f"{key}: the schema has no such key"
                 continue
-            if len(row) < 3:
+            described = re.sub(r" ?\[[^\]]*\]$", "", found.get("description", ""))
+            if titles[1] == "meaning" and meaning(row[1]) != described:
+                yield f"{key}: the meaning is: {described}"
+            if not defaults:
                 continue
             cell = (defaults[index] if len(defaults) == len(keys) else row[2]).strip("`")
             if (cell == "required") != is_needed:
@@ -181,11 +194,11 @@ def differing_rows(schema, front, is_whole, rows):
 class Schemas(unittest.TestCase):
     maxDiff = None
 
-    def test_tables_in_the_documents_have_the_declared_keys_and_defaults(self):
+    def test_tables_in_the_documents_have_the_declared_keys_meanings_and_defaults(self):
         compared = 0
-        for place, name, front, is_whole, rows in tables_of_keys():
+        for place, name, *table in tables_of_keys():
             with self.subTest(table=place):
-                self.assertEqual([], list(differing_rows(schema_of_map(name), front, is_whole, rows)))
+                self.assertEqual([], list(differing_rows(*schema_of_map(name), *table)))
             compared += 1
         self.assertGreater(compared, 12)
 
@@ -248,8 +261,7 @@ class Schemas(unittest.TestCase):
                 for part in schema:
                     collect(part)
 
-        for _, schema in SCHEMAS.values():
-            collect(schema)
+        collect(DEFINITIONS)
         for _, document in complete_documents():
             given.update(key for path in mutants.places(document) for key in path if isinstance(key, str))
         self.assertEqual(set(), declared - given - {"include", "model", "frame", "robots_from_map", "kind", "scale", "tcl", "block_cost_ns", "cost_us"})

@@ -86,6 +86,7 @@ Json properties_of(const Branch& branch) {
       if (!text.empty()) property["description"] = text;
       if (const Json otherwise = default_of(*part.row); !otherwise.is_null()) property["default"] = otherwise;
     }
+    if (name == "clock") property["description"] = "the virtual time that its computing takes: its kind, or a map";
     property.update(scenario::or_null(schema_of(name, part)));
     properties[name] = std::move(property);
   }
@@ -141,10 +142,13 @@ Json clock_schema() {
   costs["maxItems"] = 2;
   const Json scale = scenario::any_of({{{"type", "number"}, {"minimum", 0}, {"maximum", 1e6}},
                                        {{"type", "string"}, {"pattern", "^x?[0-9.]+(e[-+]?[0-9]+)?$"}}});
-  Json map = object_of({{"kind", scenario::or_null(kinds)},
-                        {"cost_us", scenario::or_null(costs)},
-                        {"block_cost_ns", scenario::or_null(cost)},
-                        {"scale", scenario::or_null(scale)}});
+  using scenario::described;
+  using scenario::or_null;
+  Json map =
+      object_of({{"kind", described("how the time of a task's computing is found: docs/clocks.md", or_null(kinds))},
+                 {"cost_us", described("of `interval`: [least, greatest], from which it is drawn", or_null(costs))},
+                 {"block_cost_ns", described("of `counted`: of a basic block", or_null(cost))},
+                 {"scale", described("factor on it, such as x0.5", or_null(scale))}});
   map["if"] = {{"properties", {{"kind", {{"const", "interval"}}}}}, {"required", {"kind"}}};
   map["then"] = scenario::needed({"cost_us"});
   map["else"] = {{"not", scenario::needed({"cost_us"})}};
@@ -161,41 +165,42 @@ Json is_of_type(const std::string& type) {
 
 Json own_keys_of_modules() {
   const Json name = {{"type", {"string", "number", "boolean"}}, {"pattern", "^[A-Za-z0-9_-]{1,40}$"}};
-  return {{"name", name}, {"type", scenario::or_null(name)}, {"enabled", {{"type", {"boolean", "null"}}}}};
+  return {
+      {"name", scenario::described("of letters, digits, `_` and `-`; its posters and requests begin with it", name)},
+      {"type", scenario::described("the type of module; by default its name", scenario::or_null(name))},
+      {"enabled", scenario::described("`false`: it is left out", {{"type", {"boolean", "null"}}})}};
 }
 
-/// A module of any type: the parameters of its own.
-Json module_schema(std::span<const genom::ModuleType> types, bool is_partial) {
+/// A module of any type: the parameters of its own. One that is laid over another of its name has the type of that.
+void add_module_of_any_type(Json& definitions, std::span<const genom::ModuleType> types) {
   Json choices = Json::array(), of_type = Json::array();
   for (const genom::ModuleType& type : types) {
     of_type.push_back({{"if", is_of_type(type.name)}, {"then", {{"$ref", "#/$defs/module_" + type.name}}}});
     choices.push_back(is_of_type(type.name));
   }
-  // Laid over another module of the name, which has the type.
-  if (!is_partial) of_type.push_back({{"anyOf", choices}});
-  return {{"type", "object"}, {"properties", own_keys_of_modules()}, {"required", {"name"}}, {"allOf", of_type}};
+  definitions["module"] = {
+      {"type", "object"}, {"properties", own_keys_of_modules()}, {"required", {"name"}}, {"allOf", of_type}};
+  definitions["complete_module"] = {{"$ref", "#/$defs/module"}, {"anyOf", choices}};
 }
 
 }  // namespace
 
-Json module_definitions(std::span<const genom::ModuleType> types, bool is_partial) {
-  const std::string prefix = is_partial ? "part_of_" : "";
+Json module_definitions(std::span<const genom::ModuleType> types) {
   Json definitions = Json::object();
-  definitions[prefix + "module"] = module_schema(types, is_partial);
+  add_module_of_any_type(definitions, types);
   Json executive = properties_read_by([](genom::Settings& settings) {
     executive::Parameters parameters;
     executive::read(settings, parameters);
     genom::read_computing(settings, "", genom::NameSpace(), {});
   });
-  executive["tcl"] = {{"description", "a script in Tcl in place of the executive, or below a plan"},
-                      {"type", {"string", "null"}}};
-  definitions[prefix + "executive"] = object_of(executive);
+  executive["tcl"] =
+      scenario::described("a script in Tcl in place of the executive, or below a plan", {{"type", {"string", "null"}}});
+  definitions["executive"] = object_of(executive);
   Json control = properties_read_by(
       [](genom::Settings& settings) { genom::read_computing(settings, "", genom::NameSpace(), {}); });
-  control["rules"] = {{"description", "the file of rules"}, {"type", "string"}};
-  definitions[prefix + "control"] = object_of(control);
-  if (!is_partial) definitions["control"]["required"] = {"rules"};
-  if (is_partial) return definitions;
+  control["rules"] = scenario::described("the file of rules", {{"type", "string"}});
+  definitions["control"] = object_of(control);
+  definitions["complete_control"] = {{"$ref", "#/$defs/control"}, {"required", {"rules"}}};
   for (const genom::ModuleType& type : types) {
     Json properties = own_keys_of_modules();
     properties.update(parameters_of(type));

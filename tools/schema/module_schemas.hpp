@@ -10,8 +10,8 @@
 
 namespace waitpoint::tools {
 
-/// The definitions `module`, `executive`, `control` and those that they refer to; `is_partial`: those of values that
-/// are laid over others, whose names begin with `part_of_`.
-scenario::Json module_definitions(std::span<const genom::ModuleType> types, bool is_partial);
+/// The definitions `module`, `executive`, `control`, of module and control the complete ones, and those that they refer
+/// to.
+scenario::Json module_definitions(std::span<const genom::ModuleType> types);
 
 }  // namespace waitpoint::tools

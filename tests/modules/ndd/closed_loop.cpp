@@ -88,7 +88,7 @@ posters::PositionEstimate ClosedLoop::position(const DrivenRobot& robot) const {
 
 void ClosedLoop::go(DrivenRobot& robot, const std::vector<Point>& via_points) {
   robot.navigator.go(now_, position(robot), via_points);
-  robot.decision.outcome = ndd::Outcome::driving;
+  robot.decision.outcome = ndd::RouteState::driving;
 }
 
 void ClosedLoop::move(DrivenRobot& robot) {
@@ -137,7 +137,7 @@ void ClosedLoop::scan(DrivenRobot& robot) {
 void ClosedLoop::decide(DrivenRobot& robot) {
   const ndd::Decision decision = robot.navigator.decide(now_, position(robot));
   robot.command_to_be = decision.speeds;
-  if (decision.outcome != ndd::Outcome::idle) robot.decision = decision;
+  if (decision.outcome != ndd::RouteState::idle) robot.decision = decision;
 }
 
 void ClosedLoop::measure_clearance(DrivenRobot& robot) {
@@ -182,8 +182,8 @@ bool ClosedLoop::run(double seconds_max) {
     step();
     bool over = true, all = true;
     for (const auto& robot : robots) {
-      over = over && robot->decision.outcome != ndd::Outcome::driving;
-      all = all && robot->decision.outcome == ndd::Outcome::arrived;
+      over = over && robot->decision.outcome != ndd::RouteState::driving;
+      all = all && robot->decision.outcome == ndd::RouteState::arrived;
     }
     if (over) return all;
   }

@@ -164,7 +164,7 @@ TEST(Navigation, ReportsAWayThatIsBlocked) {
   shapes.wall(5, -1, 5.2, 1);
   ClosedLoop loop(shapes, 6);
   EXPECT_FALSE(drive(loop, {{{0, 0, 0}, {{10, 0}}}}, 60));
-  EXPECT_EQ(loop.robots[0]->decision.outcome, Outcome::blocked);
+  EXPECT_EQ(loop.robots[0]->decision.outcome, RouteState::blocked);
   for (int i = 0; i < 150; ++i) loop.step();
   EXPECT_NEAR(loop.robots[0]->v_m_s, 0, 1e-9);
   EXPECT_GT(loop.robots[0]->least_clearance_m, 0.02);

@@ -94,9 +94,18 @@ TEST(Keys, SchemaHasBoundsUnitsWordsAndDefaults) {
   EXPECT_EQ(keys["axis"]["properties"]["noise"]["description"], "standard deviation");
 }
 
-TEST(Keys, SchemaOfAPartRequiresNoKeys) {
-  SchemaDefinitions definitions(true);
-  EXPECT_FALSE(keys_of<Device>().table().whole_schema(definitions).contains("required"));
+TEST(Keys, CompleteSchemaRefersToThatOfItsKeysAndRequires) {
+  const Keys<Device> keys = Keys<Device>("device").add_fields();
+  SchemaDefinitions definitions;
+  EXPECT_EQ(keys.table().schema(definitions), Json({{"$ref", "#/$defs/complete_device"}}));
+  EXPECT_EQ(definitions.part(map_of(keys.table())), Json({{"$ref", "#/$defs/device"}}));
+  EXPECT_FALSE(definitions.made().at("device").contains("required"));
+  EXPECT_EQ(definitions.made().at("device")["properties"]["range_m"]["description"], "greatest range [m]");
+  const Json& complete = definitions.made().at("complete_device");
+  EXPECT_EQ(complete["$ref"], "#/$defs/device");
+  EXPECT_EQ(complete["required"], Json({"range_m"}));
+  EXPECT_EQ(complete["properties"]["range_m"], Json({{"type", "number"}}));
+  EXPECT_FALSE(complete["properties"].contains("mode"));
 }
 
 }  // namespace
