@@ -22,17 +22,19 @@ using Json = nlohmann::ordered_json;
 
 struct Shipped {
   std::string name, description;
+  std::string needs;  ///< what must be made or installed before a run; empty: nothing
   std::filesystem::path file;
 };
 
 /// Nothing for a file without robots of its own, which others include.
 std::optional<Shipped> shipped(const std::filesystem::path& file) {
-  constexpr std::string_view key = "description: ";
-  Shipped found{file.stem().string(), "", file};
+  constexpr std::string_view key = "description: ", note = "# Needs: ";
+  Shipped found{file.stem().string(), "", "", file};
   bool can_be_run = false;
   std::ifstream lines(file);
   for (std::string line; std::getline(lines, line);) {
     if (line.starts_with(key)) found.description = printable_line(line.substr(key.size()));
+    if (line.starts_with(note)) found.needs = printable_line(line.substr(note.size()));
     can_be_run = can_be_run || line.starts_with("robots:") || line.starts_with("play:");
   }
   return can_be_run ? std::optional(found) : std::nullopt;
@@ -57,8 +59,11 @@ int list_scenarios(const ScenariosOptions& options) {
   std::string text;
   Json list = Json::array();
   for (const Shipped& scenario : all) {
-    text += fmt::format("{:<{}}  {}\n", scenario.name, width, scenario.description);
-    list.push_back({{"name", scenario.name}, {"file", scenario.file.string()}, {"description", scenario.description}});
+    text += fmt::format("{:<{}}  {}{}\n", scenario.name, width, scenario.description,
+                        scenario.needs.empty() ? "" : "; needs " + scenario.needs);
+    Json& row = list.emplace_back(
+        Json{{"name", scenario.name}, {"file", scenario.file.string()}, {"description", scenario.description}});
+    if (!scenario.needs.empty()) row["needs"] = scenario.needs;
   }
   write_text(text, options.json);
   return options.json ? end_with_json("scenarios", 0, Json{{"scenarios", list}}.dump()) : 0;

@@ -179,6 +179,9 @@ class Scenarios(unittest.TestCase):
         rows = [line.split(None, 1) for line in waitpoint("scenarios").splitlines()]
         self.assertIn(["office", "a robot's rounds on an office floor, with one door blocked"], rows)
         self.assertTrue(all(len(row) == 2 for row in rows), rows)
+        for name, text in rows:
+            if "; needs " not in text:
+                self.assertEqual(subprocess.run([PROGRAM, "check", name], capture_output=True).returncode, 0, name)
         with tempfile.TemporaryDirectory() as folder:
             for name in ("office", "office.yaml"):
                 done = subprocess.run([PROGRAM, "check", name], cwd=folder, capture_output=True, text=True)

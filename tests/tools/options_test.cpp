@@ -9,6 +9,7 @@
 
 #include "tests/tools/command_line.hpp"
 #include "tests/tools/folder.hpp"
+#include "tools/command/own_command_line.hpp"
 #include "tools/command/version.hpp"
 
 namespace waitpoint::tools {
@@ -178,7 +179,17 @@ TEST_F(CommandLine, ReportsAFormerSpellingOnStandardError) {
             "waitpoint: '--order' is now '--strategy'; the next version knows only that\n");
   ::testing::internal::CaptureStderr();
   (void)run({"run", "a", "--strategy", "fifo"});
+  setenv(check_variable, "", 1);  // a process with the command line of another one
+  (void)run({"run", "a", "--order", "fifo"});
+  unsetenv(check_variable);
   EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
+}
+
+TEST_F(CommandLine, ARemovedOptionIsAnsweredByWhatDoesItsWork) {
+  EXPECT_EQ(message({"run", "a", "--place", "ada=1"}),
+            "--place: was removed: each rank has an equal part of the robots, in the order of the scenario");
+  EXPECT_EQ(message({"run", "a", "--reports=jump_m=1"}),
+            "--reports: was removed: settings follow the address: --external 'ROBOT=ADDRESS KEY=VALUE ...'");
 }
 
 TEST_F(CommandLine, ProcessesOutsideMakeTheRunPaced) {

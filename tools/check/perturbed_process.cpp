@@ -16,7 +16,6 @@
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
-#include <fstream>
 #include <string_view>
 #include <thread>
 #include <vector>
@@ -24,23 +23,15 @@
 #include "core/error.hpp"
 #include "core/number_text.hpp"
 #include "tools/check/surroundings_file.hpp"
+#include "tools/command/own_command_line.hpp"
 
 namespace waitpoint::tools {
 namespace {
 
 constexpr const char* program_file = "/proc/self/exe";
-constexpr const char* files_variable = "WAITPOINT_CHECK_FILES";  // "LOG,DURATIONS"
 
 [[noreturn]] void fail(const char* what) {
   throw BadInput("--verify", std::string(what) + ": " + std::strerror(errno));
-}
-
-std::vector<std::string> command_line() {
-  std::ifstream file("/proc/self/cmdline", std::ios::binary);
-  std::vector<std::string> words;
-  for (std::string word; std::getline(file, word, '\0');) words.push_back(word);
-  if (words.empty()) fail("cannot read the command line");
-  return words;
 }
 
 /// A memory file that the new process opens by its descriptor.
@@ -79,7 +70,7 @@ std::string other(const char* name, const char* one, const char* another) {
 std::vector<std::string> other_environment(const PerturbedFiles& files, int preload) {
   std::vector<std::string> variables = {
       "LD_PRELOAD=" + preloaded(preload),
-      fmt::format("{}={},{}", files_variable, files.log, files.durations),
+      fmt::format("{}={},{}", check_variable, files.log, files.durations),
       "MALLOC_TOP_PAD_=1183744",
       other("LC_ALL", "C.UTF-8", "C"),
       other("LANG", "C.UTF-8", "C"),
@@ -102,14 +93,6 @@ std::vector<std::string> other_environment(const PerturbedFiles& files, int prel
   }
   std::reverse(variables.begin(), variables.end());
   return variables;
-}
-
-std::vector<char*> pointers(std::vector<std::string>& words) {
-  std::vector<char*> result;
-  result.reserve(words.size() + 1);
-  for (std::string& word : words) result.push_back(word.data());
-  result.push_back(nullptr);
-  return result;
 }
 
 // In the new process, which has one thread and is killed with its parent.
@@ -151,9 +134,10 @@ void check_perturbed_process_possible() {
 
 ProcessEnd run_perturbed_process(const PerturbedFiles& files, double limit_s, bool (*interrupted)()) {
   using Clock = std::chrono::steady_clock;
-  std::vector<std::string> words = command_line();
+  const std::vector<std::string> words = own_command_line();
+  if (words.empty()) fail("cannot read the command line");
   const int preload = surroundings_library();
-  std::vector<std::string> environment = other_environment(files, preload);
+  const std::vector<std::string> environment = other_environment(files, preload);
   const std::vector<char*> arguments = pointers(words), variables = pointers(environment);
   std::fflush(nullptr);
   const pid_t id = fork();
@@ -180,14 +164,14 @@ ProcessEnd run_perturbed_process(const PerturbedFiles& files, double limit_s, bo
 }
 
 std::optional<PerturbedFiles> files_of_perturbed_process() {
-  const char* const text = std::getenv(files_variable);
+  const char* const text = std::getenv(check_variable);
   if (text == nullptr) return std::nullopt;
   const std::string_view all = text;
   const std::size_t comma = all.find(',');
   std::int64_t log = -1, durations = -1;
   if (comma == std::string_view::npos || !parse_number(all.substr(0, comma), log) ||
       !parse_number(all.substr(comma + 1), durations) || log < 0)
-    throw BadInput(files_variable, "is reserved for the perturbed process of a self-check");
+    throw BadInput(check_variable, "is reserved for the perturbed process of a self-check");
   return PerturbedFiles{static_cast<int>(log), static_cast<int>(durations)};
 }
 

@@ -23,6 +23,11 @@ struct Rule {
   std::string unless = {};          ///< a value of `option` with which the rule does not hold
 };
 
+/// An option of the last version that is gone.
+struct RemovedOption {
+  std::string name, instead;  ///< what does its work now, as the end of a message
+};
+
 /// The words with which the program was called; former spellings are replaced.
 struct Invocation {
   std::string program;             ///< "waitpoint", or the file of a program with modules of its own, as called
@@ -46,8 +51,9 @@ class Command {
   std::vector<Option> arguments, options;
   std::vector<Rule> rules;                ///< in the order in which they are checked
   std::vector<std::string> former_flags;  ///< of the last version, without effect now
-  bool takes_program = false;             ///< behind "--"
-  bool takes_all_words = false;           ///< they are those of another program, and nothing but its program()
+  std::vector<RemovedOption> removed;
+  bool takes_program = false;    ///< behind "--"
+  bool takes_all_words = false;  ///< they are those of another program, and nothing but its program()
 
   /// The options that follow belong to this section of the help.
   void section(const std::string& title) { section_ = title; }

@@ -4,10 +4,14 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "core/error.hpp"
+#include "tools/command/own_command_line.hpp"
+
 namespace waitpoint::tools {
 namespace {
 
 void tell(const std::string& former, const std::string& today) {
+  if (repeats_command_line()) return;
   std::fprintf(stderr, "waitpoint: '%s' is now '%s'; the next version knows only that\n", former.c_str(),
                today.c_str());
 }
@@ -48,12 +52,16 @@ void replace_former_command(std::vector<std::string>& words,
 void replace_former_spellings(std::vector<std::string>& words, const Command& command) {
   for (auto word = words.begin(); word != words.end() && *word != "--";) {
     if (std::ranges::find(command.former_flags, *word) != command.former_flags.end()) {
-      std::fprintf(stderr, "waitpoint: '%s' is not needed; the next version does not know it\n", word->c_str());
+      if (!repeats_command_line())
+        std::fprintf(stderr, "waitpoint: '%s' is not needed; the next version does not know it\n", word->c_str());
       word = words.erase(word);
       continue;
     }
-    const std::size_t equals = word->find('=');
-    const Option* const option = option_named(command, word->substr(0, equals));
+    const std::string name = word->substr(0, word->find('='));
+    if (const auto removed = std::ranges::find(command.removed, name, &RemovedOption::name);
+        removed != command.removed.end())
+      throw BadInput(name, "was removed: " + removed->instead);
+    const Option* const option = option_named(command, name);
     if (option == nullptr) {
       ++word;
       continue;

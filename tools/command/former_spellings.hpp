@@ -14,7 +14,8 @@ namespace waitpoint::tools {
 void replace_former_command(std::vector<std::string>& words,
                             const std::vector<std::pair<std::string, std::string>>& former);
 
-/// Replaces options and values of options among the command's words, up to the program behind "--".
+/// Replaces options and values of options among the command's words, up to the program behind "--". BadInput for a
+/// removed option.
 void replace_former_spellings(std::vector<std::string>& words, const Command& command);
 
 }  // namespace waitpoint::tools

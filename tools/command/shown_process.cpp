@@ -52,7 +52,7 @@ bool ShownProcess::is_done(const std::string& url) {
   }
   if (interruption() == 0) return false;
   // One signal of a terminal reaches both; the process takes the second for its echo.
-  if (!has_ended_ && !std::exchange(is_told_, true)) kill(process_, interruption());
+  if (!has_ended_ && !std::exchange(is_interrupted_, true)) kill(process_, interruption());
   return has_ended_;
 }
 

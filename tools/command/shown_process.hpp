@@ -28,7 +28,7 @@ class ShownProcess {
   pid_t process_;
   std::string what_;
   int status_ = 0;
-  bool has_ended_ = false, is_told_ = false;
+  bool has_ended_ = false, is_interrupted_ = false;
 };
 
 }  // namespace waitpoint::tools

@@ -188,10 +188,12 @@ void declare_conditions(Command& command, ProgramConditions& conditions, Repetit
   declare_speed(command, conditions.speed, repetition == Repetition::needed);
   command.add("--idle-limit", idle_limit_value(conditions.idle_limit),
               "end after S seconds of virtual time in which only timers expire",
-              {.usual = "3600", .more = "And no thread wakes another. 0: never.", .is_rare = true});
-  command.add("--trap-rdtsc", flag(conditions.trap_rdtsc), "show virtual time in the time-stamp counter",
-              {.more = "One nanosecond per tick, by trapping the instructions that read it (some microseconds each).",
-               .is_rare = true});
+              {.usual = "3600", .more = "In them no thread wakes another; 0: no limit.", .is_rare = true});
+  command.add(
+      "--trap-rdtsc", flag(conditions.trap_rdtsc), "show virtual time in the time-stamp counter",
+      {.more =
+           "A tick is a nanosecond. Each instruction that reads the counter is trapped, which costs some microseconds.",
+       .is_rare = true});
   command.section("Surroundings of a program");
   command.add("--children", word<bool>(conditions.children, {{"simulated", true}, {"native", false}}),
               "programs that it starts (exec, posix_spawn, system, popen)",
@@ -204,13 +206,14 @@ void declare_conditions(Command& command, ProgramConditions& conditions, Repetit
   command.add("--loss", number(conditions.medium.loss, 0, 1, "P", "a probability from 0 to 1"),
               "lose each UDP datagram with this probability, drawn by the seed", {.usual = "0", .is_rare = true});
   command.add("--delay", delay_value(conditions), "let each UDP datagram arrive US or US..US microseconds later",
-              {.usual = "0", .more = "An interval is drawn from by the seed.", .is_rare = true});
+              {.usual = "0", .more = "The seed draws from an interval.", .is_rare = true});
   command.add("--isolate", flag(conditions.isolate), "make calls fail that would leave this machine (EACCES)",
               {.is_rare = true});
   command.add("--strict", flag(conditions.strict), "end the run when the program uses what does not repeat",
-              {.more = "With its name and place; includes --trap-rdtsc.", .is_rare = true});
+              {.more = "The message has its name and place. --trap-rdtsc is included.", .is_rare = true});
   command.add("--trap-libc", flag(conditions.trap_library), "simulate the C library's internal waits, too",
-              {.more = "Its own locks, a FILE* on a pipe: by trapping its system calls (some microseconds each).",
+              {.more = "These are waits for its own locks and for a FILE* on a pipe. Each of its system calls is "
+                       "trapped, which costs some microseconds.",
                .is_rare = true});
   command.finally([&conditions, repetition] {
     if (conditions.strict && !conditions.children)

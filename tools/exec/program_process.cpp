@@ -14,6 +14,7 @@
 #include "core/error.hpp"
 #include "core/program_path.hpp"
 #include "tools/command/installed_part.hpp"
+#include "tools/command/own_command_line.hpp"
 #include "tools/exec/access_instructions.hpp"
 #include "tools/exec/program_file.hpp"
 
@@ -35,10 +36,7 @@ std::string put_first(const std::string& variable, const std::string& path) {
   if (persona >= 0) personality(static_cast<unsigned long>(persona) | ADDR_NO_RANDOMIZE);
   static std::vector<std::string> environment = environment_of(files, memory);
   for (std::string& variable : environment) putenv(variable.data());
-  std::vector<char*> words;
-  for (const std::string& word : files.words) words.push_back(const_cast<char*>(word.c_str()));
-  words.push_back(nullptr);
-  execv(files.program.c_str(), words.data());
+  execv(files.program.c_str(), pointers(files.words).data());
   std::fprintf(stderr, "waitpoint: exec: %s: %s\n", files.program.c_str(), std::strerror(errno));
   _exit(exec_failed);
 }

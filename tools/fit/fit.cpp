@@ -92,8 +92,9 @@ void declare(Command& command, FitOptions& options) {
   command.examples = {"intel.log --name intel --out intel.yaml"};
   declare_log(command, options.source);
   command.section("Results");
-  command.add("--name", type_name(options.name), "of the robot type", {.usual = options.name});
-  command.add("--out", written_file(options.out, "FILE.yaml"), "write it to this file", {.usual = "standard output"});
+  command.add("--name", type_name(options.name), "name of the robot type", {.usual = options.name});
+  command.add("--out", written_file(options.out, "FILE.yaml"), "write the robot type to this file",
+              {.usual = "standard output"});
   command.json(options.json);
 }
 

@@ -14,6 +14,7 @@
 #include "core/error.hpp"
 #include "core/program_path.hpp"
 #include "tools/command/data_folder.hpp"
+#include "tools/command/own_command_line.hpp"
 #include "tools/command/shell_words.hpp"
 #include "tools/exec/exec.hpp"
 #include "tools/exec/program_file.hpp"
@@ -41,11 +42,7 @@ std::filesystem::path commands() {
   for (const auto* some : {&first, &options.gdb_options}) words.insert(words.end(), some->begin(), some->end());
   words.push_back("--args");
   words.insert(words.end(), program.begin(), program.end());
-  std::vector<char*> arguments;
-  arguments.reserve(words.size() + 1);
-  for (std::string& word : words) arguments.push_back(word.data());
-  arguments.push_back(nullptr);
-  execvp("gdb", arguments.data());
+  execvp("gdb", pointers(words).data());
   throw BadInput("gdb", errno == ENOENT ? "gdb is not installed" : std::string("gdb: ") + std::strerror(errno));
 }
 

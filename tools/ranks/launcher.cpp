@@ -20,6 +20,7 @@
 #include "core/error.hpp"
 #include "core/missing_part.hpp"
 #include "core/program_path.hpp"
+#include "tools/command/own_command_line.hpp"
 
 namespace waitpoint::tools {
 namespace {
@@ -71,12 +72,8 @@ std::vector<std::string> command_of(const std::string& mpirun, int ranks, std::s
   sigprocmask(SIG_SETMASK, &signals, nullptr);
   // Its library prints an error of its own for each process that is killed.
   setenv("PMIX_OUTPUT_REDIRECT", "syslog", 0);
-  std::vector<char*> pointers;
-  pointers.reserve(words.size() + 1);
-  for (const std::string& word : words) pointers.push_back(const_cast<char*>(word.c_str()));
-  pointers.push_back(nullptr);
-  execv(pointers.front(), pointers.data());
-  std::fprintf(stderr, "waitpoint: '%s' cannot be started: %s\n", pointers.front(), std::strerror(errno));
+  execv(words.front().c_str(), pointers(words).data());
+  std::fprintf(stderr, "waitpoint: '%s' cannot be started: %s\n", words.front().c_str(), std::strerror(errno));
   _exit(2);
 }
 

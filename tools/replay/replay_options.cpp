@@ -27,14 +27,14 @@ void declare_outputs(Command& command, PlayOptions& play) {
   command.add("--map", map_files(play.map),
               "write a map for ROS's map_server and scenarios, and its image as FILE.pgm");
   command.add("--trajectory", written_file(play.trajectory, "FILE.tum"), "write the pose at each scan in TUM format",
-              {.more = "As FILE.log as CARMEN's FLASER records."});
+              {.more = "FILE.log: as CARMEN's FLASER records."});
   command.add(
       "--pose",
       word<PoseSource>(play.pose,
                        {{"segloc", PoseSource::segloc}, {"pom", PoseSource::pom}, {"odometry", PoseSource::odometry}}),
       "the poses of trajectory, relations and picture",
       {.usual = "the first that there is",
-       .more = "segloc, as its map is corrected at the end; pom, as it knew them at the time."});
+       .more = "segloc: as its map is corrected at the end; pom: as they were known at the time."});
   command.add("--relations", read_file(play.relations, "FILE"),
               "print the errors of the displacements between poses in FILE",
               {.more = "Its lines are\n  stamp1 stamp2 x y z roll pitch yaw"});

@@ -67,21 +67,23 @@ void declare_times(Command& command, RunOptions& options, std::optional<double>&
               {.usual = "10", .more = "The run ends after six times that. 0: never.", .is_rare = true});
   command.add("--idle", idle_seconds(options.idle),
               "list tasks that have waited without a timeout for S seconds of virtual time",
-              {.usual = "60", .more = "At the end. 0: none.", .is_rare = true});
+              {.usual = "60", .more = "The list comes at the end; 0: no list.", .is_rare = true});
   command.add("--brief", flag(options.is_brief), "with nodes of ROS: end when an expectation cannot be met any more",
-              {.more = "And kill nodes at the end, as in waitpoint explore.", .is_rare = true});
+              {.more = "The nodes are killed at the end, as in waitpoint explore.", .is_rare = true});
 }
 
 void declare_results(Command& command, RunOptions& options) {
   declare_summary(command, options.summary, options.json);
   declare_picture(command, options.picture, "draw the floor and the paths");
   declare_page(command, options.page, "write a page for browsers (docs/view.md)");
-  command.add("--trajectory", trajectory_files(options.trajectory), "write the paths in TUM format",
-              {.more = "The true one to FILE.tum, the others to FILE.estimated.tum and FILE.odometry.tum; of several "
-                       "robots with their names.",
-               .is_rare = true});
+  command.add(
+      "--trajectory", trajectory_files(options.trajectory), "write the paths in TUM format",
+      {.more = "The true path goes to FILE.tum, the others to FILE.estimated.tum and FILE.odometry.tum; of several "
+               "robots with their names.",
+       .is_rare = true});
   command.add("--record", written_file(options.record, "FILE.mcap"),
-              "write scans, poses, requests and the world for Foxglove", {.more = "As FILE.bag a ROS 1 bag."});
+              "write scans, poses, requests and the world for Foxglove",
+              {.more = "FILE.bag: a ROS 1 bag; FILE.log: a log for CARMEN's tools (docs/recording.md)."});
   command.section("Events, and their comparison");
   declare_event_files(command, options.digests, "write a digest per robot and simulated second", options.events);
   command.add("--decisions", written_file(options.decisions, "FILE"),
@@ -120,12 +122,12 @@ void declare_interaction(Command& command, RunOptions& options) {
                .is_rare = true});
   command.add("--serve-world", text(options.partners.serve_world, "ADDRESS"),
               "serve base and lasers of robots without modules to software in other processes",
-              {.more = "At unix:PATH or tcp:PORT of the loopback (docs/external.md).", .is_rare = true});
+              {.more = "ADDRESS: unix:PATH or tcp:PORT of the loopback (docs/external.md).", .is_rare = true});
   command.add("--outside-faults-end", flag(options.partners.faults_end),
               "end the run, with status 1, at the first fault of a process outside", {.is_rare = true});
   command.add("--play", played_bag(options.assignments),
               "publish the topics of this bag to the scenario's nodes of ROS, with no world",
-              {.more = "At their times: play.bag of the scenario (docs/ros-bags.md).", .is_rare = true});
+              {.more = "It is the scenario's play.bag (docs/ros-bags.md).", .is_rare = true});
 }
 
 /// Which options do not go together.
@@ -175,6 +177,9 @@ void declare(Command& command, RunOptions& options) {
   declare_scenario(command, options);
   declare_schedule(command, options, "run each seed from A to B and print a row for each", "fifo");
   declare_jobs(command, options.jobs);
+  command.removed = {{"--place", "each rank has an equal part of the robots, in the order of the scenario"},
+                     {"--reports", "settings follow the address: --external 'ROBOT=ADDRESS KEY=VALUE ...'"},
+                     {"--serve-origin", "--serve shows the run in a browser, Foxglove opens a --record FILE.mcap"}};
   const auto speed = std::make_shared<std::optional<double>>();
   declare_times(command, options, *speed);
   declare_results(command, options);

@@ -49,10 +49,11 @@ void declare_trace(Command& command, OptionalFile& trace, const char* descriptio
 }
 
 void declare_verify(Command& command, bool& verify, std::vector<std::string> files) {
-  command.add("--verify", flag(verify), "verify that it repeats: run three times and compare event by event",
-              {.more = "Twice in this process and once in a perturbed one (addresses, memory, environment, clocks, "
-                       "directories); the first difference is reported, with status 1 (docs/determinism.md).",
-               .former = "--check"});
+  command.add(
+      "--verify", flag(verify), "verify that it repeats: run three times and compare event by event",
+      {.more = "It runs twice in this process and once in a perturbed one (addresses, memory, environment, clocks, "
+               "directories); the first difference is reported, with status 1 (docs/determinism.md).",
+       .former = "--check"});
   command.rules.push_back({"--verify", Rule::Kind::excludes, std::move(files)});
 }
 

@@ -121,7 +121,7 @@ void declare_search(Command& command, ExploreOptions& options) {
               {.usual = "portfolio",
                .environment = "WAITPOINT_STRATEGY",
                .more = "One of " + exploration::strategy_names() +
-                       "; those that enumerate them, for programs alone: bounded:K, dfs and dpor."});
+                       "; bounded:K, dfs and dpor enumerate the schedules, of programs alone."});
   command.add(
       "--property", texts(options.properties, "KEY=VALUE"),
       "an expectation of every run, overriding the scenario's; may be repeated",
@@ -144,7 +144,7 @@ void declare_search(Command& command, ExploreOptions& options) {
                .is_rare = true});
   declare_jobs(command, options.jobs);
   command.add("--shard", shard_value(options.shard), "run every N-th schedule from the I-th on",
-              {.more = "To split a search among machines.", .is_rare = true});
+              {.more = "This splits a search among machines.", .is_rare = true});
   command.add("--from", seconds(options.from), "share one run in the default order up to virtual time S",
               {.usual = "0", .is_rare = true});
 }
@@ -173,8 +173,8 @@ void declare_program(Command& command, ExploreOptions& options) {
               "data races, of programs compiled with -fsanitize=thread",
               {.usual = "report",
                .environment = "WAITPOINT_RACES",
-               .more = "Failures, each reported once, that do not end the search; failures like any other, the first "
-                       "of which ends it; or no failures."});
+               .more = "report: each is a failure, reported once, and the search goes on; fail: the first one ends the "
+                       "search; ignore: none is a failure."});
   command.add(
       "--switch-at",
       word<SwitchAt>(options.switch_at,
@@ -198,7 +198,7 @@ void declare_program(Command& command, ExploreOptions& options) {
                .is_rare = true});
   command.add("--snapshots", whole(options.snapshots, 0u, snapshots_max), "keep at most N stopped copies of its runs",
               {.usual = "0",
-               .more = "Schedules with the same choices up to there begin in them; for each of the jobs.",
+               .more = "Schedules with the same choices up to a copy begin in it. Each of the jobs has N.",
                .is_rare = true});
 }
 
