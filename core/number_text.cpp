@@ -21,7 +21,8 @@ bool parse_number(std::string_view text, double& number) {
 }
 
 std::string counted(std::uint64_t count, std::string_view of) {
-  return std::to_string(count).append(" ").append(of).append(count == 1 ? "" : "s");
+  const char* const plural = of.ends_with("ch") ? "es" : "s";
+  return std::to_string(count).append(" ").append(of).append(count == 1 ? "" : plural);
 }
 
 }  // namespace waitpoint

@@ -8,6 +8,7 @@
 #include <fstream>
 
 #include "core/error.hpp"
+#include "core/number_text.hpp"
 #include "fibers/explore/analysis/analysis.hpp"
 #include "fibers/explore/body_watch.hpp"
 #include "fibers/explore/environment.hpp"
@@ -273,7 +274,7 @@ std::string Campaign::difference_to(const Token& token, const RunVerdict& verdic
   }
   if (token.digest == 0) return verdict.passed() ? "the recorded run ended its process, this one passed" : "";
   if (token.digest == token_digest(verdict.digest)) return "";
-  std::string digests = "it had " + std::to_string(verdict.events) + " events, and its digest begins with " +
+  std::string digests = "it had " + counted(verdict.events, "event") + ", and its digest begins with " +
                         digest_text(token_digest(verdict.digest)) + ", the token's with " + digest_text(token.digest);
   if (token.trail.marks.empty()) return digests;
   const Finding finding{verdict, "", {}, {}, body_.explorer().schedule().deviations(), {}, {}};

@@ -17,13 +17,13 @@ Function* of_layer(const char* name) {
   return reinterpret_cast<Function*>(dlsym(RTLD_DEFAULT, name));
 }
 
-std::vector<std::string> lasting(Duration least, bool told_only) {
+std::vector<std::string> lasting(Duration least, bool reported_only) {
   std::vector<std::string> lines;
   auto* const next = of_layer<NextWait>(next_wait);
   LastingWait wait{};
   for (int place = 0; next != nullptr && (place = next(place, &wait)) >= 0;) {
     const Duration lasts = Duration::from_ns(wait.lasts_ns);
-    if (lasts < least || (told_only && !wait.is_told)) continue;
+    if (lasts < least || (reported_only && !wait.is_told)) continue;
     lines.push_back(fmt::format("{} waits for {}, for {:.3f} s", wait.thread, wait.what, lasts.seconds()));
   }
   std::sort(lines.begin(), lines.end());  // places are those of the order in which they began

@@ -166,9 +166,9 @@ void WorldNode::show_goal(outside::Host& host, std::size_t number) {
   }
   const bool is_at_rest = std::fabs(body.velocity.v_m_s) < at_rest_m_s;
   const bool has_arrived = length(goal - body.pose.position()) < arrived_m && is_at_rest;
-  if (!is_at_rest || std::fabs(body.velocity.w_rad_s) > no_turn_rad_s) robot.told_at = now;
+  if (!is_at_rest || std::fabs(body.velocity.w_rad_s) > no_turn_rad_s) robot.active_at = now;
   // As a person would if nothing happens: a planner that starts can lose a goal, or give it up.
-  if (!has_arrived && now - robot.told_at >= repetition) send_goal(number, goal, body, now);
+  if (!has_arrived && now - robot.active_at >= repetition) send_goal(number, goal, body, now);
   if (!has_arrived && now - robot.sent_at < patience) return;
   host.intervene("goal " + outside::quoted_word(of.name) + (has_arrived ? " reached" : " given-up"), {place, 0});
 }
@@ -176,7 +176,7 @@ void WorldNode::show_goal(outside::Host& host, std::size_t number) {
 void WorldNode::send_goal(std::size_t number, const Point& position, const world::BodyState& body, Time now) {
   const Point away = position - body.pose.position();
   topics_->robot(number).send_goal({position.x, position.y, exact::atan2(away.y, away.x)});
-  robots_[number].told_at = now;
+  robots_[number].active_at = now;
 }
 
 std::vector<std::string> WorldNode::unmet() const { return expectations_.unmet(processes_, topics_->nodes()); }

@@ -46,7 +46,7 @@ class WorldNode final : public outside::Partner {
     std::size_t goals_sent = 0;  // so far
     Time sent_at = {};           // the last one
     std::uint32_t messages = 0;  // of cmd_vel, within a second
-    Time told_at = {};           // its last message, or when the robot moved since
+    Time active_at = {};         // its last message, or when the robot moved since
   };
 
   void show_goal(outside::Host& host, std::size_t number);

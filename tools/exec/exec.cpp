@@ -10,6 +10,7 @@
 #include <set>
 #include <sstream>
 
+#include "core/number_text.hpp"
 #include "fibers/explore/report/timeline.hpp"
 #include "fibers/sync/simulation.hpp"
 #include "tools/command/shell_words.hpp"
@@ -77,7 +78,8 @@ int run_seeds(const ExecOptions& options, const ProgramFiles& files) {
   std::uint64_t runs = 0;
   for (std::uint64_t seed = options.seeds->first;; ++seed) {
     if (terminal && wall_clock_s() >= shown_from_s)
-      std::fprintf(stderr, "\rseed %llu, %zu schedules ", static_cast<unsigned long long>(seed), digests.size());
+      std::fprintf(stderr, "\rseed %llu, %s ", static_cast<unsigned long long>(seed),
+                   counted(digests.size(), "schedule").c_str());
     output.forget();
     const RunMemory memory(settings_of(options, seed));
     const ProgramRun run(files, memory, output.descriptor());
@@ -100,8 +102,8 @@ int run_seeds(const ExecOptions& options, const ProgramFiles& files) {
     if (seed == options.seeds->last) break;
   }
   if (terminal) std::fprintf(stderr, "\r%40s\r", "");
-  std::fprintf(stderr, "waitpoint: %s: %llu seeds, %zu schedules, none failed\n", files.programs.title().c_str(),
-               static_cast<unsigned long long>(runs), digests.size());
+  std::fprintf(stderr, "waitpoint: %s: %s, %s, none failed\n", files.programs.title().c_str(),
+               counted(runs, "seed").c_str(), counted(digests.size(), "schedule").c_str());
   if (!options.json) return 0;
   return end_with_json("exec", 0, seeds_json(files.programs.title(), runs, digests.size(), ""));
 }

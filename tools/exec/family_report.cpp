@@ -96,8 +96,8 @@ RunCounts counts_in(const posix::Record& record) {
 std::string counts_of(const posix::Record& record) {
   const RunCounts counts = counts_in(record);
   const std::string all = counts.processes > 1 ? fmt::format("{} processes, ", counts.processes) : "";
-  return all + fmt::format("{}, {} at once, {}, {} switches, {} s of virtual time", counted(counts.threads, "thread"),
-                           counts.threads_at_once, counted(counts.events, "event"), counts.switches,
+  return all + fmt::format("{}, {} at once, {}, {}, {} s of virtual time", counted(counts.threads, "thread"),
+                           counts.threads_at_once, counted(counts.events, "event"), counted(counts.switches, "switch"),
                            to_string(counts.time));
 }
 

@@ -32,10 +32,10 @@ std::string Watchdog::look() {
     process_ = process;
     events_ = events;
     since_s_ = now_s;
-    told_ = false;
+    reported_ = false;
   }
-  if (told_ || now_s - since_s_ < patience_s) return "";
-  told_ = true;
+  if (reported_ || now_s - since_s_ < patience_s) return "";
+  reported_ = true;
   const Computing computing = computing_thread(record_);
   std::string text = computing.thread.empty() ? "a thread" : fmt::format("thread '{}'", computing.thread);
   text += fmt::format(" has computed for {:.0f} s, at {} s of virtual time, without a simulated call", now_s - since_s_,

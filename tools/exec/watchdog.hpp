@@ -24,7 +24,7 @@ class Watchdog {
   pid_t process_ = 0;  ///< of the system, that had the turn when `events_` was first read
   std::uint64_t events_ = 0;
   double since_s_ = 0;  ///< its processor time then
-  bool told_ = false;
+  bool reported_ = false;
 };
 
 }  // namespace waitpoint::tools

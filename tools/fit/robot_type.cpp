@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/exact_math.hpp"
+#include "core/number_text.hpp"
 #include "core/printable_line.hpp"
 
 namespace waitpoint::tools {
@@ -22,11 +23,11 @@ constexpr double speed_most = 1e4;   // of scenarios
 std::vector<std::string> odometry_notes(const OdometryFit& of) {
   std::vector<std::string> notes;
   if (of.uncorrected > 0)
-    notes.push_back(
-        fmt::format("Not from {} stretches over which the localisation only followed the odometry.", of.uncorrected));
+    notes.push_back(fmt::format("Not from {} over which the localisation only followed the odometry.",
+                                counted(of.uncorrected, "stretch")));
   if (!of.turns_seen) notes.emplace_back("The log has too few turns to show their scale.");
   if (of.left_out * 4 > of.stretches)
-    notes.emplace_back("More than a quarter are outliers: the localisation may have been lost (replay --picture).");
+    notes.emplace_back("More than a quarter are outliers: the localisation may have been lost (play --picture).");
   return notes;
 }
 
@@ -36,8 +37,8 @@ std::string base_text(const RobotFit& fit) {
       "    # Greatest speeds in the log; its kind and accelerations are not in it.\n"
       "    base:\n      kind: synchro\n      v_max_m_s: {:.2f}\n      w_max_rad_s: {:.2f}\n",
       std::clamp(fit.v_max_m_s, speed_least, speed_most), std::clamp(fit.w_max_rad_s, speed_least, speed_most));
-  text += fmt::format("      # From {} stretches of 1 to 8 m, without {} outliers.\n", of.stretches - of.left_out,
-                      of.left_out);
+  text += fmt::format("      # From {} of 1 to 8 m, without {}.\n", counted(of.stretches - of.left_out, "stretch"),
+                      counted(of.left_out, "outlier"));
   for (const std::string& note : odometry_notes(of)) text += "      # " + note + "\n";
   return text + fmt::format(
                     "      odometry:\n"
@@ -56,10 +57,10 @@ std::string base_text(const RobotFit& fit) {
 std::string laser_text(const RobotFit& fit) {
   const LaserFit& of = fit.laser;
   std::string text = of.noise_pairs > 0
-                         ? fmt::format("    # Noise from {} pairs of readings at rest.\n", of.noise_pairs)
+                         ? fmt::format("    # Noise from {} of readings at rest.\n", counted(of.noise_pairs, "pair"))
                          : "    # The robot never stands still in the log: the noise is that of a SICK LMS 200.\n";
-  text += fmt::format("    # Times between scans deviate by {:.1f} ms; {} scans did not come.\n", of.jitter_s * 1e3,
-                      of.missing);
+  text += fmt::format("    # Times between scans deviate by {:.1f} ms; {} did not come.\n", of.jitter_s * 1e3,
+                      counted(of.missing, "scan"));
   text +=
       fmt::format("    lasers:\n      - name: laser\n        mount: [{:.3f}, {:.3f}, {:.2f}]\n        height_m: 0.4\n",
                   fit.mount.x, fit.mount.y, fit.mount.heading / degree);

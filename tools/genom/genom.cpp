@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "core/number_text.hpp"
 #include "modules/description/parser.hpp"
 #include "tools/command/option_values.hpp"
 #include "tools/genom/c_text.hpp"
@@ -94,8 +95,9 @@ int genom(const GenomOptions& options) {
   Json json = json_of(options, module);
   if (options.check_only)
     return tell(options,
-                fmt::format("{}: good: module {}, {} requests, {} posters, {} tasks\n", options.file, module.name.text,
-                            module.requests.size(), module.posters.size(), module.tasks.size()),
+                fmt::format("{}: good: module {}, {}, {}, {}\n", options.file, module.name.text,
+                            counted(module.requests.size(), "request"), counted(module.posters.size(), "poster"),
+                            counted(module.tasks.size(), "task")),
                 json);
   const fs::path beside = fs::path(options.file).parent_path();
   const fs::path out = options.out.empty() ? (beside.empty() ? fs::path(".") : beside) : fs::path(options.out);

@@ -49,17 +49,17 @@ class Reminder {
  public:
   void tell(const std::string& who, double seconds, const std::string& where) {
     constexpr double first_s = 5;
-    if (seconds < told_s_) told_s_ = 0;  // another wait
-    if (seconds < first_s || seconds < 2 * told_s_) return;
+    if (seconds < reported_s_) reported_s_ = 0;  // another wait
+    if (seconds < first_s || seconds < 2 * reported_s_) return;
     std::fprintf(stderr, "waitpoint: %s\n", text(who, seconds, where).c_str());
-    told_s_ = seconds;
+    reported_s_ = seconds;
   }
   static std::string text(const std::string& who, double seconds, const std::string& where) {
     return who + " has not answered for " + std::to_string(static_cast<long>(seconds)) + " s, " + where;
   }
 
  private:
-  double told_s_ = 0;
+  double reported_s_ = 0;
 };
 
 run::Ranks::Waiting watch_followers(run::Transport& transport, const RankProcesses& processes, double limit_s) {

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/number_text.hpp"
 #include "core/printable_line.hpp"
 #include "fibers/kernel/process_end.hpp"
 #include "fibers/kernel/run.hpp"
@@ -105,8 +106,8 @@ std::vector<Content> contents(const PlayOptions& options, const logs::SensorLog&
   if (files.trajectory) add(files.trajectory, trajectory_text(*options.trajectory, log, result.trajectory, odometry));
   if (files.picture) {
     const std::string line =
-        fmt::format("{} · {} after {:.1f} s · {} scans · {}", result.pose_source, result.outcome,
-                    result.simulated.seconds(), playback.player().scans(), to_string(result.digest));
+        fmt::format("{} · {} after {:.1f} s · {} · {}", result.pose_source, result.outcome, result.simulated.seconds(),
+                    counted(playback.player().scans(), "scan"), to_string(result.digest));
     add(files.picture, replay_picture_svg(printable_line(std::filesystem::path(log.file).filename().string()), line,
                                           log, result.trajectory, odometry, playback.segments()));
   }

@@ -63,8 +63,8 @@ std::string replay_text(const logs::SensorLog& log, const playback::Playback& pl
                                     log.scans.size(), log.laser, playback.player().greatest_delay().seconds()));
   if (const std::string stamps = stamps_text(playback.order()); !stamps.empty()) text += line("stamps", stamps);
   if (!log.left_out.empty()) text += line("left out", left_out_text(log.left_out));
-  text += line("trajectory", fmt::format("{} poses of {}, {:.1f} m", result.trajectory.size(), result.pose_source,
-                                         length_m(result.trajectory)));
+  text += line("trajectory", fmt::format("{} of {}, {:.1f} m", counted(result.trajectory.size(), "pose"),
+                                         result.pose_source, length_m(result.trajectory)));
   if (!result.relations.empty()) {
     using namespace std::chrono_literals;
     text += line("relations", errors_text(relation_errors(result.relations, result.trajectory)));

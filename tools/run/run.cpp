@@ -9,6 +9,7 @@
 #include <optional>
 #include <system_error>
 
+#include "core/number_text.hpp"
 #include "fibers/kernel/process_end.hpp"
 #include "fibers/kernel/run.hpp"
 #include "fibers/kernel/unfinished_run.hpp"
@@ -121,8 +122,8 @@ void tell_of_cut(const run::Journal& journal) {
 }
 
 void tell_of_difference(const run::Journal& journal) {
-  std::fprintf(stderr, "waitpoint: this is not the run of the journal, which ended with %s after %llu events\n",
-               journal.end->digest.c_str(), static_cast<unsigned long long>(journal.end->events));
+  std::fprintf(stderr, "waitpoint: this is not the run of the journal, which ended with %s after %s\n",
+               journal.end->digest.c_str(), counted(journal.end->events, "event").c_str());
 }
 
 /// One run of a series; its row is in the table.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fibers/explore/analysis/last_choice.hpp"
 
+#include "core/number_text.hpp"
+
 namespace waitpoint::exploration {
 namespace {
 
@@ -16,7 +18,7 @@ std::optional<Plan> passing_by_chance(Trials& trials, const LeastFailure& least,
     plan.at_random_from = decision;
     plan.attempt = attempt;
     const std::optional<Finding> tried =
-        trials.run(plan, {}, [&] { return "explaining: " + std::to_string(left) + " choices left"; });
+        trials.run(plan, {}, [&] { return "explaining: " + counted(left, "choice") + " left"; });
     if (!tried) return std::nullopt;
     if (tried->passed()) return plan;
   }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "core/number_text.hpp"
 #include "fibers/explore/linearizability/history_columns.hpp"
 #include "fibers/explore/linearizability/history_picture.hpp"
 
@@ -56,7 +57,7 @@ std::string to_text(const HistoryPicture& picture) {
     }
   }
   std::string text;
-  if (earlier > 0) text += "(" + std::to_string(earlier) + " operations responded before these)\n";
+  if (earlier > 0) text += "(" + counted(earlier, "operation") + " responded before these)\n";
   text += "place  " + left("task", tasks) + "  " + left("operation", operations) + "  events\n";
   for (const std::size_t i : shown) {
     const HistoryRow& row = picture.rows[i];
@@ -67,7 +68,8 @@ std::string to_text(const HistoryPicture& picture) {
   }
   if (picture.bad)
     text += std::string(5 + 2 + tasks + 2 + operations + 2 + (last - window.from), ' ') + "^ end of the prefix\n";
-  if (later > 0) text += "(" + std::to_string(later) + " operations were invoked after these)\n";
+  if (later > 0)
+    text += "(" + counted(later, "operation") + (later == 1 ? " was" : " were") + " invoked after these)\n";
   text.pop_back();
   return text;
 }

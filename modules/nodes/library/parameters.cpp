@@ -129,9 +129,9 @@ void Parameters::tell_of(const std::string& key) {
   for (const auto& [subscribed, addresses] : subscribers_) {
     const bool above = key.starts_with(subscribed);
     if (!above && !subscribed.starts_with(key)) continue;
-    const std::string& told = above ? key : subscribed;
+    const std::string& changed = above ? key : subscribed;
     for (const std::string& address : addresses)
-      changes_.push_back({address, told, get(told).value_or(empty_structure())});
+      changes_.push_back({address, changed, get(changed).value_or(empty_structure())});
   }
 }
 

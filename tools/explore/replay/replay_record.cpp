@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "core/error.hpp"
+#include "core/number_text.hpp"
 #include "fibers/explore/schedules/token.hpp"
 #include "fibers/explore/strategies/factory.hpp"
 
@@ -115,10 +116,10 @@ void check_is_run_of(const ReplayRecord& record, const Replayed& run, const std:
   const std::string source = exploration::is_token(name) ? "--replay" : name;
   if (!is_known && where.empty())
     throw BadInput(source, "this is not the run of the record: that one crashed or was killed, this one passed");
-  std::string digests =
-      fmt::format("it had {} events and a digest that begins with {}, the record says {}", run.finding.events,
-                  exploration::digest_text(exploration::token_digest(run.finding.digest)),
-                  exploration::digest_text(exploration::token_digest(record.digest)));
+  std::string digests = fmt::format("it had {} and a digest that begins with {}, the record says {}",
+                                    counted(run.finding.events, "event"),
+                                    exploration::digest_text(exploration::token_digest(run.finding.digest)),
+                                    exploration::digest_text(exploration::token_digest(record.digest)));
   exploration::Trail met;
   if (!record.trail.marks.empty() && exploration::read_trail(run.finding.evidence.trail, met))
     digests += ": it left the record " + exploration::parting(record.trail, met);

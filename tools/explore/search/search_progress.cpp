@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/explore/search/search_progress.hpp"
+#include "core/number_text.hpp"
 
 #include <fmt/format.h>
 
@@ -38,7 +39,7 @@ void SearchProgress::update(std::uint64_t schedules, std::uint64_t distinct, std
   tell();
   if (!due()) return;
   const double elapsed_s = seconds();
-  show(fmt::format("{} schedules, {:.1f} a second, {} distinct, {} failed", schedules,
+  show(fmt::format("{}, {:.1f} a second, {} distinct, {} failed", counted(schedules, "schedule"),
                    elapsed_s > 0 ? static_cast<double>(schedules) / elapsed_s : 0, distinct, failures));
 }
 
