@@ -55,7 +55,7 @@ fi
 
 begin explore.json explore "$scenario" "$@"
 if [ "$status" -eq 0 ]; then
-  jq -r '"\(.result.search.schedules) schedules passed."' explore.json
+  jq -r '.result.search.schedules | "\(.) schedule\(if . == 1 then "" else "s" end) passed."' explore.json
 elif [ "$(jq '.result.failure == null' explore.json)" = true ]; then
   failed=1
   jq -r '"**Exploring ended early:** \(.result.outcome), after \(.result.search.schedules) schedules."' explore.json

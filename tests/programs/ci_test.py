@@ -42,7 +42,7 @@ class Templates(unittest.TestCase):
         summary = self.shell(SCRIPT, OFFICE, "--iterations", "1", *shorter, "--confined")
         run = json.loads((self.folder / "run.json").read_text())["result"]
         self.assertEqual((run["seed"], run["simulated_s"], run["unmet"]), (7, 5, []))
-        self.assertIn("1 schedules passed.", summary)
+        self.assertIn("1 schedule passed.", summary)
 
     def test_a_failed_schedule_is_repeated_by_the_line_of_the_summary(self):
         summary = self.shell(SCRIPT, OFFICE, "--until", "5", "--iterations", "3", "--property", "position_error_max_m=0.0001",
