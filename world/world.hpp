@@ -91,20 +91,6 @@ struct OdometerReading {
   }
 };
 
-/// The state of a battery.
-struct BatteryState {
-  double volts = 0, current_a = 0;
-  double charge = 1;                      ///< remaining fraction of its capacity
-  std::optional<Duration> empty_at = {};  ///< since the start; from then on its loads are off
-};
-
-/// One scan of a laser, counter-clockwise, in the device's frame. Reused between scans, it allocates only once.
-struct LaserScan {
-  double first_angle_rad = 0, angle_step_rad = 0;
-  double range_max_m = 0;       ///< the reading of a beam without echo
-  std::vector<double> range_m;  ///< one per beam, measured: with noise, quantised
-};
-
 /// A half line in the horizontal plane at `height_m`, in the world frame.
 struct Beam {
   Point origin;
@@ -155,25 +141,19 @@ class World {
   /// The loose obstacles, in the order of the obstacles; empty in a kinematic world.
   virtual std::span<const LooseState> loose() const = 0;
   virtual const OdometerReading& odometer(BodyId id) const = 0;
-  virtual BatteryState battery(BodyId id) const = 0;
-  /// Reads a sensor that a body has one of at most. On demand: its readings of now, with the noise drawn at `number`.
-  /// Otherwise the last reading, unless `out` is that one (Reading::number): false, and `out` stays. A body without the
-  /// sensor is a bug. The date stays as it is.
-  template <ReadAlone S>
-  bool read(BodyId id, std::uint64_t number, typename S::Reading& out) const {
-    return read_any(id, number, ReadingOut<S>{&out});
+  /// Reads the body's sensor number `device` of type S. On demand: its readings of now, with the noise drawn at
+  /// `number`, so that repeating a reading gives the same. Otherwise the last reading, unless `out` is that one
+  /// (Reading::number): false, and `out` stays. A body without the sensor is a bug. The date stays as it is.
+  ///
+  /// Scans and firings of sonars are numbered from 1. A firing sets the ranges of the sonars whose turn it is, and
+  /// keeps the others'; a reading of another size than the ring is reset to no echo first.
+  template <class S>
+  bool read(BodyId id, std::uint64_t number, typename S::Reading& out, std::size_t device = 0) const {
+    return read_any(id, device, number, ReadingOut<S>{&out});
   }
-
-  /// Scans with the body's laser number `laser`. The noise of beam i is drawn at (scan_number, i): repeating a scan
-  /// gives the same readings.
-  virtual void scan(BodyId id, std::size_t laser, std::uint64_t scan_number, LaserScan& out) const = 0;
-  /// Announces a call of scan() after the next step, so that the world can make all such scans together. The readings
-  /// are those of a scan without announcement.
+  /// Announces a reading of a laser after the next step, so that the world can make all such scans together. The
+  /// readings are those of a scan without announcement.
   virtual void expect_scan(BodyId id, std::size_t laser, std::uint64_t scan_number) = 0;
-  /// Fires the sonars of ring number `ring` that are due in firing `firing_number`: all of them if the ring has no
-  /// firing order. Sets their ranges (m; without echo the ring's greatest range) and keeps the others'. A `range_m`
-  /// of another size than the ring is reset to no echo first. Noise as for scan().
-  virtual void sonar(BodyId id, std::size_t ring, std::uint64_t firing_number, std::vector<double>& range_m) const = 0;
   /// Adds the memory that queries of the body's state, its commands and its announced scans touch, without memory that
   /// is shared by all bodies.
   virtual void add_to(WorkingSet& set, BodyId id) const = 0;
@@ -184,7 +164,7 @@ class World {
   virtual double cast(const Beam& beam, double range_max_m, std::optional<BodyId> own = std::nullopt) const = 0;
 
  private:
-  virtual bool read_any(BodyId id, std::uint64_t number, const AnyReadingOut& out) const = 0;
+  virtual bool read_any(BodyId id, std::size_t device, std::uint64_t number, const AnyReadingOut& out) const = 0;
 };
 
 }  // namespace waitpoint::world

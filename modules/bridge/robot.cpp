@@ -298,9 +298,10 @@ RobotResult Robot::result() const {
       scenario_.nodes.has_value() || std::any_of(scenario_.bridge.begin(), scenario_.bridge.end(),
                                                  [](const auto& row) { return row.device.starts_with("base."); });
   if (scenario_.body.sensors<world::Battery>()) {
-    const world::BatteryState battery = world_.battery(body_);
+    world::Battery::Reading battery;
+    world_.read<world::Battery>(body_, 0, battery);
     result.battery = {.charge = battery.charge, .volts = battery.volts};
-    if (battery.empty_at) result.battery->empty_at = Time() + *battery.empty_at;
+    if (battery.empty) result.battery->empty_at = Time() + battery.empty_after;
   }
   evaluation_.write(result);
   if (kept_paths_) {

@@ -7,15 +7,22 @@
 
 #include "core/nearest_name.hpp"
 #include "modules/scenario/poster_topics.hpp"
-#include "world/sensors/laser_timing.hpp"
-#include "world/sensors/sonar.hpp"
 
 namespace waitpoint::bridge {
 
-RobotBridge::Laser::Laser(std::size_t n, const world::LaserDescription& d)
-    : number(n), period(d.period), line(world::transmission(d)) {
-  scan.range_m.resize(d.beams);
+namespace {
+
+template <class S>
+Duration transmission(const typename S::Description& description) {
+  if constexpr (world::HasLine<S>) return S::transmission(description);
+  return Duration();
 }
+
+}  // namespace
+
+template <class S>
+RobotBridge::Device<S>::Device(std::size_t number, const typename S::Description& description, Duration world_step)
+    : sensor(number, description, world_step), line(transmission<S>(description)) {}
 
 RobotBridge::RobotBridge(const scenario::RobotScenario& robot, world::World& world, world::BodyId body,
                          genom::NameSpace& names)
@@ -24,10 +31,12 @@ RobotBridge::RobotBridge(const scenario::RobotScenario& robot, world::World& wor
       has_battery_(robot.body.sensors<world::Battery>().has_value()),
       robot_(robot),
       names_(names) {
-  lasers_.reserve(robot.body.sensors<world::Lasers>().size());  // rows hold references
-  for (const world::LaserDescription& laser : robot.body.sensors<world::Lasers>())
-    lasers_.emplace_back(lasers_.size(), laser);
-  sonar_rings_.resize(robot.body.sensors<world::Sonars>().size());
+  world::Sensors::for_each([&]<class S>() {
+    const std::size_t count = robot.body.equipment.count<S>();
+    devices<S>().reserve(count);  // rows hold references
+    for (std::size_t i = 0; i < count; ++i)
+      devices<S>().emplace_back(i, robot.body.equipment.description<S>(i), world.description().step);
+  });
   find_device_values();
   rows_.reserve(robot.bridge.size());
   for (const scenario::BridgeRow& row : robot.bridge) add_row(row);
@@ -54,19 +63,22 @@ void RobotBridge::add_row(const scenario::BridgeRow& scenario) {
 void RobotBridge::find_device_values() {
   device_values_ = {{"base.command", [this](Row& row) { add_base_command(row); }},
                     {"base.reading", [this](Row& row) { add_base_reading(row); }}};
-  world::SensorsReadAlone::for_each([&]<class S>() {
-    if (robot_.body.sensors<S>())
-      device_values_.push_back({world::device_value<S>(), [this](Row& row) { add_reading<S>(row); }});
-  });
   if (robot_.nodes)
     device_values_.push_back({std::string(scenario::pose_topic_device), [this](Row& row) { add_pose_of_topic(row); }});
-  for (std::size_t i = 0; i < lasers_.size(); ++i) {
-    Laser& laser = lasers_[i];
-    device_values_.push_back(
-        {robot_.laser_names[i] + ".command", [this, &laser](Row& row) { add_laser_command(row, laser); }});
-    device_values_.push_back(
-        {robot_.laser_names[i] + ".reading", [this, &laser](Row& row) { add_laser_reading(row, laser); }});
-  }
+  world::Sensors::for_each([&]<class S>() {
+    for (Device<S>& device : devices<S>()) add_device_values(device);
+  });
+}
+
+template <class S>
+void RobotBridge::add_device_values(Device<S>& device) {
+  const std::string name = robot_.device_name<S>(device.sensor.number());
+  if constexpr (world::HasCommand<S>)
+    device_values_.push_back({name + ".command", [this, &device](Row& row) {
+                                read_command<typename S::Command>(
+                                    row, [&device](const typename S::Command& command) { device.on = command.on; });
+                              }});
+  device_values_.push_back({name + ".reading", [this, &device](Row& row) { add_reading(row, device); }});
 }
 
 template <class T, class Take>
@@ -100,14 +112,14 @@ void RobotBridge::add_base_command(Row& row) {
     const world::Velocity velocity{command.v_m_s, command.w_rad_s, command.side_m_s, command.climb_m_s};
     world_.command(body_, velocity);
     if (command_log_ != nullptr) command_log_->push_back({body_, velocity});
-    sonars_on_ = command.sonars_on;
+    for (Device<world::Sonars>& ring : devices<world::Sonars>()) ring.on = command.sonars_on;
   });
 }
 
 void RobotBridge::add_base_reading(Row& row) {
   row.exchange = [this, &poster = create_poster<posters::BaseReading>(row)](Time date) {
-    if (sonars_on_) fire_sonars();
-    if (!due(base_report_period)) return;
+    for (Device<world::Sonars>& ring : devices<world::Sonars>()) read(ring);
+    if (world::times_due(base_report_period, world_.description().step, step_) == 0) return;
     const world::OdometerReading& odometer = world_.odometer(body_);
     posters::BaseReading reading;
     reading.date = date;
@@ -115,43 +127,40 @@ void RobotBridge::add_base_reading(Row& row) {
     reading.turn_units = odometer.turn_units;
     reading.v_m_s = odometer.velocity.v_m_s;
     reading.w_rad_s = odometer.velocity.w_rad_s;
-    const world::BatteryState battery = world_.battery(body_);
-    reading.battery_volts = battery.volts;
-    if (robot_.body.sensors<world::Battery>()) {
-      reading.battery_charge = battery.charge;
-      reading.battery_a = battery.current_a;
+    world_.read<world::Battery>(body_, 0, battery_);
+    reading.battery_volts = battery_.volts;
+    if (has_battery_) {
+      reading.battery_charge = battery_.charge;
+      reading.battery_a = battery_.current_a;
     }
     reading.stalled = world_.body(body_).stalled;
     reading.side_units = odometer.side_units;
     reading.height_m = world_.body(body_).height_m;
-    if (sonars_on_) {
-      for (const SonarRing& ring : sonar_rings_)
-        for (const double range : ring.range_m) reading.sonar_m.push_back(range);
-    }
+    for (const Device<world::Sonars>& ring : devices<world::Sonars>())
+      if (ring.on)
+        for (const double range_m : ring.sensor.reading().range_m) reading.sonar_m.push_back(range_m);
     poster.write(reading);
   };
 }
 
-// A ring fires when it is switched on and then at its own period, whatever the period of the reports.
-void RobotBridge::fire_sonars() {
-  for (std::size_t i = 0; i < sonar_rings_.size(); ++i) {
-    const world::SonarRingDescription& description = robot_.body.sensors<world::Sonars>()[i];
-    SonarRing& ring = sonar_rings_[i];
-    const Duration slot = description.period / static_cast<std::int64_t>(world::slots(description));
-    const std::int64_t firings = ring.range_m.empty() ? 1 : times_due(slot);
-    for (std::int64_t n = 0; n < firings; ++n) world_.sonar(body_, i, ring.firings++, ring.range_m);
-  }
+/// Reads the device if it is on and due; true if it has a new reading. The same in all calls of one step.
+template <class S>
+bool RobotBridge::read(Device<S>& device) {
+  if (!device.on) return false;
+  if (std::exchange(device.step, step_) != step_) device.is_new = device.sensor.read(world_, body_, step_);
+  return device.is_new;
 }
 
-template <world::ReadAlone S>
-void RobotBridge::add_reading(Row& row) {
-  row.exchange = [this, &poster = create_poster<typename S::Reading>(row),
-                  reading = typename S::Reading()](Time date) mutable {
-    if constexpr (world::ReadOnDemand<S>)
-      if (!due(S::period(*robot_.body.sensors<S>()))) return;
-    if (!world_.read<S>(body_, step_, reading)) return;
+template <class S>
+void RobotBridge::add_reading(Row& row, Device<S>& device) {
+  device.poster = &create_poster<typename S::Reading>(row);
+  row.exchange = [this, &device](Time date) {
+    if (!read(device)) return;
+    typename S::Reading& reading = device.sensor.reading();
     reading.date = date;
-    poster.write(reading);
+    if constexpr (world::HasLine<S>)
+      if (device.line.takes_time()) return device.line.send(date, reading);
+    device.poster->write(reading);
   };
 }
 
@@ -171,30 +180,6 @@ void RobotBridge::add_pose_of_topic(Row& row) {
   };
 }
 
-void RobotBridge::add_laser_command(Row& row, Laser& laser) {
-  read_command<posters::LaserCommand>(row, [&laser](const posters::LaserCommand& command) { laser.on = command.on; });
-}
-
-void RobotBridge::add_laser_reading(Row& row, Laser& laser) {
-  laser.poster = &create_poster<posters::LaserReading>(row);
-  row.exchange = [this, &laser](Time date) {
-    if (!laser.on || !laser.due) return;
-    posters::LaserReading& reading = laser.reading;
-    ++reading.number;
-    world_.scan(body_, laser.number, reading.number, laser.scan);
-    reading.date = date;
-    reading.first_angle_rad = laser.scan.first_angle_rad;
-    reading.angle_step_rad = laser.scan.angle_step_rad;
-    reading.range_max_m = laser.scan.range_max_m;
-    reading.range_m.clear();
-    for (const double range : laser.scan.range_m) reading.range_m.push_back(static_cast<float>(range));
-    if (laser.line.takes_time())
-      laser.line.send(date, reading);
-    else
-      laser.poster->write(reading);
-  };
-}
-
 void RobotBridge::connect() {
   for (const Origin& origin : origins_) {
     if (origin.connect == nullptr) continue;
@@ -210,13 +195,6 @@ void RobotBridge::connect() {
   }
 }
 
-// Number of multiples of `period` in the step just made; time 0 counts at the start.
-std::int64_t RobotBridge::times_due(Duration period) const {
-  const Duration step = world_.description().step;
-  const Duration now = step * static_cast<std::int64_t>(step_);
-  return step_ == 0 ? 1 : now / period - (now - step) / period;
-}
-
 void RobotBridge::exchange(Time date) {
   static constexpr std::uint64_t body_state = 0x626F6479;  // "body"
   threads::record(body_state, world_.body(body_));
@@ -228,31 +206,39 @@ void RobotBridge::exchange(Time date) {
 }
 
 void RobotBridge::expect_scans() {
-  for (Laser& laser : lasers_) {
-    laser.due = due(laser.period);
-    if (laser.on && laser.due && laser.poster != nullptr && powered())
-      world_.expect_scan(body_, laser.number, laser.reading.number + 1);
-  }
+  for (const Device<world::Lasers>& laser : devices<world::Lasers>())
+    if (laser.on && laser.poster != nullptr && laser.sensor.is_due(step_) && powered())
+      world_.expect_scan(body_, laser.sensor.number(), laser.sensor.reading().number + 1);
 }
 
-bool RobotBridge::powered() const { return !has_battery_ || !world_.battery(body_).empty_at; }
+bool RobotBridge::powered() {
+  if (has_battery_) world_.read<world::Battery>(body_, 0, battery_);
+  return !battery_.empty;
+}
+
+void RobotBridge::for_each_busy_line(auto&& visit) {
+  world::Sensors::for_each([&]<class S>() {
+    if constexpr (world::HasLine<S>)
+      for (Device<S>& device : devices<S>())
+        if (!device.line.empty()) visit(device);
+  });
+}
 
 void RobotBridge::give_arrived(Time now) {
-  for (Laser& laser : lasers_) {
-    if (laser.line.empty() || *laser.line.next_arrival() > now) continue;
-    posters::LaserReading reading;
-    while (laser.line.take(now, reading)) laser.poster->write(reading);
-  }
+  for_each_busy_line([&]<class S>(Device<S>& device) {
+    if (*device.line.next_arrival() > now) return;
+    typename S::Reading reading;
+    while (device.line.take(now, reading)) device.poster->write(reading);
+  });
 }
 
 void RobotBridge::wait_for_step() {
   for (;;) {
     std::optional<Time> arrival;
-    for (const Laser& laser : lasers_) {
-      if (laser.line.empty()) continue;
-      const Time next = *laser.line.next_arrival();
+    for_each_busy_line([&](auto& device) {
+      const Time next = *device.line.next_arrival();
       if (!arrival || next < *arrival) arrival = next;
-    }
+    });
     if (!arrival) return stepped_.acquire();
     if (stepped_.try_acquire_for(std::chrono::nanoseconds((*arrival - threads::now()).ns()))) return;
     give_arrived(threads::now());
@@ -261,13 +247,15 @@ void RobotBridge::wait_for_step() {
 
 // The memory that exchanges usually touch; of large parts only the beginning.
 void RobotBridge::find_working_set() {
-  constexpr std::size_t beams_known = 32, of_stack = 512;
+  constexpr std::size_t elements_known = 32, of_stack = 512;
   working_set_.add_between(this, &device_values_);
-  for (const Laser& laser : lasers_) {
-    const std::size_t beams = std::min(beams_known, laser.scan.range_m.size());
-    working_set_.add_between(&laser, laser.reading.range_m.begin() + beams);
-    working_set_.add(laser.scan.range_m.data(), beams * sizeof(double));
-  }
+  world::Sensors::for_each([&]<class S>() {
+    for (const Device<S>& device : devices<S>())
+      if constexpr (world::HasSeveral<S>)
+        working_set_.add_between(&device, device.sensor.reading().range_m.begin() + elements_known);
+      else
+        working_set_.add(device);
+  });
   working_set_.add(rows_.data(), rows_.size() * sizeof(Row));
   for (const Row& row : rows_) row.poster->add_to(working_set_);
   world_.add_to(working_set_, body_);

@@ -5,10 +5,11 @@
 //   base.command            BaseCommand       poster -> world
 //   base.reading            BaseReading       world -> poster
 //   topic.pose              Localisation      nodes of ROS -> poster
-//   KEY.reading             S::Reading        world -> poster, for every sensor type S that is read alone
+//   NAME.reading            S::Reading        world -> poster, for every sensor of every type S
 //                                                             (world/sensors/types/sensors.hpp)
-//   <laser's name>.command  LaserCommand      poster -> world
-//   <laser's name>.reading  LaserReading      world -> poster
+//   NAME.command            S::Command        poster -> world, if S has one
+//
+// The base's controller switches the sonars, and reports their ranges and the battery's voltage, too.
 //
 // After each step of the world the bridge records the body's
 // state, publishes the readings that are due, and reads the commands for the next step. In simulation it is a task of
@@ -23,16 +24,17 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "fibers/sync/threads.hpp"
 #include "modules/bridge/body_command.hpp"
-#include "modules/bridge/scan_line.hpp"
+#include "modules/bridge/reading_line.hpp"
 #include "modules/genom/name_space.hpp"
 #include "modules/posters/base.hpp"
 #include "modules/posters/from_topics.hpp"
-#include "modules/posters/laser.hpp"
 #include "modules/scenario/scenario.hpp"
+#include "world/timed_sensor.hpp"
 #include "world/world.hpp"
 
 namespace waitpoint::bridge {
@@ -65,22 +67,23 @@ class RobotBridge {
   void add_step_to(WorkingSet& set) const { set.add(stepped_); }
 
  private:
-  struct Laser {
-    Laser(std::size_t n, const world::LaserDescription& d);
+  struct NoLine {
+    explicit NoLine(Duration) {}
+  };
+  /// A sensor of type S.
+  template <class S>
+  struct Device {
+    Device(std::size_t number, const typename S::Description& description, Duration world_step);
 
-    std::size_t number;
-    Duration period;
-    bool on = false;
-    bool due = true;  // at the next exchange
-    ScanLine line;
-    genom::Poster<posters::LaserReading>* poster = nullptr;
-    world::LaserScan scan;
-    posters::LaserReading reading;
+    bool on = !world::StartsOff<S>;
+    bool is_new = false;                // in the step in which it was read
+    std::optional<std::uint64_t> step;  // in which it was read last
+    world::TimedSensor<S> sensor;
+    std::conditional_t<world::HasLine<S>, ReadingLine<typename S::Reading>, NoLine> line;
+    genom::Poster<typename S::Reading>* poster = nullptr;
   };
-  struct SonarRing {
-    std::uint64_t firings = 0;
-    std::vector<double> range_m;  // empty before the first firing
-  };
+  template <class S>
+  using Devices = std::vector<Device<S>>;
   using Exchange = std::function<void(Time date)>;
   struct Row {
     Exchange exchange;
@@ -105,20 +108,25 @@ class RobotBridge {
   void add_row(const scenario::BridgeRow& row);
   void add_base_command(Row& row);
   void add_base_reading(Row& row);
-  template <world::ReadAlone S>
-  void add_reading(Row& row);
+  template <class S>
+  void add_device_values(Device<S>& device);
+  template <class S>
+  void add_reading(Row& row, Device<S>& device);
   void add_pose_of_topic(Row& row);
-  void add_laser_command(Row& row, Laser& laser);
-  void add_laser_reading(Row& row, Laser& laser);
   template <class T>
   genom::Poster<T>& create_poster(Row& row);
   template <class T, class Take>
   void read_command(Row& row, Take take);
+  template <class S>
+  Devices<S>& devices() {
+    return std::get<Devices<S>>(devices_);
+  }
+  template <class S>
+  bool read(Device<S>& device);
+  /// Calls visit(device) for all that have readings on their lines.
+  void for_each_busy_line(auto&& visit);
   void expect_scans();
-  void fire_sonars();
-  bool powered() const;
-  std::int64_t times_due(Duration period) const;
-  bool due(Duration period) const { return times_due(period) > 0; }
+  bool powered();
   void give_arrived(Time now);
   void wait_for_step();
   void find_working_set();
@@ -126,12 +134,11 @@ class RobotBridge {
   // Members touched by every exchange come first.
   world::World& world_;
   world::BodyId body_;
-  bool has_battery_;
-  bool sonars_on_ = false, takes_poses_ = false;
+  bool has_battery_, takes_poses_ = false;
+  world::Battery::Reading battery_;                    // of powered()
   std::optional<posters::PoseOfTopic> pose_of_topic_;  // the newest, for the next exchange
-  std::vector<Laser> lasers_;
+  world::Sensors::Tuple<Devices> devices_;
   std::vector<Row> rows_;
-  std::vector<SonarRing> sonar_rings_;
   std::uint64_t step_ = 0;  // number of exchanges
   std::vector<BodyCommand>* command_log_ = nullptr;
   threads::counting_semaphore<> stepped_{0, "world step"};

@@ -7,8 +7,7 @@
 #include "modules/posters/base.hpp"
 #include "modules/posters/laser.hpp"
 #include "modules/posters/position.hpp"
-#include "world/sensors/types/gps.hpp"
-#include "world/sensors/types/imu.hpp"
+#include "world/sensors/types/sensors.hpp"
 
 namespace waitpoint::nodes {
 namespace {
@@ -21,9 +20,11 @@ std::optional<Time> date_of(const posters::Localisation& found) {
 std::optional<Time> date_of(const posters::Odometry& odometry) { return odometry.position.date; }
 std::optional<Time> date_of(const posters::Echoes& echoes) { return echoes.scan.date; }
 std::optional<Time> date_of(const posters::SpeedReference& speed) { return speed.date; }
-std::optional<Time> date_of(const world::Imu::Reading& inertial) { return inertial.date; }
-std::optional<Time> date_of(const world::Gps::Reading& fix) {
-  return fix.number == 0 ? std::nullopt : std::optional(fix.date);
+/// Of a sensor's reading.
+std::optional<Time> date_of(const auto& reading) {
+  if constexpr (requires { reading.number; })
+    if (reading.number == 0) return std::nullopt;
+  return reading.date;
 }
 
 auto message_of(const posters::FusedPosition& fused, const PosterFrames&) {
@@ -43,10 +44,14 @@ auto message_of(const posters::Echoes& echoes, const PosterFrames& frames) {
 auto message_of(const posters::SpeedReference& speed, const PosterFrames&) {
   return messages::geometry_msgs::Twist{{speed.v_m_s, speed.side_m_s, speed.climb_m_s}, {0, 0, speed.w_rad_s}};
 }
-auto message_of(const world::Imu::Reading& inertial, const PosterFrames& frames) {
-  return messages::message_of(inertial, frames.prefix + "base_link");
+auto message_of(const auto& reading, const PosterFrames& frames) {
+  bool in_world_frame = false;
+  world::Sensors::for_each([&]<class S>() {
+    if constexpr (requires { S::in_world_frame; })
+      in_world_frame |= std::is_same_v<typename S::Reading, std::remove_cvref_t<decltype(reading)>>;
+  });
+  return messages::message_of(reading, in_world_frame ? "map" : frames.prefix + "base_link");
 }
-auto message_of(const world::Gps::Reading& fix, const PosterFrames&) { return messages::message_of(fix, "map"); }
 
 }  // namespace
 
@@ -69,7 +74,12 @@ std::function<std::optional<PosterTopics::Value>(const std::optional<Time>&)> Po
 
 template <class... Types>
 bool PosterTopics::find_look(const genom::PosterBase& base, Row& row) const {
-  return ((row.look = look_at<Types>(base)) || ...);
+  bool is_found = ((row.look = look_at<Types>(base)) || ...);
+  world::Sensors::for_each([&]<class S>() {
+    if constexpr (requires(const typename S::Reading& reading) { messages::message_of(reading, std::string()); })
+      is_found = is_found || (row.look = look_at<typename S::Reading>(base));
+  });
+  return is_found;
 }
 
 PosterTopics::PosterTopics(const scenario::NodesScenario& nodes, const genom::NameSpace& names, PosterFrames frames)
@@ -83,7 +93,7 @@ PosterTopics::PosterTopics(const scenario::NodesScenario& nodes, const genom::Na
     }
     Row& row = rows_.emplace_back(Row{entry.topic, nullptr});
     if (!find_look<posters::FusedPosition, posters::Localisation, posters::Odometry, posters::Echoes,
-                   posters::SpeedReference, world::Imu::Reading, world::Gps::Reading>(*poster, row))
+                   posters::SpeedReference>(*poster, row))
       throw entry.written.bad("poster '" + entry.poster +
                               "' cannot be a topic: expected a position, odometry, echoes, a speed, inertial "
                               "readings or position fixes");

@@ -7,8 +7,7 @@
 //   Odometry                 nav_msgs/Odometry, in the frame of the module's last SetPos
 //   Echoes                   sensor_msgs/LaserScan
 //   SpeedReference           geometry_msgs/Twist
-//   Inertial                 sensor_msgs/Imu
-//   PositionFix              geometry_msgs/PointStamped, in `map`
+//   readings of sensors      their message (modules/messages/readings.hpp), in `map` if they are in the world's frame
 //
 // They are looked at after each step of the world, which is no event of the run.
 #pragma once

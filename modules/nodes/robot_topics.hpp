@@ -2,8 +2,8 @@
 // The topics of one robot with nodes, in its namespace. Names and frames are those of REP 103 and 105: x ahead, y to
 // the left, angles counter-clockwise; map -> odom -> base_link. Metres, radians, seconds.
 //
-//   published   scan (or a topic for each laser), sonar, imu, battery, odom, base_pose_ground_truth,
-//               move_base_simple/goal, initialpose; posters of its modules (poster_topics.hpp)
+//   published   its sensors (sensor_topics.hpp), odom, base_pose_ground_truth, move_base_simple/goal, initialpose;
+//               posters of its modules (poster_topics.hpp)
 //   taken       cmd_vel; pose, if a poster is filled from it; topics that are shown (shown_topics.hpp)
 #pragma once
 
@@ -14,9 +14,9 @@
 
 #include "modules/messages/geometry_msgs.hpp"
 #include "modules/messages/nav_msgs.hpp"
-#include "modules/messages/sensor_msgs.hpp"
 #include "modules/messages/tf2_msgs.hpp"
 #include "modules/nodes/poster_topics.hpp"
+#include "modules/nodes/sensor_topics.hpp"
 #include "modules/nodes/shown_topics.hpp"
 #include "modules/nodes/typed_topic.hpp"
 #include "modules/rflex/dead_reckoning.hpp"
@@ -56,16 +56,6 @@ class RobotTopics {
   std::optional<posters::PositionEstimate> take_pose() { return std::exchange(pose_, std::nullopt); }
 
  private:
-  struct Laser {
-    TypedTopic<messages::sensor_msgs::LaserScan> topic;
-    std::string frame;
-    std::uint64_t scans = 0;  // so far
-  };
-  struct SonarRing {
-    TypedTopic<messages::sensor_msgs::Range> topic;
-    std::vector<std::string> frames;
-    std::uint64_t firings = 0;  // so far
-  };
   struct Shown {
     NodeSide::Subscription subscription;
     std::string topic;
@@ -73,14 +63,8 @@ class RobotTopics {
   };
 
   std::string global(const std::string& topic) const;
-  std::vector<Laser> advertised_lasers() const;
-  std::vector<SonarRing> advertised_sonars() const;
   messages::Stamp stamp(Time date) const { return messages::stamp_of(begin_ + date.since_start()); }
-  bool is_due(Duration period, const world::World& world) const;
   void publish_odometry(const world::World& world, messages::tf2_msgs::TFMessage& tf);
-  void publish_scans(const world::World& world);
-  void publish_sonars(const world::World& world);
-  void publish_body(const world::World& world);
 
   NodeSide& nodes_;
   const scenario::Scenario& scenario_;
@@ -90,12 +74,8 @@ class RobotTopics {
   Time begin_;                                // of the run, for nodes
   Time now_;                                  // of the last step
   rflex::DeadReckoning dead_reckoning_;
-  std::vector<Laser> lasers_;
-  std::vector<SonarRing> sonars_;
+  SensorTopics sensors_;
   TypedTopic<messages::nav_msgs::Odometry> odometry_, truth_;
-  std::optional<TypedTopic<messages::sensor_msgs::Imu>> imu_;
-  world::Imu::Reading imu_sample_;  // the last one
-  TypedTopic<messages::sensor_msgs::BatteryState> battery_;
   TypedTopic<messages::geometry_msgs::PoseStamped> goal_;
   TypedTopic<messages::geometry_msgs::PoseWithCovarianceStamped> start_;
   std::optional<PosterTopics> posters_;  // from the run's begin on

@@ -14,16 +14,35 @@
 
 namespace waitpoint::outside {
 
-struct RemoteReadings {
+class Values;
+
+class RemoteReadings {
+ public:
+  /// `robot` must outlive it.
+  explicit RemoteReadings(const scenario::RobotScenario& robot);
+
+  /// Takes one line of the server of the robot. Other lines than readings are ignored. Throws BadInput at `written` for
+  /// a malformed one, such as a scan with other beams than the scenario's laser has.
+  void take(std::string_view line, const scenario::Location& written);
+
+  /// By sensor of type S; null before the first reading.
+  template <class S>
+  std::vector<std::optional<typename S::Reading>>& of() {
+    return std::get<Readings<S>>(sensors_);
+  }
+
   world::BodyState body;
   world::OdometerReading odometer;
-  world::BatteryState battery;
-  std::vector<std::optional<world::LaserScan>> scans;  ///< by laser
-  std::uint64_t steps = 0;                             ///< that have come
+  std::uint64_t steps = 0;  ///< that have come
 
-  /// Takes one line of the server of `robot`. Other lines than readings are ignored. Throws BadInput at `written` for a
-  /// malformed one, such as a scan with other beams than the scenario's laser has.
-  void take(std::string_view line, const scenario::RobotScenario& robot, const scenario::Location& written);
+ private:
+  template <class S>
+  using Readings = std::vector<std::optional<typename S::Reading>>;
+
+  void take_reading(std::string_view kind, const Values& values, const scenario::Location& written);
+
+  const scenario::RobotScenario& robot_;
+  world::Sensors::Tuple<Readings> sensors_;
 };
 
 }  // namespace waitpoint::outside

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <set>
 #include <string>
 #include <utility>
 
@@ -19,15 +20,6 @@ namespace {
 
 constexpr const char* elsewhere = "the world is in another process";
 
-// Of a robot with these devices the software would wait for readings for ever.
-void check_devices(const scenario::RobotScenario& robot) {
-  for (const scenario::BridgeRow& row : robot.bridge)
-    world::SensorsReadAlone::for_each([&]<class S>() {
-      if (row.device.starts_with(S::key) && row.device.substr(S::key.size()) == ".reading")
-        throw row.written.bad("expected only base and lasers: '" + row.device + "' is not served by another process");
-    });
-}
-
 std::string require_line(LineStream& lines, const std::string& where) {
   std::string line;
   while (!lines.take(line)) {
@@ -41,16 +33,12 @@ std::string require_line(LineStream& lines, const std::string& where) {
 
 /// A robot of the scenario, and its connection if it has software.
 struct RemoteWorld::Attached {
-  explicit Attached(const scenario::RobotScenario& robot) : scenario(robot) {
-    readings.body.pose = robot.body.start;
-    readings.scans.resize(robot.body.sensors<world::Lasers>().size());
-    on.resize(robot.body.sensors<world::Lasers>().size());
-  }
+  explicit Attached(const scenario::RobotScenario& robot) : scenario(robot), readings(robot) {}
 
   const scenario::RobotScenario& scenario;
   std::optional<LineStream> lines;
   RemoteReadings readings;
-  std::vector<bool> on;  // by laser: it was asked for
+  std::set<std::string> on;  // the sensors that were asked for
 };
 
 RemoteWorld::RemoteWorld(const scenario::Scenario& scenario, const world::WorldDescription& description,
@@ -61,7 +49,6 @@ RemoteWorld::RemoteWorld(const scenario::Scenario& scenario, const world::WorldD
     const bool has_software =
         std::any_of(robot.modules.begin(), robot.modules.end(), [](const auto& module) { return module.enabled; });
     if (!has_software) continue;
-    check_devices(robot);
     attach(*robots_.back(), endpoint, where);
   }
 }
@@ -104,7 +91,7 @@ bool RemoteWorld::read(Attached& robot) const {
   try {
     while (lines.take(line)) {
       if (line.starts_with("refused: ")) throw BadInput("the world's server", line);
-      robot.readings.take(line, robot.scenario, {"the world's server", lines.lines()});
+      robot.readings.take(line, {"the world's server", lines.lines()});
     }
     if (lines.is_over()) throw BadInput("the world's server", "ended the connection of '" + robot.scenario.name + "'");
   } catch (const BadInput& error) {
@@ -114,38 +101,42 @@ bool RemoteWorld::read(Attached& robot) const {
   return !ended_;
 }
 
-void RemoteWorld::switch_on(Attached& robot, std::size_t laser) const {
-  if (robot.on[laser] || !robot.lines) return;
-  robot.on[laser] = true;
-  robot.lines->send("laser " + quoted_word(robot.scenario.laser_names[laser]) + " on\n");
+void RemoteWorld::switch_on(Attached& robot, const std::string& sensor) const {
+  if (robot.lines && robot.on.insert(sensor).second) robot.lines->send("sensor " + quoted_word(sensor) + " on\n");
 }
 
-void RemoteWorld::expect_scan(world::BodyId id, std::size_t laser, std::uint64_t) { switch_on(attached(id), laser); }
-
-void RemoteWorld::scan(world::BodyId id, std::size_t laser, std::uint64_t, world::LaserScan& out) const {
-  Attached& robot = attached(id);
-  switch_on(robot, laser);
-  std::optional<world::LaserScan>& scan = robot.readings.scans[laser];
-  while (!scan && robot.lines && read(robot)) {
-  }
-  if (scan) out = *scan;
+void RemoteWorld::expect_scan(world::BodyId id, std::size_t laser, std::uint64_t) {
+  switch_on(attached(id), attached(id).scenario.device_name<world::Lasers>(laser));
 }
 
-void RemoteWorld::sonar(world::BodyId id, std::size_t ring, std::uint64_t, std::vector<double>& range_m) const {
-  const world::SonarRingDescription& sonars = attached(id).scenario.body.sensors<world::Sonars>()[ring];
-  range_m.assign(sonars.count, sonars.range_max_m);
+template <class S>
+bool RemoteWorld::read_sensor(Attached& robot, std::size_t device, typename S::Reading& reading) const {
+  std::optional<typename S::Reading>& last = robot.readings.of<S>()[device];
+  if (!std::is_same_v<S, world::Battery>) switch_on(robot, robot.scenario.device_name<S>(device));
+  if constexpr (world::HasCommand<S>)
+    while (!last && robot.lines && read(robot)) {
+    }
+  if (!last) return false;
+  if constexpr (!world::ReadOnDemand<S>)
+    if (last->number == reading.number) return false;
+  const Time date = reading.date;
+  reading = *last;
+  reading.date = date;
+  return true;
+}
+
+bool RemoteWorld::read_any(world::BodyId id, std::size_t device, std::uint64_t, const world::AnyReadingOut& out) const {
+  return std::visit(
+      [&]<class S>(const world::ReadingOut<S>& of) { return read_sensor<S>(attached(id), device, *of.reading); }, out);
 }
 
 const world::BodyState& RemoteWorld::body(world::BodyId id) const { return attached(id).readings.body; }
 const world::OdometerReading& RemoteWorld::odometer(world::BodyId id) const { return attached(id).readings.odometer; }
-world::BatteryState RemoteWorld::battery(world::BodyId id) const { return attached(id).readings.battery; }
 
-// --- what no robot of check_devices() asks for, and interventions, which are the run's ---
+// --- interventions, which are the run's ---
 
 void RemoteWorld::reset(std::uint64_t) { WAITPOINT_CHECK(false, "a world of another process is reset"); }
 void RemoteWorld::reseed(std::uint64_t) { WAITPOINT_CHECK(false, "a world of another process is given a seed"); }
-
-bool RemoteWorld::read_any(world::BodyId, std::uint64_t, const world::AnyReadingOut&) const { return false; }
 
 std::optional<std::string> RemoteWorld::move_body(world::BodyId, const Pose&) { return elsewhere; }
 std::optional<std::string> RemoteWorld::guide_body(world::BodyId, const std::optional<Pose>&, const world::Velocity&) {

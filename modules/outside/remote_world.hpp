@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The world of a run in another process (world_server.hpp), for robots' software on real threads: each robot with
-// modules has a connection of its own. Base, battery and lasers are served; sonars have no echo.
+// modules has a connection of its own. Sensors are switched on when they are first read.
 //
 // One thread uses it. step() waits for the next step of the other world. A connection that ends sets `ended`, and
 // everything stays as it was.
@@ -19,8 +19,8 @@ namespace waitpoint::outside {
 
 class RemoteWorld final : public world::World {
  public:
-  /// Attaches the robots. Throws BadInput at `where` for a world that does not have them, or another step; and at a row
-  /// of a robot's bridge for a device that is not served. `ended` must outlive it.
+  /// Attaches the robots. Throws BadInput at `where` for a world that does not have them, or another step.
+  /// `ended` must outlive it.
   RemoteWorld(const scenario::Scenario& scenario, const world::WorldDescription& description, const Endpoint& endpoint,
               const std::string& where, std::atomic<bool>& ended);
   ~RemoteWorld() override;
@@ -42,13 +42,7 @@ class RemoteWorld final : public world::World {
   const world::BodyState& body(world::BodyId id) const override;
   std::span<const world::LooseState> loose() const override { return {}; }
   const world::OdometerReading& odometer(world::BodyId id) const override;
-  world::BatteryState battery(world::BodyId id) const override;
-
-  /// The last scan that came; waits for the first one.
-  void scan(world::BodyId id, std::size_t laser, std::uint64_t scan_number, world::LaserScan& out) const override;
   void expect_scan(world::BodyId id, std::size_t laser, std::uint64_t scan_number) override;
-  void sonar(world::BodyId id, std::size_t ring, std::uint64_t firing_number,
-             std::vector<double>& range_m) const override;
   void add_to(WorkingSet&, world::BodyId) const override {}
   void add_scan_to(WorkingSet&, world::BodyId) const override {}
   double cast(const world::Beam&, double range_max_m, std::optional<world::BodyId>) const override {
@@ -58,10 +52,14 @@ class RemoteWorld final : public world::World {
  private:
   struct Attached;
 
-  bool read_any(world::BodyId id, std::uint64_t number, const world::AnyReadingOut& out) const override;
+  /// The last reading that came; waits for the first scan of a laser.
+  bool read_any(world::BodyId id, std::size_t device, std::uint64_t number,
+                const world::AnyReadingOut& out) const override;
+  template <class S>
+  bool read_sensor(Attached& robot, std::size_t device, typename S::Reading& reading) const;
   Attached& attached(world::BodyId id) const { return *robots_[index(id)]; }
   void attach(Attached& robot, const Endpoint& endpoint, const std::string& where);
-  void switch_on(Attached& robot, std::size_t laser) const;
+  void switch_on(Attached& robot, const std::string& sensor) const;
   /// Reads received data, waiting for some; false if the connection has ended.
   bool read(Attached& robot) const;
 

@@ -2,17 +2,17 @@
 #include "modules/outside/world_server.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <utility>
 
 #include "core/number_text.hpp"
 #include "core/printable_line.hpp"
-#include "modules/outside/sensor_times.hpp"
+#include "modules/outside/reading_words.hpp"
 #include "modules/outside/words.hpp"
 #include "modules/run/intervention.hpp"
 #include "modules/scenario/words.hpp"
+#include "world/timed_sensor.hpp"
 
 namespace waitpoint::outside {
 namespace {
@@ -21,7 +21,8 @@ constexpr const char* server = "world";
 
 std::string base(const world::World& world, world::BodyId id) {
   const world::OdometerReading& odometer = world.odometer(id);
-  const world::BatteryState battery = world.battery(id);
+  world::Battery::Reading battery;
+  world.read<world::Battery>(id, 0, battery);
   const world::BodyState& body = world.body(id);
   return fmt::format(
       "base travel_units={} turn_units={} side_units={} v_m_s={} w_rad_s={} volts={} current_a={} charge={} stalled={} "
@@ -78,10 +79,10 @@ void WorldServer::obey(Client& client, std::string_view line, Host& host) {
       scenario::require_end(line, written);
       return attach(client, robot, written, host);
     }
-    if (word != "command" && word != "laser")
-      throw written.bad("expected 'robot', 'command' or 'laser', found '" + word + "'");
+    if (word != "command" && word != "laser" && word != "sensor")
+      throw written.bad("expected 'robot', 'command' or 'sensor', found '" + word + "'");
     if (!client.robot) throw written.bad("expected 'robot NAME' before '" + word + "'");
-    if (word == "laser") return switch_laser(client, line, written);
+    if (word != "command") return switch_sensor(client, word, line, written);
     const std::string command = "command " + quoted_word(name(client)) + std::string(line);
     client.command = run::parse_intervention(command, written).text;
   } catch (const BadInput& error) {
@@ -103,19 +104,40 @@ void WorldServer::attach(Client& client, const std::string& robot, const scenari
     if (row.device == "base.command")
       throw written.bad("'" + robot + "' is driven by its modules in this run: see " + row.written.text());
   client.robot = index;
-  client.lasers.resize(scenario_.robots[index].laser_names.size());
+  client.sensors = sensors_of(index);
   client.lines.send("attached " + quoted_word(robot) + "\n");
   host.tell(robot, "attached to software outside");
 }
 
-void WorldServer::switch_laser(Client& client, std::string_view words, const scenario::Location& written) {
-  const std::string laser = scenario::take_word(words, written), state = scenario::take_word(words, written);
+std::vector<WorldServer::Sensor> WorldServer::sensors_of(std::size_t index) const {
+  const scenario::RobotScenario& robot = scenario_.robots[index];
+  std::vector<Sensor> sensors;
+  world::Sensors::for_each([&]<class S>() {
+    constexpr bool is_laser = std::is_same_v<S, world::Lasers>;
+    for (std::size_t i = 0; i < robot.body.equipment.count<S>(); ++i) {
+      Sensor& sensor = sensors.emplace_back(Sensor{robot.device_name<S>(i), is_laser});
+      sensor.lines = [begin = (is_laser ? "scan laser=" : "reading sensor=") + sensor.name, id = world::BodyId(index),
+                      timed = world::TimedSensor<S>(i, robot.body.equipment.description<S>(i), scenario_.step)](
+                         const world::World& world) mutable {
+        std::string lines;
+        timed.read(world, id, world.steps(), [&] { lines += begin + words_of(timed.reading()) + "\n"; });
+        return lines;
+      };
+    }
+  });
+  return sensors;
+}
+
+void WorldServer::switch_sensor(Client& client, const std::string& kind, std::string_view words,
+                                const scenario::Location& written) {
+  const std::string wanted = scenario::take_word(words, written), state = scenario::take_word(words, written);
   scenario::require_end(words, written);
-  const std::vector<std::string>& names = scenario_.robots[*client.robot].laser_names;
-  const auto found = std::find(names.begin(), names.end(), laser);
-  if (found == names.end()) throw written.bad("'" + name(client) + "' has no laser '" + laser + "'");
+  const auto found = std::find_if(client.sensors.begin(), client.sensors.end(), [&](const Sensor& sensor) {
+    return sensor.name == wanted && (kind == "sensor" || sensor.is_laser);
+  });
+  if (found == client.sensors.end()) throw written.bad("'" + name(client) + "' has no " + kind + " '" + wanted + "'");
   if (state != "on" && state != "off") throw written.bad("expected on or off, found '" + state + "'");
-  client.lasers[static_cast<std::size_t>(found - names.begin())].on = state == "on";
+  found->is_on = state == "on";
 }
 
 // A base without a watchdog would drive on for ever.
@@ -139,20 +161,10 @@ void WorldServer::publish(Host& host) {
 std::string WorldServer::readings(Client& client, const world::World& world) const {
   const auto id = static_cast<world::BodyId>(*client.robot);
   std::string lines = base(world, id) + truth(world.body(id));
-  for (std::size_t i = 0; i < client.lasers.size(); ++i)
-    if (client.lasers[i].on &&
-        is_due(scenario_.robots[*client.robot].body.sensors<world::Lasers>()[i].period, scenario_.step, world.steps()))
-      lines += scan(client, i, world);
+  for (Sensor& sensor : client.sensors)
+    if (sensor.is_on) lines += sensor.lines(world);
   const Time now = Time() + scenario_.step * static_cast<std::int64_t>(world.steps());
   return lines + "step " + to_string(now) + "\n";
-}
-
-std::string WorldServer::scan(Client& client, std::size_t laser, const world::World& world) const {
-  world::LaserScan scan;
-  world.scan(world::BodyId(*client.robot), laser, ++client.lasers[laser].scans, scan);
-  return fmt::format("scan laser={} number={} first_angle_rad={} angle_step_rad={} range_max_m={} range_m={}\n",
-                     scenario_.robots[*client.robot].laser_names[laser], client.lasers[laser].scans,
-                     scan.first_angle_rad, scan.angle_step_rad, scan.range_max_m, fmt::join(scan.range_m, ","));
 }
 
 std::string WorldServer::account() const {

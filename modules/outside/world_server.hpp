@@ -5,14 +5,15 @@
 //                                             waitpoint world 1 SCENARIO step_s=S
 //   robot NAME                                attached NAME, or refused: REASON
 //   command v_m_s=V w_rad_s=W ...             taken at DATE
-//   laser NAME on|off                         (nothing)
+//   sensor NAME on|off                        (nothing); also `laser` of a laser
 //
-// and after each step of the world the readings of the attached robot: `base`, `truth`, the scans that are due, and
-// then `step DATE`. Of several commands since the last step the newest counts. Commands are interventions; when a
-// client leaves, its robot is told to stop.
+// and after each step of the world the readings of the attached robot: `base`, `truth`, the new
+// readings of the sensors that are on, and then `step DATE`. Of several commands since the last step the newest counts.
+// Commands are interventions; when a client leaves, its robot is told to stop.
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -23,6 +24,7 @@
 #include "modules/outside/line_stream.hpp"
 #include "modules/outside/partner.hpp"
 #include "modules/scenario/scenario.hpp"
+#include "world/world.hpp"
 
 namespace waitpoint::outside {
 
@@ -39,27 +41,29 @@ class WorldServer final : public Partner {
   std::string account() const override;
 
  private:
-  struct Laser {
-    bool on = false;
-    std::uint64_t scans = 0;
+  struct Sensor {
+    std::string name;
+    bool is_laser, is_on = false;
+    std::function<std::string(const world::World& world)> lines = {};  // of its new readings
   };
   struct Client {
     explicit Client(Descriptor descriptor) : lines(std::move(descriptor)) {}
 
     LineStream lines;
     std::optional<std::size_t> robot;
-    std::vector<Laser> lasers;
+    std::vector<Sensor> sensors;
     std::string command;  // of this step
     FaultCounts faults;
   };
 
   void obey(Client& client, std::string_view line, Host& host);
   void attach(Client& client, const std::string& name, const scenario::Location& written, Host& host);
-  void switch_laser(Client& client, std::string_view words, const scenario::Location& written);
+  void switch_sensor(Client& client, const std::string& kind, std::string_view words,
+                     const scenario::Location& written);
   void end(Client& client, Host& host);
   std::string name(const Client& client) const;
   std::string readings(Client& client, const world::World& world) const;
-  std::string scan(Client& client, std::size_t laser, const world::World& world) const;
+  std::vector<Sensor> sensors_of(std::size_t robot) const;
 
   const scenario::Scenario& scenario_;
   std::vector<std::string> taken_;

@@ -10,11 +10,7 @@ namespace waitpoint::posters {
 inline constexpr std::size_t segment_count_max = 64;
 
 /// To the device.
-struct LaserCommand {
-  bool on = false;
-
-  static void fields(auto field) { field("on", &LaserCommand::on); }
-};
+using LaserCommand = world::Lasers::Command;
 
 /// From the device: one scan.
 using LaserReading = world::Lasers::Reading;

@@ -66,6 +66,7 @@ KeyTable software(std::string name) {
            "which the module checks")
       .add("bridge", whole(list_of(bridge_row_keys())),
            "the table: rows `{poster: MODULE.POSTER, device: DEVICE.VALUE}`; devices are `base`, the lasers by name, "
+           "rings as `sonar`, `sonar_1` and so on, "
            "and the other sensors by their keys; values are `command` and `reading` (of sensors but lasers only "
            "`reading`)")
       .add("executive", outer("executive", "executive"),

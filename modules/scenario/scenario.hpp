@@ -197,6 +197,16 @@ struct RobotScenario {
   std::optional<NodesScenario> nodes;
   Location written, start_written;
 
+  /// The name of the device values NAME.reading, NAME.command of its sensor number `number` of type S.
+  template <class S>
+  std::string device_name(std::size_t number) const {
+    if constexpr (requires { S::named; })
+      return laser_names[number];
+    else if constexpr (world::HasSeveral<S>)
+      return std::string(S::device) + (number == 0 ? "" : "_" + std::to_string(number));
+    else
+      return std::string(S::key);
+  }
   /// True if its goals are not the executive's: with nodes, and no enabled module.
   bool goals_are_for_nodes() const;
 };

@@ -38,6 +38,11 @@ class ServedWorld(External):
         self.assertLess(float(ranges[-1][1]), 6, "ada is seen, in front of the east wall")
         self.assertLess(float(ranges[-1][1]), float(ranges[5][1]))
         self.assertGreater(int(self.until(client, "base")["travel_units"]), 0)
+        client.lines.write("sensor battery on\n")
+        client.lines.flush()
+        battery = self.until(client, "reading")
+        self.assertEqual((battery["sensor"], battery["empty"]), ("battery", "0"))
+        self.assertEqual(battery["volts"][:2], "25")
         self.assertGreater(float(self.until(client, "truth")["x_m"]), 12)
         client.close()
         run.type("pause\nrun +3\nstatus")
@@ -114,7 +119,7 @@ class ServedWorld(External):
         self.assertRegex(other.say("robot bob"), "'bob' is attached to another connection$")
         for line, reason in [("laser eyes on", "'bob' has no laser 'eyes'"), ("laser eye maybe", "expected on or off, found 'maybe'"),
                              ("command v=1", "unknown key 'v'"), ("command v_m_s=nan", "expected 'v_m_s' to be a number"),
-                             ("fly", "expected 'robot', 'command' or 'laser', found 'fly'")]:
+                             ("fly", "expected 'robot', 'command' or 'sensor', found 'fly'")]:
             client.lines.write(line + "\n")
             client.lines.flush()
             while not (answer := client.lines.readline()).startswith("refused"):

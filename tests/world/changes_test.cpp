@@ -94,10 +94,10 @@ TEST(WorldChanges, SonarsHearTheCornerOfANewObstacle) {
   description.bodies[0].sensors<Sonars>().emplace_back();
   const auto world = make_kinematic_world(description, 1);
   std::vector<double> range_m;
-  world->sonar(robot, 0, 1, range_m);
+  fire(*world, robot, 0, 1, range_m);
   EXPECT_EQ(range_m[0], 3) << "nothing is near";
   EXPECT_EQ(world->put_obstacle({"crate", box({2, 0, 0}, 1, 1), false}), std::nullopt);
-  world->sonar(robot, 0, 1, range_m);
+  fire(*world, robot, 0, 1, range_m);
   EXPECT_NEAR(range_m[0], 1.25, 0.1);
 }
 

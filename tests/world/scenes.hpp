@@ -115,11 +115,19 @@ inline std::vector<Shape> random_shapes(std::uint64_t seed, int count, double ha
 }
 
 /// The sensor's last reading, or that of now.
-template <ReadAlone S>
+template <class S>
 typename S::Reading reading(const World& world, BodyId id = BodyId(0), std::uint64_t number = 0) {
   typename S::Reading reading;
   world.read<S>(id, number, reading);
   return reading;
+}
+
+/// The ranges of a ring's sonars after the firing of that number, from 0; those that do not fire keep theirs.
+inline void fire(const World& world, BodyId id, std::size_t ring, std::uint64_t firing, std::vector<double>& range_m) {
+  Sonars::Reading reading;
+  for (const double range : range_m) reading.range_m.push_back(range);
+  world.read<Sonars>(id, firing + 1, reading, ring);
+  range_m.assign(reading.range_m.begin(), reading.range_m.end());
 }
 
 /// A direction from `origin` that only just touches the outline: to a corner, or along a tangent.

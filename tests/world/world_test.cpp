@@ -239,12 +239,12 @@ TEST(World, ResetRunsTheSameAgainAndAnotherSeedDrawsOtherNoise) {
       world->command(BodyId(0), {2, 0.3});
       world->step();
       world->scan(BodyId(0), 0, i, scan);
-      world->sonar(BodyId(0), 0, i, sonar);
+      fire(*world, BodyId(0), 0, i, sonar);
       for (const double range : scan.range_m) digest.add(range);
       for (const double range : sonar) digest.add(range);
       add_value(digest, world->body(BodyId(0)));
       add_value(digest, world->odometer(BodyId(0)));
-      digest.add(world->battery(BodyId(0)).volts);
+      digest.add(reading<Battery>(*world).volts);
     }
     return digest;
   };
@@ -265,7 +265,7 @@ Digest noisy_readings(std::uint64_t seed, std::optional<std::uint64_t> other) {
   body.sensors<Lasers>()[0].angle_noise_rad = 0.001;
   body.sensors<Lasers>()[0].dropout = 0.1;
   body.sensors<Sonars>().push_back({});
-  SensorsReadAlone::for_each([&]<class S>() { body.sensors<S>().emplace(); });
+  SensorsWithModel::for_each([&]<class S>() { body.sensors<S>().emplace(); });
   for (InertialErrors* errors : {&body.sensors<Imu>()->gyro, &body.sensors<Imu>()->accelerometer})
     errors->noise_per_sqrt_hz = errors->walk_per_sqrt_s = 0.01;
   body.sensors<Gps>()->noise_m = 0.3;
@@ -282,10 +282,10 @@ Digest noisy_readings(std::uint64_t seed, std::optional<std::uint64_t> other) {
     world->command(BodyId(0), {2, 0.3});
     world->step();
     world->scan(BodyId(0), 0, i, scan);
-    world->sonar(BodyId(0), 0, i, ranges);
+    fire(*world, BodyId(0), 0, i, ranges);
     for (const std::vector<double>* values : {&scan.range_m, &ranges})
       for (const double value : *values) digest.add(value);
-    SensorsReadAlone::for_each([&]<class S>() { add_value(digest, reading<S>(*world, BodyId(0), i)); });
+    SensorsWithModel::for_each([&]<class S>() { add_value(digest, reading<S>(*world, BodyId(0), i)); });
     add_value(digest, world->odometer(BodyId(0)));
   }
   return digest;

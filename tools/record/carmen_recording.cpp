@@ -20,7 +20,8 @@ CarmenRecording::CarmenRecording(const std::filesystem::path& path, const scenar
   file_.write("# CARMEN Logfile\n");
   for (const scenario::RobotScenario& robot : scenario.robots) {
     OfRobot& added = robots_.emplace_back(OfRobot{robot.name});
-    if (const auto lasers = recorded_lasers(robot); !lasers.empty()) added.mount = lasers.front().description.mount;
+    if (const auto lasers = recorded_sensors<world::Lasers>(robot); !lasers.empty())
+      added.mount = lasers.front().description.mount;
   }
 }
 
@@ -35,7 +36,8 @@ void CarmenRecording::record_robot(const RobotNews& news) {
     file_.write(fmt::format("ODOM {} {:.6f} {:.6f} 0", text(*robot.odometry), odometry->v_m_s, odometry->w_rad_s) +
                 ending(odometry->position.date, robot.name));
   }
-  if (robot.mount && news.scans.front()) robot.scan = news.scans.front();
+  if (robot.mount)
+    if (const auto& scan = news.readings.of<world::Lasers>().front()) robot.scan = scan;
   if (!robot.odometry || !robot.scan) return;
   const posters::LaserReading& scan = *robot.scan;
   std::string line = fmt::format("FLASER {}", scan.range_m.size());

@@ -36,7 +36,6 @@ FoxgloveRecording::FoxgloveRecording(const std::filesystem::path& path, const sc
 void FoxgloveRecording::add_topics(const OfRobot& robot) {
   const std::string space = "/" + robot.name + "/";
   Topics& of = topics_.emplace_back();
-  for (const RecordedLaser& laser : robot.lasers) of.scans.push_back(add<foxglove::LaserScan>(space + laser.name));
   of.odometry = add<foxglove::PoseInFrame>(space + "odometry");
   of.position = add<foxglove::PoseInFrame>(space + "position");
   of.truth = add<foxglove::PoseInFrame>(space + "truth");
@@ -73,21 +72,21 @@ void FoxgloveRecording::write_position(const OfRobot& robot, const posters::Posi
   write_pose(topics_[robot.number].position, position.date, position.pose);
 }
 
-void FoxgloveRecording::write_scan(const OfRobot& robot, std::size_t laser, const std::string& frame,
-                                   const posters::LaserReading& scan) {
-  write(topics_[robot.number].scans[laser], now_, scan_of(scan, frame));
-}
-
-void FoxgloveRecording::write_readings(const OfRobot& robot, const NewReadings& readings) {
-  world::SensorsReadAlone::for_each([&]<class S>() {
-    const auto& reading = readings.of<S>();
-    if (!reading) return;
-    const auto [topic, is_new] = readings_.try_emplace("/" + robot.name + "/" + std::string(S::key));
-    if (is_new)
-      topic->second =
-          file_.add("waitpoint." + std::string(S::key), reading_schema<typename S::Reading>().dump(), topic->first);
-    file_.write(topic->second, now_, reading_json(*reading).dump());
-  });
+void FoxgloveRecording::write_reading(const AnyNewReading& any) {
+  std::visit(
+      [&]<class S>(const NewReading<S>& of) {
+        const auto [channel, is_new] = readings_.try_emplace(of.topic);
+        if constexpr (std::is_same_v<S, world::Lasers>) {
+          if (is_new) channel->second = add<foxglove::LaserScan>(of.topic).number;
+          write(Channel<foxglove::LaserScan>{channel->second}, now_, scan_of(of.reading, of.frame));
+        } else {
+          if (is_new)
+            channel->second =
+                file_.add("waitpoint." + std::string(S::key), reading_schema<typename S::Reading>().dump(), of.topic);
+          file_.write(channel->second, now_, reading_json(of.reading).dump());
+        }
+      },
+      any);
 }
 
 void FoxgloveRecording::write_shown(const nodes::ShownMessage& message, const std::string& frame) {

@@ -2,11 +2,11 @@
 // A run as an MCAP file for Foxglove and other viewers:
 //
 //   /tf               every robot's frames: world -> ROBOT (true), world -> ROBOT/position (estimated), and
-//                     ROBOT/position -> ROBOT/LASER
+//                     ROBOT/position -> ROBOT/SENSOR
 //   /world            the obstacles, again on every change
 //   /clock            the virtual time, after each step of the world, ten times a second
-//   /ROBOT/LASER      its scans, in the frame ROBOT/LASER
-//   /ROBOT/KEY        the readings of its sensor KEY (world/sensors/types), by their declared fields
+//   /ROBOT/SENSOR     the readings of a sensor (world/sensors/types), by their declared fields; a laser's scans, in the
+//                     frame ROBOT/SENSOR
 //   /ROBOT/odometry, /ROBOT/position, /ROBOT/truth    its poses
 //   /ROBOT/modules    requests to its modules and their outcomes, in words
 //   topics of nodes   paths and clouds as poses, grids as boxes
@@ -34,7 +34,6 @@ class FoxgloveRecording final : public ViewerRecording {
   };
   /// Of one robot.
   struct Topics {
-    std::vector<Channel<foxglove::LaserScan>> scans;
     Channel<foxglove::PoseInFrame> odometry, position, truth;
     Channel<foxglove::Log> log;
   };
@@ -53,9 +52,7 @@ class FoxgloveRecording final : public ViewerRecording {
   void write_truth(const OfRobot& robot, Time date, const Pose& pose, double height_m) override;
   void write_odometry(const OfRobot& robot, const posters::Odometry& odometry) override;
   void write_position(const OfRobot& robot, const posters::PositionEstimate& position) override;
-  void write_scan(const OfRobot& robot, std::size_t laser, const std::string& frame,
-                  const posters::LaserReading& scan) override;
-  void write_readings(const OfRobot& robot, const NewReadings& readings) override;
+  void write_reading(const AnyNewReading& reading) override;
   void write_shown(const nodes::ShownMessage& message, const std::string& frame) override;
   void write_log(const OfRobot& robot, const ModuleLog::Line& line) override;
   void close(const bridge::RunResult& result) override;
@@ -69,7 +66,7 @@ class FoxgloveRecording final : public ViewerRecording {
   std::vector<Topics> topics_;  // by robot
   std::map<std::string, Channel<foxglove::SceneUpdate>> grids_;
   std::map<std::string, Channel<foxglove::PosesInFrame>> poses_;
-  std::map<std::string, McapFile::Topic> readings_;
+  std::map<std::string, McapFile::Topic> readings_;  // by topic
   Time now_;
 };
 

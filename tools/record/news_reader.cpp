@@ -47,7 +47,6 @@ StepNews NewsReader::take(Time now) {
     of_robot.lines = robot.modules.take();
     of_robot.odometry = robot.posters.odometry();
     if (const auto fused = robot.posters.position()) of_robot.position = fused->position;
-    of_robot.scans = robot.posters.scans();
     of_robot.readings = robot.posters.readings();
   }
   return news;

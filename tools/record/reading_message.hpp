@@ -23,6 +23,8 @@ Json reading_json(const T& value) {
   if constexpr (std::is_same_v<T, Time>) {
     const messages::Stamp stamp = messages::stamp_of(value);
     return {{"sec", stamp.sec}, {"nsec", stamp.nsec}};
+  } else if constexpr (std::is_same_v<T, Duration>) {
+    return value.seconds();
   } else if constexpr (std::is_same_v<T, Point>) {
     return {{"x", value.x}, {"y", value.y}};
   } else if constexpr (HasFields<T>) {
@@ -44,7 +46,7 @@ Json reading_schema(std::string_view name = "") {
   Json schema;
   if constexpr (std::is_same_v<T, bool>) {
     schema = {{"type", "boolean"}};
-  } else if constexpr (std::is_arithmetic_v<T>) {
+  } else if constexpr (std::is_arithmetic_v<T> || std::is_same_v<T, Duration>) {
     schema = {{"type", std::is_integral_v<T> ? "integer" : "number"}};
   } else if constexpr (std::is_same_v<T, Time> || std::is_same_v<T, Point>) {
     const bool is_time = std::is_same_v<T, Time>;

@@ -82,23 +82,16 @@ void RosBagRecording::write_position(const OfRobot& robot, const posters::Positi
   write("/" + robot.name + "/position", messages::message_of(position, root));
 }
 
-void RosBagRecording::write_scan(const OfRobot&, std::size_t, const std::string& frame,
-                                 const posters::LaserReading& scan) {
-  write("/" + frame, messages::message_of(scan, frame));
-}
-
-void RosBagRecording::write_readings(const OfRobot& robot, const NewReadings& readings) {
-  world::SensorsReadAlone::for_each([&]<class S>() {
-    const auto& reading = readings.of<S>();
-    if (!reading) return;
-    const std::string topic = "/" + robot.name + "/" + std::string(S::key);
-    const std::string frame = requires { S::in_world_frame; }
-    ? root : robot.name;
-    if constexpr (requires { messages::message_of(*reading, frame); })
-      write(topic, messages::message_of(*reading, frame));
-    else
-      write(topic, reading_message(*reading, frame));
-  });
+void RosBagRecording::write_reading(const AnyNewReading& any) {
+  using messages::messages_of;
+  std::visit(
+      [&](const auto& of) {
+        if constexpr (requires { messages_of(of.description, of.reading, of.frame); })
+          for (const auto& message : messages_of(of.description, of.reading, of.frame)) write(of.topic, message);
+        else
+          write(of.topic, reading_message(of.reading, of.frame));
+      },
+      any);
 }
 
 void RosBagRecording::write_shown(const nodes::ShownMessage& message, const std::string& frame) {

@@ -3,9 +3,9 @@
 //
 //   /clock            rosgraph_msgs/Clock, ten times a second
 //   /tf               tf2_msgs/TFMessage: world -> ROBOT (true), world -> ROBOT/position (estimated), and
-//                     ROBOT/position -> ROBOT/LASER
+//                     ROBOT/position -> ROBOT/SENSOR
 //   /world            visualization_msgs/MarkerArray: the obstacles, again on every change
-//   /ROBOT/LASER      sensor_msgs/LaserScan, in the frame ROBOT/LASER
+//   /ROBOT/SENSOR     messages of modules/messages/readings.hpp, or else the fields of the reading as numbers
 //   /ROBOT/odometry   nav_msgs/Odometry
 //   /ROBOT/position   geometry_msgs/PoseWithCovarianceStamped, the estimated pose
 //   /ROBOT/truth      geometry_msgs/PoseStamped, ten times a second
@@ -33,9 +33,7 @@ class RosBagRecording final : public ViewerRecording {
   void write_truth(const OfRobot& robot, Time date, const Pose& pose, double height_m) override;
   void write_odometry(const OfRobot& robot, const posters::Odometry& odometry) override;
   void write_position(const OfRobot& robot, const posters::PositionEstimate& position) override;
-  void write_scan(const OfRobot& robot, std::size_t laser, const std::string& frame,
-                  const posters::LaserReading& scan) override;
-  void write_readings(const OfRobot& robot, const NewReadings& readings) override;
+  void write_reading(const AnyNewReading& reading) override;
   void write_shown(const nodes::ShownMessage& message, const std::string& frame) override;
   void write_log(const OfRobot& robot, const ModuleLog::Line& line) override;
   void close(const bridge::RunResult& result) override;

@@ -25,8 +25,7 @@ struct RobotNews {
   double height_m = 0;
   std::optional<posters::Odometry> odometry{};
   std::optional<posters::PositionEstimate> position{};
-  std::vector<std::optional<posters::LaserReading>> scans{};  ///< by laser, those that a module reads
-  NewReadings readings{};                                     ///< of the other sensors that a module reads
+  NewReadings readings{};  ///< of the sensors that a module reads
   std::vector<ModuleLog::Line> lines{};
 };
 
@@ -47,7 +46,7 @@ struct RobotLines {
 // Between the processes of a run (modules/run/ranks/archive.hpp).
 void carry(auto& archive, ModuleLog::Line& line) { archive(line.date, line.module, line.text, line.is_bad); }
 void carry(auto& archive, RobotNews& news) {
-  archive(news.robot, news.pose, news.height_m, news.odometry, news.position, news.scans, news.readings, news.lines);
+  archive(news.robot, news.pose, news.height_m, news.odometry, news.position, news.readings, news.lines);
 }
 void carry(auto& archive, RobotLines& lines) { archive(lines.robot, lines.lines); }
 

@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/record/viewer_recording.hpp"
 
+#include "modules/messages/readings.hpp"
+
 namespace waitpoint::tools {
 
 ViewerRecording::ViewerRecording(const std::filesystem::path& path, const scenario::Scenario& scenario)
     : Recording(path) {
-  for (std::size_t i = 0; i < scenario.robots.size(); ++i)
-    robots_.push_back({i, scenario.robots[i].name, recorded_lasers(scenario.robots[i])});
+  for (std::size_t i = 0; i < scenario.robots.size(); ++i) {
+    OfRobot& robot = robots_.emplace_back(OfRobot{i, scenario.robots[i].name, {}});
+    world::Sensors::for_each(
+        [&]<class S>() { std::get<RecordedSensors<S>>(robot.sensors) = recorded_sensors<S>(scenario.robots[i]); });
+  }
 }
 
 void ViewerRecording::record(const StepNews& step) {
@@ -35,14 +40,23 @@ void ViewerRecording::record_news(const OfRobot& robot, const RobotNews& news) {
     write_position(robot, *news.position);
     write_transform(news.position->date, root, believed, news.position->pose, 0);
   }
-  for (std::size_t k = 0; k < news.scans.size(); ++k) {
-    if (!news.scans[k]) continue;
-    const RecordedLaser& laser = robot.lasers[k];
-    const std::string frame = robot.name + "/" + laser.name;
-    write_transform(news.scans[k]->date, believed, frame, laser.description.mount, laser.description.height_m);
-    write_scan(robot, k, frame, *news.scans[k]);
+  world::Sensors::for_each([&]<class S>() { record_readings<S>(robot, news.readings); });
+}
+
+template <class S>
+void ViewerRecording::record_readings(const OfRobot& robot, const NewReadings& readings) {
+  for (std::size_t k = 0; k < readings.of<S>().size(); ++k) {
+    const auto& reading = readings.of<S>()[k];
+    if (!reading) continue;
+    const RecordedSensor<S>& sensor = std::get<RecordedSensors<S>>(robot.sensors)[k];
+    const std::string device = robot.name + "/" + sensor.name;
+    const auto mounts = messages::mounts_of(sensor.description);
+    for (const messages::Mount& mount : mounts)
+      write_transform(reading->date, robot.name + "/position", device + mount.suffix, mount.pose, mount.height_m);
+    const std::string frame = requires { S::in_world_frame; }
+    ? root : mounts.empty() ? robot.name : device;
+    write_reading(NewReading<S>{"/" + device, frame, sensor.description, *reading});
   }
-  write_readings(robot, news.readings);
 }
 
 void ViewerRecording::record_lines(const OfRobot& robot, const RobotNews& news) {

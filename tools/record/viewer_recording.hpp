@@ -2,10 +2,10 @@
 // The contents of a recording for viewers, independent of the file format:
 //
 //   ten times a second  the virtual time; the obstacles, if changed; each robot's true pose (world -> ROBOT)
-//   at each new value   a robot's odometry, its estimated pose (world -> ROBOT/position), its laser scans
-//                       (in ROBOT/position -> ROBOT/LASER), the readings of its other sensors that a module reads,
-//                       requests to its modules and their outcomes; the topics of its nodes of ROS that are shown, by
-//                       their names, with `map` for the root frame
+//   at each new value   a robot's odometry, its estimated pose (world -> ROBOT/position), the readings of its sensors
+//                       that a module reads (with a mount: in ROBOT/position -> ROBOT/SENSOR), requests to its modules
+//                       and their outcomes; the topics of its nodes of ROS that are shown, by their names, with `map`
+//                       for the root frame
 #pragma once
 
 #include "tools/record/recording.hpp"
@@ -18,11 +18,22 @@ class ViewerRecording : public Recording {
   bool shows_obstacles() const final { return true; }
 
  protected:
+  template <class S>
+  using RecordedSensors = std::vector<RecordedSensor<S>>;
   struct OfRobot {
     std::size_t number;
     std::string name;
-    std::vector<RecordedLaser> lasers;
+    world::Sensors::Tuple<RecordedSensors> sensors;
   };
+
+  /// A new reading of a sensor of type S, and the topic and the frame for its messages.
+  template <class S>
+  struct NewReading {
+    std::string topic, frame;
+    const typename S::Description& description;
+    const typename S::Reading& reading;
+  };
+  using AnyNewReading = world::Sensors::Variant<NewReading>;
 
   static constexpr const char* root = "world";  ///< the root frame
 
@@ -35,6 +46,8 @@ class ViewerRecording : public Recording {
   void commit(const StepNews& last, const bridge::RunResult& result) final;
   void record_truth(const OfRobot& robot, const RobotNews& news, Time now);
   void record_news(const OfRobot& robot, const RobotNews& news);
+  template <class S>
+  void record_readings(const OfRobot& robot, const NewReadings& readings);
   void record_lines(const OfRobot& robot, const RobotNews& news);
 
   // Implemented by the format.
@@ -48,11 +61,7 @@ class ViewerRecording : public Recording {
   virtual void write_truth(const OfRobot& robot, Time date, const Pose& pose, double height_m) = 0;
   virtual void write_odometry(const OfRobot& robot, const posters::Odometry& odometry) = 0;
   virtual void write_position(const OfRobot& robot, const posters::PositionEstimate& position) = 0;
-  /// Of the robot's laser number `laser`, in that frame.
-  virtual void write_scan(const OfRobot& robot, std::size_t laser, const std::string& frame,
-                          const posters::LaserReading& scan) = 0;
-  /// The new readings of its other sensors.
-  virtual void write_readings(const OfRobot& robot, const NewReadings& readings) = 0;
+  virtual void write_reading(const AnyNewReading& reading) = 0;
   virtual void write_shown(const nodes::ShownMessage& message, const std::string& frame) = 0;
   virtual void write_log(const OfRobot& robot, const ModuleLog::Line& line) = 0;
   /// Called last.

@@ -59,7 +59,7 @@ void FrameReader::take_up_robots() {
     const genom::NameSpace& names = robot.names();
     robots_.push_back(OfRobot{robot,
                               world::BodyId(i),
-                              recorded_lasers(scenario_.robots[i]),
+                              recorded_sensors<world::Lasers>(scenario_.robots[i]),
                               {scenario_.robots[i], robot},
                               {names, "rflex.sonars"},
                               {names, "segloc.map"},
@@ -122,7 +122,7 @@ void FrameReader::add_poses(OfRobot& robot, std::string& text) {
 }
 
 void FrameReader::add_scans(OfRobot& robot, std::string& text) {
-  const std::vector<std::optional<posters::LaserReading>> scans = robot.posters.scans();
+  const NewReadingsOf<world::Lasers> scans = robot.posters.readings_of<world::Lasers>();
   bool any = false;
   for (std::size_t i = 0; i < scans.size(); ++i) {
     if (!scans[i]) continue;

@@ -11,6 +11,7 @@
 
 #include "modules/posters/base.hpp"
 #include "modules/posters/followed_route.hpp"
+#include "modules/posters/laser.hpp"
 #include "modules/run/experiment.hpp"
 #include "tools/record/robot_posters.hpp"
 #include "tools/view/view_json.hpp"
@@ -49,7 +50,7 @@ class FrameReader {
   struct OfRobot {
     const bridge::Robot& robot;
     world::BodyId body;
-    std::vector<RecordedLaser> lasers;
+    std::vector<RecordedSensor<world::Lasers>> lasers;
     RobotPosters posters;
     NewValues<posters::Sonars> sonars;
     NewValues<posters::SegmentMap> segments;

@@ -293,7 +293,7 @@ std::optional<std::string> BulletWorld::push(const std::string& name, Point forc
 
 }  // namespace
 
-std::unique_ptr<World> make_bullet_world(const WorldDescription& description, std::uint64_t seed) {
+std::unique_ptr<VehicleWorld> make_bullet_world(const WorldDescription& description, std::uint64_t seed) {
   return std::make_unique<BulletWorld>(description, seed);
 }
 

@@ -12,12 +12,12 @@
 #include <cstdint>
 #include <memory>
 
-#include "world/world.hpp"
+#include "world/kinematic/vehicle_world.hpp"
 
 namespace waitpoint::world {
 
 /// A world at its start; null if this library was built without Bullet. As for make_kinematic_world(), overlaps of
 /// bodies are a bug here.
-std::unique_ptr<World> make_bullet_world(const WorldDescription& description, std::uint64_t seed);
+std::unique_ptr<VehicleWorld> make_bullet_world(const WorldDescription& description, std::uint64_t seed);
 
 }  // namespace waitpoint::world

@@ -4,6 +4,6 @@
 
 namespace waitpoint::world {
 
-std::unique_ptr<World> make_bullet_world(const WorldDescription&, std::uint64_t) { return nullptr; }
+std::unique_ptr<VehicleWorld> make_bullet_world(const WorldDescription&, std::uint64_t) { return nullptr; }
 
 }  // namespace waitpoint::world

@@ -20,6 +20,14 @@
 
 namespace waitpoint::world {
 
+/// One scan of a laser as it is measured, counter-clockwise, in the device's frame. Reused between scans, it allocates
+/// only once.
+struct LaserScan {
+  double first_angle_rad = 0, angle_step_rad = 0;
+  double range_max_m = 0;       ///< the reading of a beam without echo
+  std::vector<double> range_m;  ///< one per beam, measured: with noise, quantised
+};
+
 class ExpectedScans {
  public:
   struct Entry {

@@ -237,7 +237,7 @@ void KinematicWorld::change_obstacles(std::vector<Obstacle> obstacles) {
 
 }  // namespace
 
-std::unique_ptr<World> make_kinematic_world(const WorldDescription& description, std::uint64_t seed) {
+std::unique_ptr<VehicleWorld> make_kinematic_world(const WorldDescription& description, std::uint64_t seed) {
   return std::make_unique<KinematicWorld>(description, seed);
 }
 

@@ -6,12 +6,12 @@
 #include <cstdint>
 #include <memory>
 
-#include "world/world.hpp"
+#include "world/kinematic/vehicle_world.hpp"
 
 namespace waitpoint::world {
 
 /// A world at its start. A body that overlaps an obstacle or another body (see start_overlaps) is a bug here: readers
 /// of descriptions report it as bad input.
-std::unique_ptr<World> make_kinematic_world(const WorldDescription& description, std::uint64_t seed);
+std::unique_ptr<VehicleWorld> make_kinematic_world(const WorldDescription& description, std::uint64_t seed);
 
 }  // namespace waitpoint::world

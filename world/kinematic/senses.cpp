@@ -63,7 +63,7 @@ Senses::Devices::Devices(const BodyDescription& body, double step_s, std::uint64
   looks_back = !std::all_of(lasers.begin(), lasers.end(), [](const Laser& laser) { return laser.plain(); });
   for (std::size_t i = 0; i < body.sensors<Sonars>().size(); ++i)
     sonar_noise.push_back(world::sonar_noise(seed, body.name, i));
-  SensorsReadAlone::for_each([&]<class S>() {
+  SensorsWithModel::for_each([&]<class S>() {
     if (const auto& description = body.sensors<S>())
       std::get<OwnedModel<S>>(models) = std::make_unique<typename S::Model>(*description, seed, body.name);
   });
@@ -72,7 +72,7 @@ Senses::Devices::Devices(const BodyDescription& body, double step_s, std::uint64
 void Senses::Devices::reseed(std::uint64_t seed, const std::string& body) {
   for (std::size_t i = 0; i < lasers.size(); ++i) lasers[i].reseed(seed, body, i);
   for (std::size_t i = 0; i < sonar_noise.size(); ++i) sonar_noise[i] = world::sonar_noise(seed, body, i);
-  SensorsReadAlone::for_each([&]<class S>() {
+  SensorsWithModel::for_each([&]<class S>() {
     if (const auto& model = this->model<S>()) model->reseed(seed, body);
   });
 }
@@ -106,7 +106,7 @@ void Senses::moved(std::uint32_t body, const Vehicle& vehicle, std::uint64_t ste
   const BodyState& state = vehicle.state();
   if (devices.looks_back) devices.trail.add(state.arc);
   const StepDone done{description_.step * static_cast<std::int64_t>(step), description_.step};
-  SensorsReadAlone::for_each([&]<class S>() {
+  SensorsWithModel::for_each([&]<class S>() {
     if constexpr (!ReadOnDemand<S>)
       if (const auto& model = devices.model<S>()) model->moved(done, state);
   });
@@ -203,16 +203,19 @@ double Senses::cast(const Beam& beam, double range_max_m, std::optional<BodyId> 
                       range_max_m);
 }
 
-void Senses::sonar(const Vehicle& vehicle, std::uint32_t own, std::size_t ring_number, std::uint64_t firing_number,
-                   std::vector<double>& range_m) const {
+void Senses::fire(const Vehicle& vehicle, std::uint32_t own, std::size_t ring_number, std::uint64_t firing,
+                  Sonars::Reading& reading) const {
   const SonarRingDescription& ring = vehicle.description().sensors<Sonars>().at(ring_number);
-  if (range_m.size() != ring.count) range_m.assign(ring.count, ring.range_max_m);
+  if (reading.range_m.size() != ring.count) {
+    reading.range_m.resize(ring.count);
+    std::fill(reading.range_m.begin(), reading.range_m.end(), ring.range_max_m);
+  }
   distances_.resize(ring.count);
-  sonar_echoes_.fire(vehicle, own, ring_number, firing_number, distances_);
+  sonar_echoes_.fire(vehicle, own, ring_number, firing, distances_);
   for (std::uint32_t i = 0; i < ring.count; ++i) {
-    WAITPOINT_FAST_CHECK(!fires(ring, i, firing_number) || distances_[i] >= 0, "the distance of an echo is negative");
-    if (fires(ring, i, firing_number))
-      range_m[i] = sonar_range_m(ring, distances_[i], devices_[own].sonar_noise[ring_number].normal(firing_number, i));
+    WAITPOINT_FAST_CHECK(!Sonars::fires(ring, i, firing) || distances_[i] >= 0, "the distance of an echo is negative");
+    if (Sonars::fires(ring, i, firing))
+      reading.range_m[i] = sonar_range_m(ring, distances_[i], devices_[own].sonar_noise[ring_number].normal(firing, i));
   }
 }
 
@@ -255,22 +258,47 @@ std::span<const Separation> Senses::OfBody::near(double reach_m) const {
   return separations;
 }
 
-bool Senses::read(const Vehicle& vehicle, std::uint32_t own, std::uint64_t number, const AnyReadingOut& out) const {
+template <HasModel S>
+bool Senses::read_model(const Vehicle& vehicle, std::uint32_t own, std::uint64_t number,
+                        typename S::Reading& reading) const {
+  const auto& model = devices_.at(own).model<S>();
+  WAITPOINT_CHECK(model != nullptr, "a body is asked for a sensor that it does not have");
+  if constexpr (ReadOnDemand<S>) {
+    model->read(OfBody(*this, vehicle, own), number, reading);
+  } else {
+    if (model->reading().number == reading.number) return false;
+    reading = model->reading();
+  }
+  return true;
+}
+
+bool Senses::read(const Vehicle& vehicle, std::uint32_t own, std::size_t device, std::uint64_t number, double time_s,
+                  const AnyReadingOut& out) const {
   return std::visit(
       [&]<class S>(const ReadingOut<S>& of) {
-        const auto& model = devices_.at(own).model<S>();
-        WAITPOINT_CHECK(model != nullptr, "a body is asked for a sensor that it does not have");
         typename S::Reading& reading = *of.reading;
-        if constexpr (ReadOnDemand<S>) {
-          model->read(OfBody(*this, vehicle, own), number, reading);
-          return true;
+        const Time date = reading.date;
+        bool is_new = true;
+        if constexpr (HasModel<S>) {
+          is_new = read_model<S>(vehicle, own, number, reading);
+        } else if constexpr (std::is_same_v<S, Lasers>) {
+          scan(vehicle, own, device, number, time_s, scan_);
+          reading.number = static_cast<std::uint32_t>(number);
+          reading.first_angle_rad = scan_.first_angle_rad;
+          reading.angle_step_rad = scan_.angle_step_rad;
+          reading.range_max_m = scan_.range_max_m;
+          reading.range_m.clear();
+          for (const double range_m : scan_.range_m) reading.range_m.push_back(static_cast<float>(range_m));
+        } else if constexpr (std::is_same_v<S, Sonars>) {
+          WAITPOINT_CHECK(number > 0, "firings of sonars are numbered from 1");
+          fire(vehicle, own, device, number - 1, reading);
+          reading.number = number;
         } else {
-          if (model->reading().number == reading.number) return false;
-          const Time date = reading.date;
-          reading = model->reading();
-          reading.date = date;
-          return true;
+          static_assert(std::is_same_v<S, Battery>);
+          reading = vehicle.battery(time_s);
         }
+        reading.date = date;
+        return is_new;
       },
       out);
 }

@@ -68,18 +68,21 @@ class Senses {
   /// Adds the memory of the body's own that a scan touches.
   void add_scan_to(WorkingSet& set, std::uint32_t body) const;
 
-  // The functions of World with the same names, for body `own`, which is `vehicle`.
+  // The functions of VehicleWorld and World with the same names, for body `own`, which is `vehicle`.
 
   void scan(const Vehicle& vehicle, std::uint32_t own, std::size_t laser, std::uint64_t scan_number, double time_s,
             LaserScan& out) const;
-  void sonar(const Vehicle& vehicle, std::uint32_t own, std::size_t ring, std::uint64_t firing_number,
-             std::vector<double>& range_m) const;
-  bool read(const Vehicle& vehicle, std::uint32_t own, std::uint64_t number, const AnyReadingOut& out) const;
+  bool read(const Vehicle& vehicle, std::uint32_t own, std::size_t device, std::uint64_t number, double time_s,
+            const AnyReadingOut& out) const;
   double cast(const Beam& beam, double range_max_m, std::optional<BodyId> own) const;
 
  private:
   void make_scan(const Vehicle& vehicle, std::uint32_t own, std::size_t laser, std::uint64_t scan_number, double time_s,
                  LaserScan& out) const;
+  void fire(const Vehicle& vehicle, std::uint32_t own, std::size_t ring, std::uint64_t firing,
+            Sonars::Reading& reading) const;
+  template <HasModel S>
+  bool read_model(const Vehicle& vehicle, std::uint32_t own, std::uint64_t number, typename S::Reading& reading) const;
 
   class OfBody;
 
@@ -90,7 +93,7 @@ class Senses {
   struct Devices {
     std::vector<Laser> lasers;
     bool looks_back;                             // a laser measures beams at different times
-    SensorsReadAlone::Tuple<OwnedModel> models;  // null for a body without one
+    SensorsWithModel::Tuple<OwnedModel> models;  // null for a body without one
     ArcTrail trail;                              // of the longest scan; kept only if looks_back
     std::vector<RandomStream> sonar_noise;
 
@@ -114,6 +117,7 @@ class Senses {
   mutable std::vector<std::uint32_t> near_;
   mutable std::vector<Separation> separations_;
   mutable std::vector<double> distances_;
+  mutable LaserScan scan_;
   std::vector<std::uint32_t> in_turn_;
 };
 

@@ -63,11 +63,11 @@ void SonarEchoes::fire(const Vehicle& body, std::uint32_t own, std::size_t ring_
   for (const SonarRingDescription& other : rings) {
     if (!ring.crosstalk || !other.crosstalk) continue;
     for (std::uint32_t j = 0; j < other.count; ++j)
-      if (fires(other, j, firing)) emitters_.emplace_back(other, compose(pose, transducer_mount(other, j)));
+      if (Sonars::fires(other, j, firing)) emitters_.emplace_back(other, compose(pose, Sonars::mount(other, j)));
   }
   for (std::uint32_t i = 0; i < ring.count; ++i) {
-    if (!fires(ring, i, firing)) continue;
-    const SonarCone cone(ring, compose(pose, transducer_mount(ring, i)));
+    if (!Sonars::fires(ring, i, firing)) continue;
+    const SonarCone cone(ring, compose(pose, Sonars::mount(ring, i)));
     distances_m[i] = nearest_echo(cone, height_m, own);
     for (const SonarCone& emitter : emitters_) {
       const bool itself = emitter.origin() == cone.origin() && emitter.axis() == cone.axis();

@@ -22,20 +22,18 @@ class VehicleWorld : public World {
 
   const BodyState& body(BodyId id) const final { return vehicles_.at(index(id)).state(); }
   const OdometerReading& odometer(BodyId id) const final { return vehicles_.at(index(id)).odometer(); }
-  BatteryState battery(BodyId id) const final { return vehicles_.at(index(id)).battery(elapsed_s()); }
 
-  void scan(BodyId id, std::size_t laser, std::uint64_t scan_number, LaserScan& out) const final {
+  /// Scans with the body's laser number `laser`: the ranges that World::read() rounds to those of the device's
+  /// telegram.
+  void scan(BodyId id, std::size_t laser, std::uint64_t scan_number, LaserScan& out) const {
     senses_.scan(vehicles_.at(index(id)), number(id), laser, scan_number, elapsed_s(), out);
   }
   void expect_scan(BodyId id, std::size_t laser, std::uint64_t scan_number) final {
     senses_.expect_scan(number(id), laser, scan_number);
   }
-  void sonar(BodyId id, std::size_t ring, std::uint64_t firing_number, std::vector<double>& range_m) const final {
-    senses_.sonar(vehicles_.at(index(id)), number(id), ring, firing_number, range_m);
-  }
   void add_to(WorkingSet& set, BodyId id) const final { vehicles_.at(index(id)).add_to(set); }
   void add_scan_to(WorkingSet& set, BodyId id) const final { senses_.add_scan_to(set, number(id)); }
-  double cast(const Beam& beam, double range_max_m, std::optional<BodyId> own) const final {
+  double cast(const Beam& beam, double range_max_m, std::optional<BodyId> own = std::nullopt) const final {
     return senses_.cast(beam, range_max_m, own);
   }
 
@@ -58,8 +56,8 @@ class VehicleWorld : public World {
   Senses senses_;  // with the bodies as published at the last step but one, at the beginning of the last step
 
  private:
-  bool read_any(BodyId id, std::uint64_t reading_number, const AnyReadingOut& out) const final {
-    return senses_.read(vehicles_.at(index(id)), number(id), reading_number, out);
+  bool read_any(BodyId id, std::size_t device, std::uint64_t reading_number, const AnyReadingOut& out) const final {
+    return senses_.read(vehicles_.at(index(id)), number(id), device, reading_number, elapsed_s(), out);
   }
 };
 

@@ -28,14 +28,14 @@ std::uint32_t telegram_bytes(const LaserDescription& laser) {
   return frame_bytes + range_bytes * laser.beams;
 }
 
-Duration transmission(const LaserDescription& laser) {
+Duration Lasers::transmission(const LaserDescription& laser) {
   if (laser.line_bit_s == 0) return Duration();
   constexpr std::int64_t bits_a_byte = 10, second_ns = 1'000'000'000;
   return Duration::from_ns(telegram_bytes(laser) * bits_a_byte * second_ns / laser.line_bit_s);
 }
 
 Duration least_period(const LaserDescription& laser) {
-  return std::max(laser.mirror_turn * static_cast<std::int64_t>(laser.interlaced_turns), transmission(laser));
+  return std::max(laser.mirror_turn * static_cast<std::int64_t>(laser.interlaced_turns), Lasers::transmission(laser));
 }
 
 }  // namespace waitpoint::world

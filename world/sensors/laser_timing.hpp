@@ -19,8 +19,6 @@ double beam_time_s(const LaserDescription& laser, std::uint32_t beam);
 double scan_span_s(const LaserDescription& laser);
 
 std::uint32_t telegram_bytes(const LaserDescription& laser);
-/// The duration of the telegram on the line; 0 without a line.
-Duration transmission(const LaserDescription& laser);
 
 /// The shortest period of scans that mirror and line allow; 0 if neither limits it.
 Duration least_period(const LaserDescription& laser);

@@ -102,23 +102,6 @@ void find_concave_corners(const Outline& a, const Outline& b, std::vector<Concav
   }
 }
 
-Pose transducer_mount(const SonarRingDescription& ring, std::uint32_t transducer) {
-  const double heading = exact::wrap_angle(2 * exact::pi * transducer / ring.count);
-  const auto [s, c] = exact::sincos(heading);
-  return {ring.ring_radius_m * c, ring.ring_radius_m * s, heading};
-}
-
-std::uint64_t slots(const SonarRingDescription& ring) {
-  return ring.firing_order.empty() ? 1 : ring.firing_order.size();
-}
-
-bool fires(const SonarRingDescription& ring, std::uint32_t transducer, std::uint64_t firing) {
-  const std::uint64_t turns = slots(ring);
-  WAITPOINT_FAST_CHECK(turns == 1 || ring.firing_order[firing % turns] < turns,
-                       "a ring's order names no member of a bank");
-  return turns == 1 || transducer % turns == ring.firing_order[firing % turns];
-}
-
 double sound_m_s(double celsius) { return 331.3 + 0.606 * celsius; }
 
 double sonar_range_m(const SonarRingDescription& ring, double distance_m, double normal) {

@@ -90,13 +90,6 @@ class SonarCone {
 /// The concave corners between two boxes that touch or overlap; appends to `corners`.
 void find_concave_corners(const Outline& a, const Outline& b, std::vector<ConcaveCorner>& corners);
 
-/// The transducer's pose in the body's frame.
-Pose transducer_mount(const SonarRingDescription& ring, std::uint32_t transducer);
-
-/// The number of firings in one round of the ring; true if a transducer fires in the firing of that number.
-std::uint64_t slots(const SonarRingDescription& ring);
-bool fires(const SonarRingDescription& ring, std::uint32_t transducer, std::uint64_t firing);
-
 /// The speed of sound in air.
 double sound_m_s(double celsius);
 

@@ -124,7 +124,7 @@ Arc as_wheels_count(const BaseDescription& base, const Arc& arc) {
   return counted;
 }
 
-BatteryState base_battery(const BaseDescription& base, double elapsed_s, double travelled_m) {
+Battery::Reading base_battery(const BaseDescription& base, double elapsed_s, double travelled_m) {
   const double used = std::min(elapsed_s / base.battery_capacity_s + travelled_m / base.battery_capacity_m, 1.0);
   return {.volts = base.battery_volts_full - (base.battery_volts_full - base.battery_volts_empty) * used,
           .charge = 1 - used};

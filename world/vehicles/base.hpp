@@ -39,6 +39,6 @@ Arc as_wheels_count(const BaseDescription& base, const Arc& arc);
 
 /// The default battery of a base: its voltage falls linearly from full to empty with the time since the start and the
 /// distance driven; its power never ends.
-BatteryState base_battery(const BaseDescription& base, double elapsed_s, double travelled_m);
+Battery::Reading base_battery(const BaseDescription& base, double elapsed_s, double travelled_m);
 
 }  // namespace waitpoint::world

@@ -32,11 +32,15 @@ double BatteryPack::volts() const {
   return d.volts_full - (d.volts_full - d.volts_empty) * used - d.resistance_ohm * current_a_;
 }
 
-BatteryState BatteryPack::state() const {
+Battery::Reading BatteryPack::reading() const {
   const Battery::Description& d = description_;
   double told_v = volts();
   if (d.resolution_v > 0) told_v = std::nearbyint(told_v / d.resolution_v) * d.resolution_v;
-  return {told_v, current_a_, std::max(1 - drawn_ah_ / d.capacity_ah, 0.0), empty_at_};
+  return {.volts = told_v,
+          .current_a = current_a_,
+          .charge = std::max(1 - drawn_ah_ / d.capacity_ah, 0.0),
+          .empty = empty(),
+          .empty_after = empty_at_.value_or(Duration())};
 }
 
 }  // namespace waitpoint::world

@@ -11,7 +11,6 @@
 
 #include "world/arc.hpp"
 #include "world/description.hpp"
-#include "world/world.hpp"
 
 namespace waitpoint::world {
 
@@ -22,7 +21,7 @@ class BatteryPack {
   /// Supplies a body of that velocity in the step of length `step` that ends at `now` since the start.
   void draw(Duration now, Duration step, const Velocity& velocity, bool stalled);
   bool empty() const { return empty_at_.has_value(); }
-  BatteryState state() const;
+  Battery::Reading reading() const;
 
  private:
   double volts() const;

@@ -100,8 +100,8 @@ void Vehicle::go(std::uint64_t step, Duration period, const Arc& arc) {
   if (battery_) battery_->draw(period * static_cast<std::int64_t>(step), period, state_.velocity, state_.stalled);
 }
 
-BatteryState Vehicle::battery(double elapsed_s) const {
-  return battery_ ? battery_->state() : base_battery(description_->base, elapsed_s, state_.travelled_m);
+Battery::Reading Vehicle::battery(double elapsed_s) const {
+  return battery_ ? battery_->reading() : base_battery(description_->base, elapsed_s, state_.travelled_m);
 }
 
 void Vehicle::put(const Pose& pose) {

@@ -31,7 +31,7 @@ class Vehicle {
   /// Adds the memory that queries of its state and commands touch.
   void add_to(WorkingSet& set) const { set.add_between(this, &motion_); }
   /// `elapsed_s` is the time since the start.
-  BatteryState battery(double elapsed_s) const;
+  Battery::Reading battery(double elapsed_s) const;
   /// Its outline in its current pose.
   const Outline& outline() const { return outline_; }
   /// Its shape in the body's frame, raised to its current height.

@@ -47,16 +47,16 @@ world::WorldDescription described(std::size_t robots) {
 }
 
 void drive(world::World& world, world::BodyId body) {
-  world::LaserScan scan;
+  world::Lasers::Reading scan;
   scan.range_m.resize(12);
   WorkingSet set;
   set.add_stack_below(1024);
-  set.add(scan.range_m.data(), scan.range_m.size() * sizeof(double));
+  set.add(scan.range_m.begin(), scan.range_m.size() * sizeof(float));
   world.add_to(set, body);
   world.add_scan_to(set, body);
   this_thread::set_working_set(set);
   for (std::uint64_t number = 1;; ++number) {
-    world.scan(body, 0, number, scan);
+    world.read<world::Lasers>(body, number, scan);
     const double ahead_m = std::min({scan.range_m[4], scan.range_m[5], scan.range_m[6], scan.range_m[7]});
     world.command(body, ahead_m > 0.6 ? world::Velocity{0.5, 0} : world::Velocity{0, 0.8});
     this_thread::sleep_until(Time() + period * static_cast<std::int64_t>(number));

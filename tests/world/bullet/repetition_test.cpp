@@ -22,7 +22,7 @@ class DynamicRepetition : public DynamicWorldTest {
   }
 
   // The digest of the first robots and loose shapes, driven for a while.
-  Digest driven(World& world, std::size_t count) {
+  Digest driven(VehicleWorld& world, std::size_t count) {
     Digest digest;
     LaserScan scan;
     for (int k = 0; k < 400; ++k) {

@@ -49,7 +49,7 @@ class DynamicWorldTest : public testing::Test {
   const Shape& obstacle(std::size_t number) const { return world_->description().obstacles[number].shape; }
 
   WorldDescription description_;
-  std::unique_ptr<World> world_;
+  std::unique_ptr<VehicleWorld> world_;
 };
 
 }  // namespace waitpoint::world

@@ -223,8 +223,8 @@ TEST(MeshWorld, BothEnginesAreOneToTheLastBit) {
         slice->scan(id, laser, 1, b);
         ASSERT_EQ(a.range_m, b.range_m) << step;
       }
-      fcl->sonar(id, 0, 1, sonar_a);
-      slice->sonar(id, 0, 1, sonar_b);
+      fire(*fcl, id, 0, 1, sonar_a);
+      fire(*slice, id, 0, 1, sonar_b);
       ASSERT_EQ(sonar_a, sonar_b);
     }
     fcl->step();

@@ -47,7 +47,7 @@ WorldDescription robots_among_shapes() {
 }
 
 // All sensor readings of a world that is driven and changed for a while.
-Digest readings(World& world, std::uint64_t seed, int steps) {
+Digest readings(VehicleWorld& world, std::uint64_t seed, int steps) {
   Draws draw(seed);
   Digest digest;
   LaserScan scan;
@@ -65,7 +65,7 @@ Digest readings(World& world, std::uint64_t seed, int steps) {
     for (std::size_t i = 0; i < 12; ++i) {
       world.scan(BodyId(i), 0, static_cast<std::uint64_t>(step), scan);
       for (const double range : scan.range_m) digest.add(range);
-      if (i % 2 == 0) world.sonar(BodyId(i), 0, static_cast<std::uint64_t>(step), sonar);
+      if (i % 2 == 0) fire(world, BodyId(i), 0, static_cast<std::uint64_t>(step), sonar);
       for (const double range : sonar) digest.add(range);
       add_value(digest, world.body(BodyId(i)));
     }

@@ -35,7 +35,7 @@ WorldDescription crowd(Engine engine) {
   return description;
 }
 
-std::vector<double> ranges(const World& world, std::size_t body, std::size_t laser, std::uint64_t number) {
+std::vector<double> ranges(const VehicleWorld& world, std::size_t body, std::size_t laser, std::uint64_t number) {
   LaserScan scan;
   world.scan(BodyId(body), laser, number, scan);
   EXPECT_EQ(scan.range_max_m, 32);

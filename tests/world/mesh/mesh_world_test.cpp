@@ -147,7 +147,7 @@ TEST(MeshWorld, SensorsSeeIt) {
     EXPECT_NEAR(world->cast({{1, 0}, 0, 0.7}, 10, only), 2, 1e-11) << "at a height without a sensor";
     EXPECT_EQ(world->cast({{1, 0}, 0, 2.1}, 10), 10);
     std::vector<double> ranges;
-    world->sonar(only, 0, 1, ranges);
+    fire(*world, only, 0, 1, ranges);
     EXPECT_NEAR(ranges[0], 1.75, 1e-9);
     EXPECT_EQ(ranges[6], body.sensors<Sonars>()[0].range_max_m);
   }

@@ -53,19 +53,19 @@ TEST(LaserTiming, AnLmsDoesNotDoWhatItCannot) {
 TEST(LaserTiming, TheLineTakesTenBitsAByte) {
   LaserDescription laser = lms(361, 180);
   EXPECT_EQ(telegram_bytes(laser), 732u);
-  EXPECT_EQ(transmission(laser), Duration::from_ns(14'640'000));
+  EXPECT_EQ(Lasers::transmission(laser), Duration::from_ns(14'640'000));
   laser.line_bit_s = 38400;
-  EXPECT_EQ(transmission(laser), Duration::from_ns(190'625'000));
-  EXPECT_EQ(least_period(laser), transmission(laser)) << "five scans a second";
+  EXPECT_EQ(Lasers::transmission(laser), Duration::from_ns(190'625'000));
+  EXPECT_EQ(least_period(laser), Lasers::transmission(laser)) << "five scans a second";
   laser.line_bit_s = 0;
-  EXPECT_EQ(transmission(laser), Duration());
+  EXPECT_EQ(Lasers::transmission(laser), Duration());
 }
 
 // --- what a moving robot sees ------------------------------------------------------------------------------------
 
 // Free space on all sides; a robot that scans with these beams after `steps` of a constant velocity.
 struct Ride {
-  std::unique_ptr<World> world;
+  std::unique_ptr<VehicleWorld> world;
   LaserScan scan;
 
   Ride(const LaserDescription& laser, Velocity velocity, int steps) {

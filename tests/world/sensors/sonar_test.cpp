@@ -27,7 +27,7 @@ double range(const std::vector<Shape>& shapes, double heading, const SonarRingDe
   description.bodies.push_back(nimble_body("robot", cylinder({0, 0}, 0.2), {0, 0, heading}));
   description.bodies[0].sensors<Sonars>().push_back(ring);
   std::vector<double> ranges;
-  make_kinematic_world(description, 1)->sonar(BodyId(0), 0, 1, ranges);
+  fire(*make_kinematic_world(description, 1), BodyId(0), 0, 1, ranges);
   return ranges.at(0);
 }
 
@@ -93,7 +93,7 @@ TEST(Sonar, ARingLooksAroundCounterClockwise) {
   ring.range_noise_relative = 0;
   description.bodies[0].sensors<Sonars>().push_back(ring);
   std::vector<double> ranges;
-  make_kinematic_world(description, 1)->sonar(BodyId(0), 0, 1, ranges);
+  fire(*make_kinematic_world(description, 1), BodyId(0), 0, 1, ranges);
   ASSERT_EQ(ranges.size(), 24u);
   for (std::size_t i = 0; i < 24; ++i) EXPECT_EQ(ranges[i] == 3, i != 6) << i;
   EXPECT_NEAR(ranges[6], 1.75, 1e-9);
@@ -120,19 +120,19 @@ std::unique_ptr<World> among_things(const std::vector<SonarRingDescription>& rin
 TEST(Sonar, BanksFireOneMemberEachInTheOrderGiven) {
   SonarRingDescription ring = quiet_ring();
   std::vector<double> all, in_turns;
-  among_things({ring})->sonar(BodyId(0), 0, 0, all);
+  fire(*among_things({ring}), BodyId(0), 0, 0, all);
   ring.firing_order = {2, 0, 3, 1};
   const auto world = among_things({ring});
   in_turns.assign(24, -1);
   for (std::uint64_t firing = 0; firing < 8; ++firing) {
-    world->sonar(BodyId(0), 0, firing, in_turns);
+    fire(*world, BodyId(0), 0, firing, in_turns);
     for (std::size_t i = 0; i < 24; ++i) {
       const std::size_t turn = i % 4 == 2 ? 0 : i % 4 == 0 ? 1 : i % 4 == 3 ? 2 : 3;
       EXPECT_EQ(in_turns[i], turn <= firing ? all[i] : -1) << i << " after " << firing;
     }
   }
   in_turns.clear();
-  world->sonar(BodyId(0), 0, 0, in_turns);
+  fire(*world, BodyId(0), 0, 0, in_turns);
   EXPECT_EQ(in_turns[0], 3) << "what has not fired yet has no echo";
 }
 
@@ -141,15 +141,15 @@ TEST(Sonar, BanksFireOneMemberEachInTheOrderGiven) {
 TEST(Sonar, NeighboursThatFireTogetherHearEachOther) {
   SonarRingDescription ring = quiet_ring();
   std::vector<double> alone, together, in_turns;
-  among_things({ring})->sonar(BodyId(0), 0, 0, alone);
+  fire(*among_things({ring}), BodyId(0), 0, 0, alone);
   ring.crosstalk = true;
-  among_things({ring})->sonar(BodyId(0), 0, 0, together);
+  fire(*among_things({ring}), BodyId(0), 0, 0, together);
   EXPECT_NEAR(alone[1] - alone[0], 0.0023, 1e-4);
   EXPECT_NEAR(together[1], 0.5 * (alone[0] + alone[1]), 1e-4);
   EXPECT_EQ(together[0], alone[0]) << "its own echo comes first";
   ring.firing_order = {0, 1, 2, 3};
   const auto world = among_things({ring});
-  for (std::uint64_t firing = 0; firing < 4; ++firing) world->sonar(BodyId(0), 0, firing, in_turns);
+  for (std::uint64_t firing = 0; firing < 4; ++firing) fire(*world, BodyId(0), 0, firing, in_turns);
   EXPECT_EQ(in_turns, alone) << "sixty degrees apart, none hears another";
 }
 
@@ -159,9 +159,9 @@ TEST(Sonar, RingsOfOneBodyHearEachOther) {
   lower.ring_radius_m = 0.26;
   upper.crosstalk = lower.crosstalk = true;
   std::vector<double> with, without;
-  among_things({upper, lower})->sonar(BodyId(0), 0, 0, with);
+  fire(*among_things({upper, lower}), BodyId(0), 0, 0, with);
   lower.crosstalk = false;
-  among_things({upper, lower})->sonar(BodyId(0), 0, 0, without);
+  fire(*among_things({upper, lower}), BodyId(0), 0, 0, without);
   EXPECT_NEAR(without[6], 1.75, 1e-9);
   EXPECT_NEAR(with[6], 1.745, 1e-9) << "half of 1.75 m and 1.74 m";
 }

@@ -30,7 +30,7 @@ std::vector<double> readings(WorldDescription description, const Pose& at, Engin
   description.engine = engine;
   description.bodies = {body};
   std::vector<double> ranges;
-  make_kinematic_world(description, 1)->sonar(BodyId(0), 0, 1, ranges);
+  fire(*make_kinematic_world(description, 1), BodyId(0), 0, 1, ranges);
   return ranges;
 }
 
@@ -99,7 +99,7 @@ TEST(SurfaceCorners, AWallOfManyTrianglesHasEdgesAtItsEndsOnly) {
   std::vector<double> ranges;
   const auto read = [&](double x, double heading) {
     world->move_body(BodyId(0), {x, 0, heading});
-    world->sonar(BodyId(0), 0, 1, ranges);
+    fire(*world, BodyId(0), 0, 1, ranges);
     return ranges.at(0);
   };
   const double up = 0.5 * exact::pi;

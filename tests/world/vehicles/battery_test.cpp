@@ -18,7 +18,7 @@ double emptied_after_s(const Battery::Description& description, const Velocity& 
   BatteryPack battery(description);
   for (int s = 1; s <= 7 * 86400; ++s) {
     battery.draw(s * second, second, velocity, false);
-    if (battery.empty()) return battery.state().empty_at->seconds();
+    if (battery.empty()) return battery.reading().empty_after.seconds();
   }
   return INFINITY;
 }
@@ -47,7 +47,7 @@ TEST(Battery, MotionDrawsByItsKeys) {
   EXPECT_NEAR(emptied_after_s(battery, {.climb_m_s = -0.2}), 3600, 1);
   BatteryPack pushing({.idle_a = 2, .stalled_a = 20});
   pushing.draw(second, second, {}, true);
-  EXPECT_EQ(pushing.state().current_a, 22);
+  EXPECT_EQ(pushing.reading().current_a, 22);
 }
 
 TEST(Battery, ItsVoltageFallsWithTheChargeAndSagsUnderLoad) {
@@ -60,14 +60,14 @@ TEST(Battery, ItsVoltageFallsWithTheChargeAndSagsUnderLoad) {
                        .charge = 0.75,
                        .idle_a = 5,
                        .drive_a_per_m_s = 10});
-  EXPECT_NEAR(battery.state().volts, 25 - 0.5, 1e-12);
+  EXPECT_NEAR(battery.reading().volts, 25 - 0.5, 1e-12);
   for (int s = 1; s <= 1800; ++s) battery.draw(s * second, second, {}, false);
-  EXPECT_NEAR(battery.state().charge, 0.5, 1e-9);
-  EXPECT_NEAR(battery.state().volts, 24 - 0.5, 1e-9);
+  EXPECT_NEAR(battery.reading().charge, 0.5, 1e-9);
+  EXPECT_NEAR(battery.reading().volts, 24 - 0.5, 1e-9);
   battery.draw(1801 * second, second, {0.5, 0}, false);
-  EXPECT_NEAR(battery.state().volts, 24 - 1.0, 0.002);
+  EXPECT_NEAR(battery.reading().volts, 24 - 1.0, 0.002);
   BatteryPack coarse({.resolution_v = 0.5});
-  EXPECT_EQ(coarse.state().volts, 26);
+  EXPECT_EQ(coarse.reading().volts, 26);
 }
 
 TEST(Battery, UnderLoadGoesOffBeforeItIsDrained) {
@@ -84,8 +84,8 @@ TEST(Battery, UnderLoadGoesOffBeforeItIsDrained) {
   BatteryPack battery(description);
   for (int s = 1; s <= 2000; ++s) battery.draw(s * second, second, {}, false);
   EXPECT_TRUE(battery.empty()) << "although without load the voltage is above again";
-  EXPECT_NEAR(battery.state().volts, 24, 0.01);
-  EXPECT_EQ(battery.state().current_a, 0);
+  EXPECT_NEAR(battery.reading().volts, 24, 0.01);
+  EXPECT_EQ(battery.reading().current_a, 0);
 }
 
 /// Drives at 0.5 m/s on a charge for 2 s.
@@ -107,7 +107,8 @@ TEST(Battery, WithoutItABaseBrakesToStandStillAndHearsNoCommand) {
     world->command(BodyId(0), {0.5, 0});
     world->step();
   }
-  ASSERT_EQ(world->battery(BodyId(0)).empty_at, Duration(2 * second));
+  ASSERT_TRUE(reading<Battery>(*world).empty);
+  ASSERT_EQ(reading<Battery>(*world).empty_after, Duration(2 * second));
   EXPECT_EQ(world->body(BodyId(0)).velocity.v_m_s, 0.5);
   const double x = world->body(BodyId(0)).pose.x;
   for (int i = 0; i < 100; ++i) {
@@ -117,7 +118,7 @@ TEST(Battery, WithoutItABaseBrakesToStandStillAndHearsNoCommand) {
   EXPECT_EQ(world->body(BodyId(0)).velocity, Velocity());
   EXPECT_NEAR(world->body(BodyId(0)).pose.x - x, 0.5 * 0.5 / 2, 0.01) << "v^2 / 2a";
   world->reset(1);
-  EXPECT_FALSE(world->battery(BodyId(0)).empty_at.has_value());
+  EXPECT_FALSE(reading<Battery>(*world).empty);
 }
 
 TEST(Battery, WithoutItWhatFliesSinksToTheFloor) {

@@ -24,7 +24,7 @@ BodyDescription body_on(Kind kind) {
   return body;
 }
 
-std::unique_ptr<World> world_of(const BodyDescription& body) {
+std::unique_ptr<VehicleWorld> world_of(const BodyDescription& body) {
   WorldDescription description;
   description.bodies.push_back(body);
   return make_kinematic_world(description, 1);

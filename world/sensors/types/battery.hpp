@@ -2,6 +2,7 @@
 // A battery pack and its loads, see vehicles/battery.hpp.
 #pragma once
 
+#include <chrono>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -12,6 +13,7 @@ namespace waitpoint::world {
 
 struct Battery {
   static constexpr std::string_view key = "battery", noun = "the battery";
+  static constexpr bool built_in = true;
 
   struct Description {
     double volts_full = 26, volts_empty = 22;  ///< without load
@@ -49,6 +51,25 @@ struct Battery {
       field("stalled_a", &D::stalled_a, electrical, "additional current of stalled motors");
     }
   };
+
+  struct Reading {
+    Time date = {};
+    double volts = 0, current_a = 0;
+    double charge = 1;  ///< remaining fraction of the capacity
+    bool empty = false;
+    Duration empty_after = {};  ///< from the start; 0 until it is empty: then the loads are off
+
+    static void fields(auto field) {
+      field("date", &Reading::date);
+      field("volts", &Reading::volts);
+      field("current_a", &Reading::current_a);
+      field("charge", &Reading::charge);
+      field("empty", &Reading::empty);
+      field("empty_after_s", &Reading::empty_after);
+    }
+  };
+
+  static constexpr Duration period(const Description&) { return std::chrono::seconds(1); }
 
   static std::optional<std::string> contradiction(const Description& of) {
     return of.volts_empty > of.volts_full ? std::optional("expected volts_empty to be at most volts_full")

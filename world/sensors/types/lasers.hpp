@@ -79,7 +79,15 @@ struct Lasers {
   static constexpr bool several = true;
   static constexpr std::uint32_t count_max = 721;  ///< beams
 
+  static constexpr bool named = true;
   using Description = LaserDescription;
+
+  /// Off until a command; each scan is numbered.
+  struct Command {
+    bool on = false;
+
+    static void fields(auto field) { field("on", &Command::on); }
+  };
 
   /// One scan, counter-clockwise, in the device's own frame.
   struct Reading {
@@ -98,6 +106,10 @@ struct Lasers {
       field("range_m", &Reading::range_m);
     }
   };
+
+  static constexpr Duration period(const Description& of) { return of.period; }
+  /// Of a scan on the serial line; 0 without a line.
+  static Duration transmission(const Description& of);
 };
 
 }  // namespace waitpoint::world

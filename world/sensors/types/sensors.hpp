@@ -6,16 +6,25 @@
 //
 //   key, noun           its key in a robot type, and its name in messages
 //   Description         its parameters as declared fields, with ranges, defaults and what they mean
-//   several             true: a list of them in a robot type
-//   contradiction(d)    optional: what is wrong with parameters that exclude each other
-//
-// and, unless another device reports for it (sonars and battery: the base's controller),
-//
-//   Reading             a value with declared fields, `date` first: the poster of the device value KEY.reading
-//   in_world_frame      optional: true if readings are in the world's frame; otherwise they are in the body's
-//   Model               the class that makes its readings: models.hpp
+//   Reading             a value with declared fields, `date` first: the poster of the device value NAME.reading; NAME
+//   is
+//                       the key
 //   period(description) if it is read on demand, at that period. Other sensors measure in every step of the world, and
 //                       count their readings in Reading::number.
+//
+// and, where this applies,
+//
+//   several             a robot type has a list of them; NAME is S::device, with a number from the second on, or
+//   named               the name in the scenario
+//   built_in            every body has one, also without a description
+//   in_world_frame      readings are in the world's frame; otherwise they are in the body's, or the description's mount
+//   in_turns            a reading continues the one before: every period counts, the first reading is due at once
+//   Command             it is off until a poster NAME.command of this type says `on`
+//   switched_by_base    it is off until the base's command says so
+//   transmission(d)     the time of a reading on a line, from its date to its arrival
+//   contradiction(d)    what is wrong with parameters that exclude each other
+//   Model               the class that makes its readings: models.hpp. Those of lasers and sonars are made by Senses
+//                       (world/kinematic), of all beams at once, those of the battery by the vehicle that it drives
 #pragma once
 
 #include <optional>
@@ -59,37 +68,43 @@ concept HasSeveral = requires {
   S::several;
 };
 
-/// A body has one at most, with a model and a poster of its own: World::read().
 template <class S>
-concept ReadAlone = !HasSeveral<S> && requires {
-  typename S::Reading;
+concept HasModel = requires {
+  typename S::Model;
 };
 
 /// It is read at the period of its description.
 template <class S>
-concept ReadOnDemand = ReadAlone<S> && requires(const typename S::Description& description) {
+concept ReadOnDemand = requires(const typename S::Description& description) {
   S::period(description);
 };
 
-template <class... Types>
-auto read_alone_of(SensorList<Types...>)
-    -> decltype((SensorList<>() + ... + std::conditional_t<ReadAlone<Types>, SensorList<Types>, SensorList<>>()));
-using SensorsReadAlone = decltype(read_alone_of(Sensors()));
+template <class S>
+concept HasCommand = requires {
+  typename S::Command;
+};
 
-/// The name of a sensor's reading in the bridge's table of a scenario.
-template <ReadAlone S>
-std::string device_value() {
-  std::string name(S::key);
-  name.append(".reading");
-  return name;
-}
+template <class S>
+concept StartsOff = HasCommand<S> || requires {
+  S::switched_by_base;
+};
+
+template <class S>
+concept HasLine = requires(const typename S::Description& description) {
+  S::transmission(description);
+};
+
+template <class... Types>
+auto modelled_of(SensorList<Types...>)
+    -> decltype((SensorList<>() + ... + std::conditional_t<HasModel<Types>, SensorList<Types>, SensorList<>>()));
+using SensorsWithModel = decltype(modelled_of(Sensors()));
 
 /// The reading of a sensor of type S, to be filled.
 template <class S>
 struct ReadingOut {
   typename S::Reading* reading;
 };
-using AnyReadingOut = SensorsReadAlone::Variant<ReadingOut>;
+using AnyReadingOut = Sensors::Variant<ReadingOut>;
 
 /// The descriptions of a body's sensors of type S.
 template <class S>
@@ -106,6 +121,23 @@ class Equipment {
   template <class S>
   const DescriptionsOf<S>& of() const {
     return std::get<DescriptionsOf<S>>(descriptions_);
+  }
+  /// How many sensors of type S the body has.
+  template <class S>
+  std::size_t count() const {
+    if constexpr (HasSeveral<S>)
+      return of<S>().size();
+    else
+      return requires { S::built_in; }
+    || of<S>() ? 1 : 0;
+  }
+  /// The description of one of them.
+  template <class S>
+  typename S::Description description(std::size_t number) const {
+    if constexpr (HasSeveral<S>)
+      return of<S>()[number];
+    else
+      return of<S>().value_or(typename S::Description());
   }
 
  private:

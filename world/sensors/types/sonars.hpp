@@ -9,6 +9,8 @@
 #include <string_view>
 #include <vector>
 
+#include "core/error.hpp"
+#include "core/exact_math.hpp"
 #include "core/fields.hpp"
 
 namespace waitpoint::world {
@@ -49,10 +51,42 @@ struct SonarRingDescription {
 
 struct Sonars {
   static constexpr std::string_view key = "sonars", noun = "a ring of sonars";
-  static constexpr bool several = true;
+  static constexpr std::string_view device = "sonar";
+  static constexpr bool several = true, in_turns = true, switched_by_base = true;
   static constexpr std::uint32_t count_max = 48;  ///< of all rings of a body
 
   using Description = SonarRingDescription;
+
+  /// Of one ring. A firing measures those transducers whose turn it is, the others keep their ranges.
+  struct Reading {
+    Time date;
+    std::uint64_t number = 0;            ///< of firings so far; 0: none yet
+    Bounded<double, count_max> range_m;  ///< without an echo the greatest range
+
+    static void fields(auto field) {
+      field("date", &Reading::date);
+      field("number", &Reading::number);
+      field("range_m", &Reading::range_m);
+    }
+  };
+
+  /// Firings in one round of a ring.
+  static constexpr std::uint64_t turns(const Description& of) {
+    return of.firing_order.empty() ? 1 : of.firing_order.size();
+  }
+  /// True if a transducer fires in the firing of that number, from 0.
+  static bool fires(const Description& of, std::uint32_t transducer, std::uint64_t firing) {
+    const std::uint64_t all = turns(of);
+    WAITPOINT_FAST_CHECK(all == 1 || of.firing_order[firing % all] < all, "a ring's order names no member of a bank");
+    return all == 1 || transducer % all == of.firing_order[firing % all];
+  }
+  /// The transducer's pose in the body's frame.
+  static Pose mount(const Description& of, std::uint32_t transducer) {
+    const double heading = exact::wrap_angle(2 * exact::pi * transducer / of.count);
+    const auto [s, c] = exact::sincos(heading);
+    return {of.ring_radius_m * c, of.ring_radius_m * s, heading};
+  }
+  static constexpr Duration period(const Description& of) { return of.period / static_cast<std::int64_t>(turns(of)); }
 
   static std::optional<std::string> contradiction(const Description& of) {
     return of.range_max_m <= of.range_min_m ? std::optional("expected range_max_m to be above range_min_m")

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "modules/bridge/scan_line.hpp"
+#include "modules/bridge/reading_line.hpp"
 
 #include <gtest/gtest.h>
+
+#include "modules/posters/laser.hpp"
 
 namespace waitpoint::bridge {
 namespace {
 
 using namespace std::chrono_literals;
+
+using Line = ReadingLine<posters::LaserReading>;
 
 posters::LaserReading numbered_scan(std::uint32_t number) {
   posters::LaserReading scan;
@@ -14,8 +18,8 @@ posters::LaserReading numbered_scan(std::uint32_t number) {
   return scan;
 }
 
-TEST(ScanLine, GivesScansInOrderEachOnceAllItsBytesHaveCome) {
-  ScanLine line(Duration(190ms));
+TEST(ReadingLine, GivesScansInOrderEachOnceAllItsBytesHaveCome) {
+  Line line(Duration(190ms));
   EXPECT_TRUE(line.takes_time());
   EXPECT_EQ(line.next_arrival(), std::nullopt);
   line.send(Time() + Duration(200ms), numbered_scan(1));
@@ -32,7 +36,7 @@ TEST(ScanLine, GivesScansInOrderEachOnceAllItsBytesHaveCome) {
   EXPECT_FALSE(line.take(Time() + Duration(900ms), scan));
 }
 
-TEST(ScanLine, WithoutTransmissionTakesNoTime) { EXPECT_FALSE(ScanLine(Duration()).takes_time()); }
+TEST(ReadingLine, WithoutTransmissionTakesNoTime) { EXPECT_FALSE(Line(Duration()).takes_time()); }
 
 }  // namespace
 }  // namespace waitpoint::bridge
