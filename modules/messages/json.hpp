@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Messages as JSON, by the tables of their fields: objects in the order of the declaration. Numbers that are none, and
-// infinite ones, are null; bytes that are no UTF-8 become replacement characters.
+// Messages, and readings of sensors, as JSON, by the tables of their fields: objects in the order of the declaration.
+// Numbers that are none, and infinite ones, are null; bytes that are no UTF-8 become replacement characters.
 #pragma once
 
 #include <limits>
 #include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
+#include "core/pose.hpp"
 #include "modules/messages/message.hpp"
 
 namespace waitpoint::messages {
@@ -14,7 +15,13 @@ namespace waitpoint::messages {
 template <class T>
 nlohmann::ordered_json to_json(const T& value) {
   using Json = nlohmann::ordered_json;
-  if constexpr (std::is_enum_v<T>) {
+  if constexpr (std::same_as<T, Time>) {
+    return to_json(stamp_of(value));
+  } else if constexpr (std::same_as<T, Duration>) {
+    return value.seconds();
+  } else if constexpr (std::same_as<T, waitpoint::Point>) {
+    return {{"x", value.x}, {"y", value.y}};
+  } else if constexpr (std::is_enum_v<T>) {
     return static_cast<int>(value);
   } else if constexpr (Plain<T> || std::same_as<T, std::string>) {
     return value;

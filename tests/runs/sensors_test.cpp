@@ -85,7 +85,7 @@ Recorded recorded(const typename S::Description& description, const typename S::
   if constexpr (requires { scan_of(reading, frame); })
     of.json = messages::encode_json(scan_of(reading, frame));
   else
-    of.json = tools::reading_json(reading).dump();
+    of.json = messages::encode_json(reading);
   if constexpr (requires { messages_of(description, reading, frame); })
     for (const auto& message : messages_of(description, reading, frame))
       of.bytes = messages::encode<messages::Wire::ros1>(message);

@@ -83,7 +83,7 @@ void FoxgloveRecording::write_reading(const AnyNewReading& any) {
           if (is_new)
             channel->second =
                 file_.add("waitpoint." + std::string(S::key), reading_schema<typename S::Reading>().dump(), of.topic);
-          file_.write(channel->second, now_, reading_json(of.reading).dump());
+          file_.write(channel->second, now_, messages::encode_json(of.reading));
         }
       },
       any);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A sensor's reading as a message, by its declared fields: JSON with a schema that has their units, and a message for
-// bags that has their names and numbers. For sensors without a message of ROS (modules/messages/readings.hpp).
+// A sensor's reading as a message, by its declared fields: the schema of its JSON, which has their units, and a message
+// for bags that has their names and numbers. For sensors without a message of ROS (modules/messages/readings.hpp).
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -10,36 +10,13 @@
 #include <vector>
 
 #include "core/field_facts.hpp"
+#include "modules/messages/json.hpp"
 #include "modules/messages/poses.hpp"
 #include "modules/messages/std_msgs.hpp"
 
 namespace waitpoint::tools {
 
 using Json = nlohmann::ordered_json;
-
-/// Times as those of messages: {sec, nsec}.
-template <class T>
-Json reading_json(const T& value) {
-  if constexpr (std::is_same_v<T, Time>) {
-    const messages::Stamp stamp = messages::stamp_of(value);
-    return {{"sec", stamp.sec}, {"nsec", stamp.nsec}};
-  } else if constexpr (std::is_same_v<T, Duration>) {
-    return value.seconds();
-  } else if constexpr (std::is_same_v<T, Point>) {
-    return {{"x", value.x}, {"y", value.y}};
-  } else if constexpr (HasFields<T>) {
-    Json object = Json::object();
-    for_each_field(
-        value, [&](std::string_view name, const auto& member) { object[std::string(name)] = reading_json(member); });
-    return object;
-  } else if constexpr (std::is_arithmetic_v<T>) {
-    return value;
-  } else {
-    Json list = Json::array();
-    for (const auto& each : value) list.push_back(reading_json(each));
-    return list;
-  }
-}
 
 template <class T>
 Json reading_schema(std::string_view name = "") {
@@ -91,7 +68,7 @@ inline void add_numbers(ReadingMessage& message, const Json& value, const std::s
 template <class Reading>
 ReadingMessage reading_message(const Reading& reading, const std::string& frame) {
   ReadingMessage message{messages::header_of(reading.date, frame), {}, {}};
-  const Json fields = reading_json(reading);
+  const Json fields = messages::to_json(reading);
   for (const auto& [name, value] : fields.items())
     if (name != "date") add_numbers(message, value, name);
   return message;
