@@ -211,8 +211,8 @@ template <class T>
 Keys<T>&& Keys<T>::add_fields() && {
   T::fields([this]<class Member>(std::string_view name, Member T::*member, const auto&... given) {
     const FieldFacts facts = facts_of(given...);
-    add_key(name, member, form_of<Member>(name, facts), std::string(facts.description),
-            facts.is_required ? Need::required : Need::optional);
+    this->add_key(name, member, form_of<Member>(name, facts), std::string(facts.description),
+                  facts.is_required ? Need::required : Need::optional);
   });
   return std::move(*this);
 }
