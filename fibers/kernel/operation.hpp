@@ -55,6 +55,7 @@ enum class Operation : std::uint8_t {
   modify,  ///< an atomic: fetch_add, fetch_or, ...
   fence,
   exit,  ///< of the process
+  call,  ///< of a function that waits for nothing: what it reads and changes is its footprint
 };
 
 /// The operation's name, as reports and event files show it.
@@ -69,9 +70,9 @@ constexpr const char* name(Operation operation) {
       "lock_shared", "try_lock_shared", "unlock_shared", "arrive", "count_down", "try_wait",
       "request_stop", "stop_requested", "add_callback", "remove_callback", "make_ready", "call_once",
       "load", "store", "exchange", "compare_exchange", "modify", "fence",
-      "exit"};
+      "exit", "call"};
   // clang-format on
-  static_assert(sizeof names / sizeof *names == static_cast<int>(Operation::exit) + 1);
+  static_assert(sizeof names / sizeof *names == static_cast<int>(Operation::call) + 1);
   return names[static_cast<int>(operation)];
 }
 

@@ -12,6 +12,7 @@
 #include "core/time.hpp"
 #include "core/working_set.hpp"
 #include "fibers/kernel/event_list.hpp"
+#include "fibers/kernel/footprint.hpp"
 #include "fibers/kernel/operation.hpp"
 #include "fibers/switch/fiber_record.hpp"
 
@@ -149,6 +150,8 @@ struct Task {
   std::uint32_t number = 0;       ///< counts the run's tasks in the order of their making, from 0
   std::uint32_t held_shared = 0;  ///< number of its entries in lists of holders
   std::uint32_t refusals = 0;     ///< number of calls refused since the run is over
+  EventFootprint
+      footprint{};  ///< of its pending event, beside the object; set by who announces it, until it is executed
   WaitSearch search;
   Work work{};
   char name[name_size] = {};

@@ -103,6 +103,7 @@ bool end_segment(Scheduler& scheduler, Task& task) {
 [[gnu::noinline]] bool begin_segment(Scheduler& scheduler, Task& task, Operation operation, Object* object) {
   if (task.seat != nullptr && !take_processor(task)) return false;
   while ((task.attention & attention::signal) != 0) {
+    const EventFootprint footprint = task.footprint;
     task.attention = static_cast<std::uint8_t>(task.attention & ~attention::signal);
     if (task.clock != nullptr && task.clock->begin != nullptr) task.clock->begin(*task.clock, task);
     WAITPOINT_CHECK(scheduler.hooks.deliver_signals != nullptr, "a signal is pending without a hook that delivers it");
@@ -110,6 +111,7 @@ bool end_segment(Scheduler& scheduler, Task& task) {
     if (scheduler.interruption.is_unwinding || !end_segment(scheduler, task)) return false;
     task.operation = operation;
     task.at = object;
+    task.footprint = footprint;
     if (!await_turn(scheduler, task)) return false;
   }
   if (task.clock != nullptr && task.clock->begin != nullptr) task.clock->begin(*task.clock, task);

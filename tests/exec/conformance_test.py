@@ -44,6 +44,11 @@ NOT_CALLED = {
     "__sanitizer_cov_trace_pc_guard": "as __sanitizer_cov_trace_pc, by clang++'s",
     "__sanitizer_cov_trace_pc_guard_init": "as __sanitizer_cov_trace_pc, by clang++'s",
 } | dict.fromkeys(
+    re.findall(r"^WAITPOINT_PASSED\((\w+)", (pathlib.Path(__file__).resolve().parents[2] / "fibers/posix/exec/passed_calls.cpp").read_text(), re.M),
+    "passed through, with a footprint (completeness/pairs.py)",
+) | dict.fromkeys(
+    ("__cxa_guard_acquire", "__cxa_guard_release", "__cxa_guard_abort"), "called by compiled code (exploring_test.py)"
+) | dict.fromkeys(
     "waitpoint_air waitpoint_begin_wait waitpoint_end_wait waitpoint_next_wait waitpoint_note_waits".split(),
     "called by waitpoint run among nodes of ROS (nodes_of_robots_test.py, explored_nodes_test.py)",
 )

@@ -46,7 +46,10 @@ run_tests() {
       ;;
     --completeness)
       configure -Dtests=enabled
-      compile tests/completeness tests/completeness-program tools/waitpoint libwaitpoint-exec.so
+      compile tests/completeness tests/completeness-program tests/completeness-pairs tools/waitpoint libwaitpoint-exec.so
+      if [[ ${2-} == --pairs ]]; then
+        exec python3 "$root/tests/fibers/explore/completeness/pairs.py" "$build" "${@:3}"
+      fi
       exec "$build/tests/completeness" "${@:2}"
       ;;
     --endurance)

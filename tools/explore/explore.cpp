@@ -111,7 +111,9 @@ int end_at_once(ProcessTarget& target, SearchProgress& progress, const ProcessFi
 std::string sum(const ProcessTarget& target, const Search& search, double seconds, bool is_interrupted) {
   const std::string all = search.has_drawn() ? "; exhausted, no other ordering exists" : "; exhaustive";
   const char* const natives = target.options().conditions.children ? "" : "; native children in one timing each";
-  const std::string scope = search.scope() ? all + *search.scope() + natives : "";
+  const std::string unproved =
+      search.unproved().empty() ? "" : "; all schedules, but perhaps not all orders: " + search.unproved();
+  const std::string scope = search.scope() ? all + *search.scope() + natives : unproved;
   const std::string raced = search.raced() > 0 ? fmt::format(" ({} by a data race alone)", search.raced()) : "";
   const std::string obstacle = words_of(search.obstacle());
   const std::string at_calls = obstacle.empty() ? "" : "; switches at calls only: " + obstacle;

@@ -17,7 +17,7 @@ constexpr double margin_m = 0.5;
 
 Json operations() {
   Json names = Json::array();
-  for (int i = 0; i <= static_cast<int>(kernel::Operation::exit); ++i)
+  for (int i = 0; i <= static_cast<int>(kernel::Operation::call); ++i)
     names.push_back(kernel::name(static_cast<kernel::Operation>(i)));
   return names;
 }

@@ -16,7 +16,7 @@ void append_text(std::string& text, const char* name, std::string_view value) {
 
 std::string operations() {
   std::string names;
-  for (int i = 0; i <= static_cast<int>(kernel::Operation::exit); ++i)
+  for (int i = 0; i <= static_cast<int>(kernel::Operation::call); ++i)
     names += (i > 0 ? "," : "") + json_text(kernel::name(static_cast<kernel::Operation>(i)));
   return "[" + names + "]";
 }

@@ -16,21 +16,31 @@ bool is_same(const DoneEvent& a, const DoneEvent& b) { return a.event == b.event
 bool is_unlock(Operation operation) { return operation == Operation::unlock || operation == Operation::unlock_shared; }
 bool is_lock(Operation operation) { return operation == Operation::lock || operation == Operation::lock_shared; }
 
+bool share_a_place(const DoneEvent& a, const DoneEvent& b) {
+  const auto of = [](const DoneEvent& event) {
+    SegmentFootprint footprint = footprint_of({event.operation, event.object, false, event.footprint}, Memory::sc);
+    footprint.reads &= ~place::run, footprint.has_object = false;
+    return footprint;
+  };
+  return are_dependent(of(a), of(b));
+}
+
 // For events of two tasks. Joining a thread does not affect it; and a lock operation has the same result just before
 // and just after an unlock: only the order of lock operations matters.
 bool depend(const DoneEvent& a, const DoneEvent& b) {
   if (a.event.task == b.event.task) return false;
   if (a.operation == Operation::exit || b.operation == Operation::exit) return true;
+  if (a.operation == Operation::call || b.operation == Operation::call) return share_a_place(a, b);
   if (a.object == 0 || a.object != b.object) return false;
   if (is_read_only(a.operation) && is_read_only(b.operation)) return false;
   if (a.operation == Operation::join || b.operation == Operation::join) return false;
   return !(is_lock(a.operation) && is_unlock(b.operation)) && !(is_unlock(a.operation) && is_lock(b.operation));
 }
 
-using Places = std::map<EventOf, std::size_t>;
+using EventPlaces = std::map<EventOf, std::size_t>;
 
-Places places_of(std::span<const DoneEvent> events) {
-  Places places;
+EventPlaces places_of(std::span<const DoneEvent> events) {
+  EventPlaces places;
   for (std::size_t i = 0; i < events.size(); ++i) places.emplace(events[i].event, i);
   return places;
 }
@@ -41,8 +51,8 @@ std::optional<EventPair> pair_in_other_order(std::span<const DoneEvent> fails, s
   const auto common = std::min(fails.size(), passes.size());
   std::size_t parting = 0;
   while (parting < common && is_same(fails[parting], passes[parting])) ++parting;
-  const Places in_failing = places_of(fails), in_passing = places_of(passes);
-  std::map<std::uint64_t, std::vector<std::size_t>> at_object;  // in the passing run
+  const EventPlaces in_failing = places_of(fails), in_passing = places_of(passes);
+  std::map<std::uint64_t, std::vector<std::size_t>> at_object;  // in the passing run; calls, as any others, at 0
   for (std::size_t i = parting; i < passes.size(); ++i) at_object[passes[i].object].push_back(i);
   for (std::size_t first = parting; first < fails.size(); ++first) {
     const auto again = in_passing.find(fails[first].event);

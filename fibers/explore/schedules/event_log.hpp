@@ -14,7 +14,8 @@ namespace waitpoint::exploration {
 struct DoneEvent {
   EventOf event;
   kernel::Operation operation;
-  std::uint64_t object;  ///< its identity, valid within one run; 0: none
+  std::uint64_t object;  ///< its identity, valid within one run; 0: none, as of calls
+  kernel::EventFootprint footprint{};
 };
 
 /// Records events, as a scheduler's watch.
@@ -34,7 +35,9 @@ class EventLog final : public kernel::Watch {
     if (self.explorer_.schedule().decisions.size() <= self.from_ || self.events_.size() == events_max) return;
     EventOf which = event_of(*record.task);
     --which.sequence;  // includes this one already
-    self.events_.push_back({which, record.operation, record.object != nullptr ? record.object->identity : 0});
+    const bool is_at_object = record.object != nullptr && record.operation != kernel::Operation::call;
+    self.events_.push_back(
+        {which, record.operation, is_at_object ? record.object->identity : 0, record.task->footprint});
   }
 
   std::vector<DoneEvent>& events_;

@@ -28,7 +28,9 @@ constexpr Operations looks(Operation::load, Operation::try_lock, Operation::try_
 
 }  // namespace
 
-bool is_look(Operation operation) { return looks.contain(operation); }
+bool is_look(const Task& task) {
+  return looks.contain(task.operation) || (task.operation == Operation::call && task.footprint.changes == 0);
+}
 
 void Explorer::play(Strategy& strategy, const Played& played) {
   decide_by(strategy);
@@ -195,7 +197,7 @@ std::uint64_t Explorer::spinning_among(std::uint32_t count) const {
 // The place of the task that goes on alone; the size if its polls are over.
 std::uint32_t Explorer::place_of_poller(std::span<Task* const> ready) {
   const auto place = static_cast<std::uint32_t>(std::find(ready.begin(), ready.end(), poller_) - ready.begin());
-  if (place < ready.size() && is_look(poller_->operation) && ++polls_ <= polls_max) return place;
+  if (place < ready.size() && is_look(*poller_) && ++polls_ <= polls_max) return place;
   poller_ = nullptr;
   return static_cast<std::uint32_t>(ready.size());
 }
@@ -230,12 +232,21 @@ std::span<Task* const> Explorer::leave_spinning_out(std::span<Task* const> ready
   return offered_;
 }
 
+namespace {
+
+std::uintptr_t accessed_by(const Task& task) {
+  const auto object = reinterpret_cast<std::uintptr_t>(task.at);
+  return task.operation == Operation::call ? object ^ Digest::mix(task.footprint.reads) : object;
+}
+
+}  // namespace
+
 inline void Explorer::note(const Task& task) {
   trace_.add(task, instant_);
   if (__builtin_expect(task.number >= habits_.size(), 0)) habits_.resize(task.number + 1);
   RecentAccesses& habit = habits_[task.number];
   if (habit.instant != instants_) habit = {.at = {}, .instant = instants_};
-  if (is_look(task.operation)) {
+  if (is_look(task)) {
     note_look(task, habit);
   } else {
     habit.looks = 0;
@@ -243,12 +254,13 @@ inline void Explorer::note(const Task& task) {
     if (spinning_ != 0) stop_spinning();
   }
   habit.at[1] = habit.at[0];
-  habit.at[0] = task.at;
+  habit.at[0] = accessed_by(task);
   last_ = &task;
 }
 
 void Explorer::note_look(const Task& task, RecentAccesses& habit) {
-  const bool is_another = task.at != habit.at[0] && task.at != habit.at[1];
+  const std::uintptr_t at = accessed_by(task);
+  const bool is_another = at != habit.at[0] && at != habit.at[1];
   if (task.operation != Operation::yield) {
     habit.looks = is_another ? 0 : static_cast<std::uint8_t>(habit.looks + 1);
     if (habit.looks < looks_max) return;

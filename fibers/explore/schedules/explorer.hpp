@@ -43,8 +43,8 @@ struct LeftOut {
   bool spurious = false;  ///< spurious wake-ups
 };
 
-/// True if the operation has no effect on others, as those that tasks repeat when they poll.
-bool is_look(kernel::Operation operation);
+/// True if the pending event has no effect on others, as those that tasks repeat when they poll.
+bool is_look(const Task& task);
 
 class Explorer final : public kernel::Decisions {
  public:
@@ -100,9 +100,9 @@ class Explorer final : public kernel::Decisions {
 
  private:
   std::uint32_t alternative(Decision decision, const Task& task, std::uint32_t offered, std::uint64_t time);
-  // A task's recent accesses, by Task::number.
+  // A task's recent accesses, by Task::number: at objects, or at the places of calls.
   struct alignas(32) RecentAccesses {
-    kernel::Object* at[2] = {};
+    std::uintptr_t at[2] = {};
     std::uint32_t instant = 0;  // the instant to which the other members apply
     std::uint8_t looks = 0;
     bool spins = false;

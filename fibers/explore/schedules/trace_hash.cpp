@@ -12,8 +12,8 @@ constexpr std::uint64_t hash_of(std::uint64_t first, std::uint64_t second) {
 
 // Calls `use` with the number of each place in the set.
 template <class Use>
-void for_each(SharedPlaces places, Use use) {
-  for (unsigned left = places; left != 0; left &= left - 1) use(__builtin_ctz(left));
+void for_each(Places places, Use use) {
+  for (Places left = places; left != 0; left &= left - 1) use(__builtin_ctzll(left));
 }
 
 constexpr int run_place = 0;
@@ -61,8 +61,8 @@ void TraceHash::add(const kernel::Task& task, Time now) {
     event = hash_of(event, sum_);
     places_[run_place].change = event;
   } else {
-    const SharedPlaces changes = footprint.changes;
-    const SharedPlaces shared = (footprint.reads | changes) & ~place::run;
+    const Places changes = footprint.changes;
+    const Places shared = (footprint.reads | changes) & ~place::run;
     State* const object = footprint.has_object ? &objects_[footprint.object] : nullptr;
     if (object != nullptr) event = object->seen_by(event, footprint.changes_object);
     for_each(shared, [&](int at) { event = places_[at].seen_by(event, (changes >> at & 1) != 0); });

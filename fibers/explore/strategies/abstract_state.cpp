@@ -26,7 +26,7 @@ const AbstractState::Pending& AbstractState::pending(const Task& task) {
   if (pending_.size() <= task.number) pending_.resize(task.number + 1);
   Pending& known = pending_[task.number];
   if (known.run == run_ && known.sequence == task.sequence) return known;
-  const std::uint64_t object = task.at != nullptr ? task.at->identity : 0;
+  const std::uint64_t object = action_of(task).object;
   known = {run_, task.sequence,
            Digest::mix(object ^ Digest::mix(task.id + static_cast<std::uint64_t>(task.operation)))};
   if (object == 0) return known;
@@ -47,8 +47,9 @@ std::uint64_t AbstractState::at(const SwitchPoint& point) {
 }
 
 void AbstractState::note(const Task& task) {
-  if (task.at == nullptr) return;
-  Used& object = used(task.at->identity);
+  const std::uint64_t at = action_of(task).object;
+  if (at == 0) return;
+  Used& object = used(at);
   if (!is_read_only(task.operation)) ++object.changes;
   if (LastEvent* const last = object.of(task))
     last->changes = object.changes;

@@ -20,29 +20,21 @@ struct Action {
   kernel::Operation operation = kernel::Operation::start;
   std::uint64_t object = 0;             ///< identity; 0: none
   bool is_on_shared_processor = false;  ///< its turn delays the others', by an order that depends on their priorities
+  kernel::EventFootprint declared;      ///< by who announces it: Task::footprint
 };
 
-/// The pending event of a task.
-inline Action action_of(const kernel::Task& task) {
-  return {task.operation, task.at != nullptr ? task.at->identity : 0, task.seat != nullptr};
-}
+using kernel::Places;
+namespace place = kernel::place;
 
-/// A set of places that objects have in common.
-using SharedPlaces = std::uint8_t;
-namespace place {
-inline constexpr SharedPlaces run = 1;  ///< read by every event
-inline constexpr SharedPlaces channels =
-    2;  ///< two sides of a channel are two objects, names are in a table, polls look at several
-inline constexpr SharedPlaces timers = 4;      ///< a tick acts on all timers that it drives
-inline constexpr SharedPlaces processors = 8;  ///< turns of the tasks on a shared processor
-inline constexpr SharedPlaces locks = 16;   ///< a wait for a condition releases its lock, which the kernel does not see
-inline constexpr SharedPlaces memory = 32;  ///< weak memory, which fences order
-inline constexpr int count = 6;
-}  // namespace place
+/// The pending event of a task; of a call, the object is only the function's name.
+inline Action action_of(const kernel::Task& task) {
+  const bool is_at_object = task.at != nullptr && task.operation != kernel::Operation::call;
+  return {task.operation, is_at_object ? task.at->identity : 0, task.seat != nullptr, task.footprint};
+}
 
 /// What a segment reads and changes, as far as it is known.
 struct SegmentFootprint {
-  SharedPlaces reads = 0, changes = 0;  ///< a place is in one of them at most
+  Places reads = 0, changes = 0;  ///< a place is in one of them at most
   bool has_object = false;
   bool changes_object = false;
   std::uint64_t object = 0;  ///< identity; 0: something unknown
@@ -72,7 +64,7 @@ inline constexpr Operations of_memory(Operation::load, Operation::store, Operati
 /// Without an object, the others act on something that the kernel does not know as one: a descriptor, a file, a signal,
 /// memory between processes.
 inline constexpr Operations without_object(Operation::start, Operation::end, Operation::resume, Operation::timeout,
-                                           Operation::yield, Operation::sleep, Operation::fence);
+                                           Operation::yield, Operation::sleep, Operation::fence, Operation::call);
 
 }  // namespace operations
 
@@ -85,7 +77,10 @@ inline SegmentFootprint footprint_of(const Action& action, Memory memory) {
   const kernel::Operation operation = action.operation;
   SegmentFootprint footprint{.reads = place::run, .object = action.object};
   if (operations::acts_on_run.contain(operation)) footprint = {.changes = place::run, .object = action.object};
-  if (operations::of_channels.contain(operation)) footprint.changes |= place::channels;
+  if (operations::of_channels.contain(operation)) {
+    footprint.reads |= place::descriptors;
+    footprint.changes |= place::channels;
+  }
   if (operations::of_timers.contain(operation)) footprint.changes |= place::timers;
   if (action.is_on_shared_processor) footprint.changes |= place::processors;
   if (operations::of_locks.contain(operation)) footprint.reads |= place::locks;
@@ -93,6 +88,8 @@ inline SegmentFootprint footprint_of(const Action& action, Memory memory) {
   const bool is_weak = memory == Memory::weak;
   if (is_weak && operations::of_memory.contain(operation)) footprint.reads |= place::memory;
   if (is_weak && operation == kernel::Operation::fence) footprint.changes |= place::memory;
+  footprint.changes |= action.declared.changes;
+  footprint.reads = (footprint.reads | action.declared.reads) & ~footprint.changes;
   footprint.has_object = action.object != 0 || !operations::without_object.contain(operation);
   const bool only_reads =
       action.object != 0 && is_read_only(operation) && !(is_weak && operations::of_memory.contain(operation));

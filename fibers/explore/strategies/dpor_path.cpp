@@ -15,6 +15,8 @@ void pass_event(Pass& pass, E& event) {
   pass(event.action.operation);
   pass(event.action.object);
   pass(event.action.is_on_shared_processor);
+  pass(event.action.declared.reads);
+  pass(event.action.declared.changes);
 }
 
 template <class Pass, class S>

@@ -19,7 +19,7 @@ class Operations {
   static constexpr std::uint64_t bit(kernel::Operation operation) {
     return std::uint64_t{1} << static_cast<unsigned>(operation);
   }
-  static_assert(static_cast<unsigned>(kernel::Operation::exit) < 64, "an operation is a bit of a word");
+  static_assert(static_cast<unsigned>(kernel::Operation::call) < 64, "an operation is a bit of a word");
 
   std::uint64_t bits_;
 };

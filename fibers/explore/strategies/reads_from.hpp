@@ -35,7 +35,8 @@ using Constraints = std::vector<Constraint>;
 
 /// The abstract event that is pending in `task`; 0 if it has no object.
 inline std::uint64_t abstract_event(const kernel::Task& task) {
-  if (task.at == nullptr || task.operation == kernel::Operation::join) return 0;
+  if (task.at == nullptr || task.operation == kernel::Operation::join || task.operation == kernel::Operation::call)
+    return 0;
   return Digest::mix(task.at->identity ^ Digest::mix(task.id + static_cast<std::uint64_t>(task.operation)));
 }
 

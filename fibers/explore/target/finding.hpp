@@ -27,6 +27,8 @@ struct RunVerdict {
   bool cuts_polls_short = false;       ///< as in Schedule
   bool has_unlearned_code = false;     ///< first accesses to shared memory were no switch points; if choices are wanted
   bool has_left_out_values = false;    ///< a load was not offered a value that it may have returned
+  bool uses_futexes = false;           ///< the program's own locks are atomics, which are events at accesses only
+  bool meets_outside = false;          ///< the run depends on what is not simulated
   bool parted = false;                 ///< the plan did not fit the run
   std::uint64_t digest = 0;            ///< 0: unknown, the process was killed
   std::uint64_t order = 0;             ///< equal for runs that differ in nothing but the order of independent events

@@ -42,7 +42,7 @@ const File& open_file(const char* name) {
   file.bytes = nullptr;
   file.size = 0;
   std::strcpy(file.name, name);
-  const int descriptor = open(name, O_RDONLY | O_CLOEXEC);
+  const int descriptor = WAITPOINT_NEXT(open)(name, O_RDONLY | O_CLOEXEC);
   struct stat of {};
   if (descriptor >= 0 && WAITPOINT_NEXT(fstat)(descriptor, &of) == 0 && of.st_size > 0) {
     void* const memory = mmap(nullptr, static_cast<std::size_t>(of.st_size), PROT_READ, MAP_PRIVATE, descriptor, 0);

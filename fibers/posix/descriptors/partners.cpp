@@ -91,7 +91,7 @@ Partner partner_at(int descriptor) {
   if (watched_by[descriptor].is_any) return watched_by[descriptor].nearest;
   const ErrorNumberKept kept;
   struct stat of {};
-  if (fstat(descriptor, &of) != 0) return Partner::none;
+  if (WAITPOINT_NEXT(fstat)(descriptor, &of) != 0) return Partner::none;
   if (S_ISSOCK(of.st_mode)) return noted(descriptor, partner_of_socket(descriptor));
   return S_ISFIFO(of.st_mode) && descriptor > STDERR_FILENO ? Partner::possible : Partner::input;
 }

@@ -16,6 +16,7 @@ extern "C" {
 #include "fibers/posix/base/interposed.hpp"
 #include "fibers/posix/descriptors/descriptors.hpp"
 #include "fibers/posix/family/processes.hpp"
+#include "fibers/posix/program/state_calls.hpp"
 #include "fibers/posix/program/thread.hpp"
 
 namespace waitpoint::posix {
@@ -45,6 +46,7 @@ using namespace waitpoint::posix;
 
 // All processes that it can be of end by events of the family.
 WAITPOINT_INTERPOSED int pidfd_open(pid_t id, unsigned flags) noexcept {
+  before_call<"pidfd_open">(changing(place::descriptors));
   const family::Process* const process = family::find(id);
   const int made = WAITPOINT_NEXT(pidfd_open)(family::in_system(id), flags);
   if (made >= 0 && process != nullptr) note_inside(made, !process->is_native);
@@ -52,6 +54,7 @@ WAITPOINT_INTERPOSED int pidfd_open(pid_t id, unsigned flags) noexcept {
 }
 
 WAITPOINT_INTERPOSED int pidfd_getfd(int process, int descriptor, unsigned flags) noexcept {
+  before_call<"pidfd_getfd">(changing(place::descriptors));
   const int made = WAITPOINT_NEXT(pidfd_getfd)(process, descriptor, flags);
   end_counting_of_all();
   if (made >= 0 && is_simulated()) note_inside(made, process_of(process) == getpid() && is_inside(descriptor));

@@ -17,6 +17,7 @@
 #include "fibers/posix/base/interposed.hpp"
 #include "fibers/posix/descriptors/descriptors.hpp"
 #include "fibers/posix/program/program.hpp"
+#include "fibers/posix/program/state_calls.hpp"
 #include "fibers/posix/signals/signals.hpp"
 
 namespace waitpoint::posix {
@@ -116,6 +117,7 @@ ssize_t read_signals(int descriptor, void* bytes, std::size_t size) {
 using namespace waitpoint::posix;
 
 WAITPOINT_INTERPOSED int signalfd(int descriptor, const sigset_t* set, int flags) noexcept {
+  before_call<"signalfd">(changing(place::descriptors | place::channels));
   if (!is_simulated()) return WAITPOINT_NEXT(signalfd)(descriptor, set, flags);
   if (!can_be_read(set)) return fail(EFAULT);
   if ((flags & ~(SFD_NONBLOCK | SFD_CLOEXEC)) != 0) return fail(EINVAL);

@@ -13,6 +13,7 @@
 #include "fibers/posix/files/file_records.hpp"
 #include "fibers/posix/links/datagram_medium.hpp"
 #include "fibers/posix/program/program.hpp"
+#include "fibers/posix/program/state_calls.hpp"
 #include "fibers/posix/program/waiting.hpp"
 #include "fibers/posix/signals/abort.hpp"
 #include "fibers/posix/signals/signals.hpp"
@@ -92,6 +93,7 @@ extern "C" [[noreturn, gnu::visibility("hidden")]] void __wrap_abort() noexcept 
 
 // atexit() is linked into the program itself, and calls this one.
 WAITPOINT_INTERPOSED int __cxa_atexit(void (*function)(void*), void* argument, void* object) {
+  before_call<"atexit">(changing(place::process));
   if (auto* const handler = static_cast<ExitHandler*>(std::malloc(sizeof(ExitHandler)))) {
     *handler = {function, argument};
     return WAITPOINT_NEXT(__cxa_atexit)(call_handler, handler, object);

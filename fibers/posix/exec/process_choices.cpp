@@ -141,8 +141,7 @@ std::uint32_t ProcessChoices::next(kernel::Task* const* ready, std::uint32_t cou
   if (family::family->made > 1) shared_schedule().last = family::index_of(*family::own);
   const SharedChoice choice(explorer_);
   const std::uint32_t chosen = decisions_.next(ready, count);
-  if (!is_alone && chosen < count && !exploration::is_look(ready[chosen]->operation))
-    effects_ = ++shared_schedule().effects;
+  if (!is_alone && chosen < count && !exploration::is_look(*ready[chosen])) effects_ = ++shared_schedule().effects;
   return chosen;
 }
 

@@ -41,7 +41,9 @@ pid_t system_id() { return static_cast<pid_t>(call_directly(SYS_getpid)); }
 bool is_running(pid_t process) {
   const ErrorNumberKept kept;
   const Stat stat(process);
-  if (*stat.state == '\0') return access("/proc/self", F_OK) != 0 && call_directly(SYS_kill, process, 0) == 0;
+  if (*stat.state == '\0')
+    return call_directly(SYS_access, reinterpret_cast<long>("/proc/self"), F_OK) != 0 &&
+           call_directly(SYS_kill, process, 0) == 0;
   return *stat.state != 'Z' && *stat.state != 'X';
 }
 

@@ -21,6 +21,7 @@
 #include "fibers/posix/family/family.hpp"
 #include "fibers/posix/files/file_records.hpp"
 #include "fibers/posix/files/process_paths.hpp"
+#include "fibers/posix/program/file_places.hpp"
 #include "fibers/posix/program/program.hpp"
 
 namespace waitpoint::posix {
@@ -187,8 +188,12 @@ using namespace waitpoint::posix;
 // Under the C library's names: its headers redirect those without a size to the others.
 #define WAITPOINT_SAME_AS(name) extern "C" [[gnu::visibility("default"), gnu::alias(#name)]]
 
-WAITPOINT_INTERPOSED DIR* opendir(const char* path) { return WAITPOINT_NEXT(opendir)(PathInSystem(path).get()); }
+WAITPOINT_INTERPOSED DIR* opendir(const char* path) {
+  before_call<"opendir">([&] { return opening(AT_FDCWD, path, O_RDONLY); });
+  return WAITPOINT_NEXT(opendir)(PathInSystem(path).get());
+}
 WAITPOINT_INTERPOSED dirent64* readdir64(DIR* directory) {
+  before_call<"readdir">([&] { return reading_entries(dirfd(directory)); });
   return is_simulated() ? next_entry(directory) : WAITPOINT_NEXT(readdir64)(directory);
 }
 WAITPOINT_SAME_AS(readdir64) [[gnu::nonnull(1)]] dirent64* waitpoint_readdir(DIR*) __asm__("readdir");
@@ -204,20 +209,24 @@ int waitpoint_readdir64_r(DIR* directory, dirent64* entry, dirent64** result) {
   return copy_next_entry(directory, entry, result);
 }
 WAITPOINT_INTERPOSED void rewinddir(DIR* directory) noexcept {
+  before_call<"rewinddir">([&] { return reading_entries(dirfd(directory)); });
   drop_listing(directory);
   WAITPOINT_NEXT(rewinddir)(directory);
 }
 WAITPOINT_INTERPOSED long telldir(DIR* directory) noexcept {
+  before_call<"telldir">([&] { return reading_entries(dirfd(directory)); });
   if (!is_simulated()) return WAITPOINT_NEXT(telldir)(directory);
   const Listing* const listing = find_listing(directory);
   return listing != nullptr ? listing->next : 0;
 }
 WAITPOINT_INTERPOSED void seekdir(DIR* directory, long to) noexcept {
+  before_call<"seekdir">([&] { return reading_entries(dirfd(directory)); });
   if (!is_simulated()) return WAITPOINT_NEXT(seekdir)(directory, to);
   Listing* const listing = listing_of(directory);
   if (listing != nullptr && to >= 0) listing->next = to;
 }
 WAITPOINT_INTERPOSED int closedir(DIR* directory) {
+  before_call<"closedir">(changing(place::descriptors));
   drop_listing(directory);
   return WAITPOINT_NEXT(closedir)(directory);
 }

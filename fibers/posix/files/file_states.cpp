@@ -14,6 +14,7 @@
 #include "fibers/posix/base/interposed.hpp"
 #include "fibers/posix/files/file_records.hpp"
 #include "fibers/posix/files/process_paths.hpp"
+#include "fibers/posix/program/file_places.hpp"
 #include "fibers/posix/program/program.hpp"
 
 namespace waitpoint::posix {
@@ -45,6 +46,7 @@ void convert(const struct statx& from, struct stat64& to) {
 int look_up(int folder, const char* path, int flags, struct stat64* state) {
   if (!is_simulated()) return WAITPOINT_NEXT(fstatat64)(folder, path, state, flags);
   if (!can_be_written(state)) return fail(EFAULT);
+  before_call<"stat">([&] { return reading_name(folder, path, (flags & AT_SYMLINK_NOFOLLOW) == 0); });
   struct statx found {};
   int error = ask_system(folder, path, flags | AT_NO_AUTOMOUNT, found);
   if (error != EFAULT && std::strncmp(path, "/proc/", 6) == 0)
@@ -88,6 +90,7 @@ WAITPOINT_SAME_AS(fstatat64)
 WAITPOINT_INTERPOSED int statx(int folder, const char* __restrict path, int flags, unsigned wanted,
                                struct statx* __restrict state) noexcept {
   if (!is_simulated()) return WAITPOINT_NEXT(statx)(folder, path, flags, wanted, state);
+  before_call<"statx">([&] { return reading_name(folder, path, (flags & AT_SYMLINK_NOFOLLOW) == 0); });
   const PathInSystem in_system(path);
   if (WAITPOINT_NEXT(statx)(folder, in_system.get(), flags, wanted | wanted_of_file, state) != 0) return -1;
   replace_with_own(*state);

@@ -12,6 +12,7 @@
 #include "fibers/posix/base/interposed.hpp"
 #include "fibers/posix/files/file_records.hpp"
 #include "fibers/posix/files/process_paths.hpp"
+#include "fibers/posix/program/file_places.hpp"
 #include "fibers/posix/program/program.hpp"
 
 namespace waitpoint::posix {
@@ -26,6 +27,8 @@ struct At {
 // Sets the times of the last access and of the last change by `call`; `times` null: to the present time.
 template <class Call>
 int set_times(const At& file, const timespec* times, Call call) {
+  before_call<"utimensat">(
+      [&] { return changing_file(file.folder, file.path, (file.flags & AT_SYMLINK_NOFOLLOW) == 0); });
   struct statx before {
   }, after{};
   if (!is_simulated() || ask_system(file.folder, file.path, file.flags, before) != 0) return call();

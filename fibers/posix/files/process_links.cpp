@@ -17,6 +17,7 @@
 #include "fibers/posix/family/family.hpp"
 #include "fibers/posix/files/file_records.hpp"
 #include "fibers/posix/files/process_paths.hpp"
+#include "fibers/posix/program/file_places.hpp"
 #include "fibers/posix/program/program.hpp"
 
 namespace waitpoint::posix {
@@ -44,6 +45,7 @@ void write_own_link(const char* path, const char* system, char (&own)[64]) {
 }
 
 ssize_t read_link(int folder, const char* path, char* text, std::size_t size) {
+  before_call<"readlink">([&] { return reading_name(folder, path, false); });
   if (!is_simulated() || !is_in_proc(path) || ProcessPath(path).process == nullptr)
     return WAITPOINT_NEXT(readlinkat)(folder, path, text, size);
   const PathInSystem in_system(path);
@@ -73,8 +75,10 @@ WAITPOINT_INTERPOSED ssize_t readlinkat(int folder, const char* __restrict path,
   return read_link(folder, path, text, size);
 }
 WAITPOINT_INTERPOSED int access(const char* path, int mode) noexcept {
+  before_call<"access">([&] { return reading_name(AT_FDCWD, path); });
   return WAITPOINT_NEXT(access)(PathInSystem(path).get(), mode);
 }
 WAITPOINT_INTERPOSED int faccessat(int folder, const char* path, int mode, int flags) noexcept {
+  before_call<"faccessat">([&] { return reading_name(folder, path, (flags & AT_SYMLINK_NOFOLLOW) == 0); });
   return WAITPOINT_NEXT(faccessat)(folder, PathInSystem(path).get(), mode, flags);
 }

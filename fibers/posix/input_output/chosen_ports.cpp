@@ -12,6 +12,7 @@
 #include "fibers/posix/descriptors/partners.hpp"
 #include "fibers/posix/family/family.hpp"
 #include "fibers/posix/program/program.hpp"
+#include "fibers/posix/program/state_calls.hpp"
 
 namespace waitpoint::posix {
 namespace {
@@ -68,6 +69,7 @@ using namespace waitpoint;
 using namespace waitpoint::posix;
 
 WAITPOINT_INTERPOSED int bind(int descriptor, const sockaddr* address, socklen_t length) noexcept {
+  before_call<"bind">(reading(place::descriptors) | changing(place::channels));
   const int result = bind_as_asked(descriptor, address, length);
   if (result == 0 && is_simulated()) note_bound(descriptor);
   return result;

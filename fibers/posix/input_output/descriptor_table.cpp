@@ -30,6 +30,7 @@
 #include "fibers/posix/input_output/file_locks.hpp"
 #include "fibers/posix/links/loopback.hpp"
 #include "fibers/posix/links/stream_links.hpp"
+#include "fibers/posix/program/file_places.hpp"
 #include "fibers/posix/program/waiting.hpp"
 #include "fibers/posix/signals/cancellation.hpp"
 #include "fibers/posix/timers/timer_descriptors.hpp"
@@ -82,9 +83,30 @@ int owner_in_family(int owner) {
   return process == nullptr ? owner : owner < 0 ? -process->group : process->id;
 }
 
+EventFootprint footprint_of(int descriptor, int command) {
+  switch (command) {
+    case F_DUPFD:
+    case F_DUPFD_CLOEXEC:
+    case F_SETFD: return changing(place::descriptors);
+    case F_GETFD: return reading(place::descriptors);
+    case F_GETFL: return reading_at(descriptor);
+    case F_GETLK:
+    case F_OFD_GETLK: return reading(place::descriptors | place::file_locks);
+    case F_SETLK:
+    case F_OFD_SETLK: return reading(place::descriptors) | changing(place::file_locks);
+    default: return changing_at(descriptor);
+  }
+}
+
+// The end of a pipe or a connection, and the locks of the process on a file, are gone.
+EventFootprint closing(int descriptor) {
+  return changing(place::descriptors | place::file_locks | file_at(descriptor));
+}
+
 int control(int descriptor, int command, void* argument) {
   if (is_simulated() && (command == F_SETLKW || command == F_OFD_SETLKW) && can_be_read(argument))
     return lock_waiting(descriptor, command, *static_cast<struct flock*>(argument));
+  before_call<"fcntl">([&] { return footprint_of(descriptor, command); });
   if (command == F_SETOWN) return WAITPOINT_NEXT(fcntl)(descriptor, command, owner_in_system(argument));
   if (command == F_SETFL || command == F_SETPIPE_SZ) end_counting(descriptor);
   const int result = WAITPOINT_NEXT(fcntl)(descriptor, command, argument);
@@ -112,30 +134,38 @@ void close_descriptors_of(const Program& program) {
 }  // namespace waitpoint::posix
 
 WAITPOINT_INTERPOSED int pipe2(int* ends, int flags) noexcept {
+  before_call<"pipe2">(changing(place::descriptors));
   const int result = WAITPOINT_NEXT(pipe2)(ends, flags);
   if (result == 0) note_pipe(*reinterpret_cast<int(*)[2]>(ends), flags);
   return result;
 }
 WAITPOINT_INTERPOSED int pipe(int* ends) noexcept { return pipe2(ends, 0); }
 WAITPOINT_INTERPOSED int socketpair(int domain, int type, int protocol, int* ends) noexcept {
+  before_call<"socketpair">(changing(place::descriptors));
   const int result = WAITPOINT_NEXT(socketpair)(domain, type, protocol, ends);
   if (result == 0)
     for (int i = 0; i < 2; ++i) note_inside(ends[i], true);
   return result;
 }
 WAITPOINT_INTERPOSED int socket(int domain, int type, int protocol) noexcept {
+  before_call<"socket">(changing(place::descriptors));
   const int made = WAITPOINT_NEXT(socket)(domain, type, protocol);
   note_owner(made);
   begin_as_asked(made);
   return made;
 }
 WAITPOINT_INTERPOSED int eventfd(unsigned count, int flags) noexcept {
+  before_call<"eventfd">(changing(place::descriptors));
   return one(WAITPOINT_NEXT(eventfd)(count, flags));
 }
 // It becomes an outside one if it watches an outside one.
-WAITPOINT_INTERPOSED int epoll_create1(int flags) noexcept { return one(WAITPOINT_NEXT(epoll_create1)(flags)); }
+WAITPOINT_INTERPOSED int epoll_create1(int flags) noexcept {
+  before_call<"epoll_create1">(changing(place::descriptors));
+  return one(WAITPOINT_NEXT(epoll_create1)(flags));
+}
 WAITPOINT_INTERPOSED int epoll_create(int size) noexcept { return one(WAITPOINT_NEXT(epoll_create)(size)); }
 WAITPOINT_INTERPOSED int epoll_ctl(int descriptor, int operation, int watched, epoll_event* event) noexcept {
+  before_call<"epoll_ctl">(reading(place::descriptors) | changing(place::channels));
   const int result = WAITPOINT_NEXT(epoll_ctl)(descriptor, operation, watched, event);
   if (result != 0 || !is_simulated()) return result;
   if (operation == EPOLL_CTL_DEL) {
@@ -152,12 +182,17 @@ WAITPOINT_INTERPOSED int epoll_ctl(int descriptor, int operation, int watched, e
   return result;
 }
 
-WAITPOINT_INTERPOSED int dup(int descriptor) noexcept { return copy(descriptor, WAITPOINT_NEXT(dup)(descriptor)); }
+WAITPOINT_INTERPOSED int dup(int descriptor) noexcept {
+  before_call<"dup">(changing(place::descriptors));
+  return copy(descriptor, WAITPOINT_NEXT(dup)(descriptor));
+}
 WAITPOINT_INTERPOSED int dup2(int from, int to) noexcept {
+  before_call<"dup2">(changing(place::descriptors | place::channels | place::file_locks));
   note_closing(from != to ? to : -1);
   return replaced(from, to, WAITPOINT_NEXT(dup2)(from, to));
 }
 WAITPOINT_INTERPOSED int dup3(int from, int to, int flags) noexcept {
+  before_call<"dup3">(changing(place::descriptors | place::channels | place::file_locks));
   note_closing(to);
   return replaced(from, to, WAITPOINT_NEXT(dup3)(from, to, flags));
 }
@@ -194,6 +229,7 @@ int waitpoint_ioctl(int descriptor, unsigned long request, ...) {
   va_start(more, request);
   void* const argument = va_arg(more, void*);
   va_end(more);
+  before_call<"ioctl">([&] { return request == FIONREAD ? reading_at(descriptor) : changing_at(descriptor); });
   if (request == FIONBIO) end_counting(descriptor);
   return WAITPOINT_NEXT(ioctl)(descriptor, request, argument);
 }
@@ -201,6 +237,7 @@ int waitpoint_ioctl(int descriptor, unsigned long request, ...) {
 WAITPOINT_INTERPOSED int close(int descriptor) {
   if (!is_simulated()) return WAITPOINT_NEXT(close)(descriptor);
   pass_cancellation_point();
+  before_call<"close">([&] { return closing(descriptor); });
   note_closing(descriptor);
   forget(descriptor);
   const int result = WAITPOINT_NEXT(close)(descriptor);
@@ -209,6 +246,7 @@ WAITPOINT_INTERPOSED int close(int descriptor) {
 }
 
 WAITPOINT_INTERPOSED int close_range(unsigned first, unsigned last, int flags) noexcept {
+  before_call<"close_range">(changing(place::descriptors | place::channels | place::file_locks));
   const int result = WAITPOINT_NEXT(close_range)(first, last, flags);
   if (result != 0 || !is_simulated() || (static_cast<unsigned>(flags) & CLOSE_RANGE_CLOEXEC) != 0) return result;
   const auto end = static_cast<unsigned>(known_descriptors_max);
@@ -224,6 +262,7 @@ WAITPOINT_INTERPOSED void closefrom(int first) noexcept {
 WAITPOINT_INTERPOSED int fclose(FILE* stream) {
   if (!is_simulated()) return WAITPOINT_NEXT(fclose)(stream);
   pass_cancellation_point();
+  before_call<"fclose">([&] { return closing(fileno_unlocked(stream)) | changing_stream(stream); });
   const int descriptor = fileno(stream);
   if (descriptor >= 0 && __fwriting(stream) != 0) {
     WAITPOINT_NEXT(fflush)(stream);

@@ -14,6 +14,7 @@
 #include "fibers/posix/files/file_records.hpp"
 #include "fibers/posix/files/process_paths.hpp"
 #include "fibers/posix/files/system_files.hpp"
+#include "fibers/posix/program/file_places.hpp"
 #include "fibers/posix/program/waiting.hpp"
 #include "fibers/posix/signals/cancellation.hpp"
 #include "fibers/posix/signals/signals.hpp"
@@ -73,6 +74,7 @@ bool is_fifo_to_wait_for(int folder, const char* path, int flags) {
 
 int open_fifo(int folder, const char* path, int flags) {
   const CancellationPoint point;
+  const AlsoUsing descriptors(changing(place::descriptors));
   pass(kernel::Operation::open, nullptr);
   struct stat of {};
   if (WAITPOINT_NEXT(fstatat)(folder, path, &of, 0) != 0) return -1;
@@ -117,6 +119,7 @@ mode_t mode_of(int flags, va_list more) {
 int open_at(int folder, const char* path, int flags, va_list more) {
   const mode_t mode = mode_of(flags, more);
   pass_cancellation_point();
+  before_call<"open">([&] { return opening(folder, path, flags); });
   note_use_of(path);
   if (is_simulated() && is_in_proc(path)) {
     const int generated = open_generated(path, flags);

@@ -9,6 +9,7 @@
 
 #include "fibers/posix/base/interposed.hpp"
 #include "fibers/posix/input_output/input_output.hpp"
+#include "fibers/posix/program/file_places.hpp"
 #include "fibers/posix/signals/cancellation.hpp"
 
 using namespace waitpoint::posix;
@@ -18,21 +19,25 @@ static_assert(sizeof(off_t) == sizeof(off64_t), "both names of a call take the s
 #define WAITPOINT_SAME_AS(name) extern "C" [[gnu::visibility("default"), gnu::alias(#name)]]
 
 WAITPOINT_INTERPOSED ssize_t pread64(int descriptor, void* bytes, std::size_t size, off64_t at) {
+  before_call<"pread">([&] { return reading_at(descriptor); });
   return at_cancellation_point([&] { return WAITPOINT_NEXT(pread64)(descriptor, bytes, size, at); });
 }
 WAITPOINT_SAME_AS(pread64) ssize_t waitpoint_pread(int, void*, std::size_t, off64_t) __asm__("pread");
 
 WAITPOINT_INTERPOSED ssize_t pwrite64(int descriptor, const void* bytes, std::size_t size, off64_t at) {
+  before_call<"pwrite">([&] { return changing_at(descriptor); });
   return at_cancellation_point([&] { return WAITPOINT_NEXT(pwrite64)(descriptor, bytes, size, at); });
 }
 WAITPOINT_SAME_AS(pwrite64) ssize_t waitpoint_pwrite(int, const void*, std::size_t, off64_t) __asm__("pwrite");
 
 WAITPOINT_INTERPOSED ssize_t preadv64(int descriptor, const iovec* pieces, int count, off64_t at) {
+  before_call<"preadv">([&] { return reading_at(descriptor); });
   return at_cancellation_point([&] { return WAITPOINT_NEXT(preadv64)(descriptor, pieces, count, at); });
 }
 WAITPOINT_SAME_AS(preadv64) ssize_t waitpoint_preadv(int, const iovec*, int, off64_t) __asm__("preadv");
 
 WAITPOINT_INTERPOSED ssize_t pwritev64(int descriptor, const iovec* pieces, int count, off64_t at) {
+  before_call<"pwritev">([&] { return changing_at(descriptor); });
   return at_cancellation_point([&] { return WAITPOINT_NEXT(pwritev64)(descriptor, pieces, count, at); });
 }
 WAITPOINT_SAME_AS(pwritev64) ssize_t waitpoint_pwritev(int, const iovec*, int, off64_t) __asm__("pwritev");
@@ -64,6 +69,7 @@ WAITPOINT_INTERPOSED int sync_file_range(int descriptor, off64_t at, off64_t siz
   return at_cancellation_point([&] { return WAITPOINT_NEXT(sync_file_range)(descriptor, at, size, flags); });
 }
 WAITPOINT_INTERPOSED int fallocate64(int descriptor, int mode, off64_t at, off64_t size) {
+  before_call<"fallocate">([&] { return changing_at(descriptor); });
   return at_cancellation_point([&] { return WAITPOINT_NEXT(fallocate64)(descriptor, mode, at, size); });
 }
 WAITPOINT_SAME_AS(fallocate64) int waitpoint_fallocate(int, int, off64_t, off64_t) __asm__("fallocate");

@@ -11,6 +11,7 @@
 #include "fibers/posix/base/interposed.hpp"
 #include "fibers/posix/descriptors/descriptors.hpp"
 #include "fibers/posix/family/processes.hpp"
+#include "fibers/posix/program/state_calls.hpp"
 #include "fibers/posix/program/waiting.hpp"
 #include "fibers/posix/signals/cancellation.hpp"
 
@@ -58,6 +59,7 @@ int wait_for_lock(Locking locking) {
 
 int lock_waiting(int descriptor, int command, const struct flock& lock) {
   const CancellationPoint point;
+  const AlsoUsing locks(reading(place::descriptors) | changing(place::file_locks));
   pass(lock.l_type == F_UNLCK ? kernel::Operation::unlock : kernel::Operation::lock, nullptr);
   const int result = wait_for_lock({descriptor, command == F_SETLKW ? F_SETLK : F_OFD_SETLK, &lock, 0, 0});
   const ErrorNumberKept kept;
@@ -73,6 +75,7 @@ using namespace waitpoint::posix;
 
 WAITPOINT_INTERPOSED int flock(int descriptor, int operation) noexcept {
   if (!is_simulated()) return WAITPOINT_NEXT(flock)(descriptor, operation);
+  const AlsoUsing locks(reading(place::descriptors) | changing(place::file_locks));
   pass((operation & LOCK_UN) != 0 ? kernel::Operation::unlock : kernel::Operation::lock, nullptr);
   if ((operation & (LOCK_NB | LOCK_UN)) != 0) return WAITPOINT_NEXT(flock)(descriptor, operation);
   return wait_for_lock({descriptor, operation | LOCK_NB, nullptr, 0, 0});

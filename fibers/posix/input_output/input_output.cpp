@@ -34,7 +34,8 @@ Patience patience_of(int descriptor, DescriptorClass of, short events) {
   socklen_t size = sizeof span_of_time;
   const ErrorNumberKept kept;
   const int option = events == POLLIN ? SO_RCVTIMEO : SO_SNDTIMEO;
-  if (of != DescriptorClass::socket || getsockopt(descriptor, SOL_SOCKET, option, &span_of_time, &size) != 0 ||
+  if (of != DescriptorClass::socket ||
+      WAITPOINT_NEXT(getsockopt)(descriptor, SOL_SOCKET, option, &span_of_time, &size) != 0 ||
       (span_of_time.tv_sec == 0 && span_of_time.tv_usec == 0))
     return {};
   const Duration patience = span({span_of_time.tv_sec, span_of_time.tv_usec * 1000});

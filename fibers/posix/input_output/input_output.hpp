@@ -3,6 +3,8 @@
 // the descriptor, then makes the call.
 #pragma once
 
+#include <unistd.h>
+
 #include <cstddef>
 #include <cstdint>
 
@@ -10,6 +12,7 @@
 #include "fibers/posix/descriptors/connections.hpp"
 #include "fibers/posix/descriptors/descriptors.hpp"
 #include "fibers/posix/links/loopback.hpp"
+#include "fibers/posix/program/file_places.hpp"
 #include "fibers/posix/program/waiting.hpp"
 #include "fibers/posix/signals/cancellation.hpp"
 #include "fibers/switch/sanitizer.hpp"
@@ -48,10 +51,19 @@ auto done(Call call, family::Changes changes = family::of_descriptors) {
   return result;
 }
 
+/// Of a file: changes its offset. The order of standard outputs is no outcome.
+template <FunctionName name, class Call>
+auto at_file(int descriptor, Call call) {
+  pass_cancellation_point();
+  if (descriptor != STDOUT_FILENO && descriptor != STDERR_FILENO)
+    before_call<name>([&] { return changing_at(descriptor); });
+  return call();
+}
+
 template <class Call>
 auto receive(int descriptor, bool may_block, Call call) {
   const DescriptorClass of = class_of(descriptor);
-  if (of == DescriptorClass::file) return at_cancellation_point(call);
+  if (of == DescriptorClass::file) return at_file<"read">(descriptor, call);
   if (!prepare(descriptor, of, kernel::Operation::receive, POLLIN, may_block)) return static_cast<decltype(call())>(-1);
   const auto received = done(call, changes_at(descriptor, POLLIN));
   acknowledge(descriptor);
@@ -61,7 +73,7 @@ auto receive(int descriptor, bool may_block, Call call) {
 template <class Call>
 auto send_all_at_once(int descriptor, bool may_block, Call call) {
   const DescriptorClass of = class_of(descriptor);
-  if (of == DescriptorClass::file) return at_cancellation_point(call);
+  if (of == DescriptorClass::file) return at_file<"write">(descriptor, call);
   if (!prepare(descriptor, of, kernel::Operation::send, POLLOUT, may_block)) return static_cast<decltype(call())>(-1);
   return done(call, changes_at(descriptor, POLLOUT));
 }

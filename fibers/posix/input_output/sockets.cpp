@@ -30,6 +30,7 @@
 #include "fibers/posix/links/stream_links.hpp"
 #include "fibers/posix/program/program.hpp"
 #include "fibers/posix/program/repeatability.hpp"
+#include "fibers/posix/program/state_calls.hpp"
 #include "fibers/posix/signals/cancellation.hpp"
 #include "fibers/posix/time/clocks.hpp"
 
@@ -40,7 +41,7 @@ int option_of(int descriptor, int option) {
   int value = 0;
   socklen_t size = sizeof value;
   const ErrorNumberKept kept;
-  return getsockopt(descriptor, SOL_SOCKET, option, &value, &size) == 0 ? value : -1;
+  return WAITPOINT_NEXT(getsockopt)(descriptor, SOL_SOCKET, option, &value, &size) == 0 ? value : -1;
 }
 
 // True for internet addresses beyond this machine's loopback.
@@ -309,6 +310,7 @@ WAITPOINT_INTERPOSED ssize_t recvfrom(int descriptor, void* __restrict bytes, st
 }
 
 WAITPOINT_INTERPOSED ssize_t recvmsg(int descriptor, msghdr* message, int flags) {
+  const AlsoUsing descriptors(changing(place::descriptors));  // of SCM_RIGHTS
   if (waits_for_all(descriptor, flags) && can_be_read(message) && has_bytes(*message))
     return receive_all_parts(descriptor, *message, flags);
   const ssize_t received = receive(descriptor, may_block(descriptor, flags),
@@ -353,6 +355,7 @@ WAITPOINT_INTERPOSED ssize_t sendmsg(int descriptor, const msghdr* message, int 
 
 WAITPOINT_INTERPOSED int accept4(int descriptor, sockaddr* __restrict address, socklen_t* __restrict length,
                                  int flags) {
+  const AlsoUsing descriptors(changing(place::descriptors));
   const bool is_valid = (flags & ~(SOCK_NONBLOCK | SOCK_CLOEXEC)) == 0 && option_of(descriptor, SO_ACCEPTCONN) == 1;
   const int made =
       receive(descriptor, is_valid, [&] { return WAITPOINT_NEXT(accept4)(descriptor, address, length, flags); });

@@ -12,6 +12,7 @@
 #include "fibers/posix/files/random_devices.hpp"
 #include "fibers/posix/files/system_files.hpp"
 #include "fibers/posix/input_output/fifos.hpp"
+#include "fibers/posix/program/file_places.hpp"
 #include "fibers/posix/program/program.hpp"
 
 using namespace waitpoint::posix;
@@ -24,6 +25,10 @@ int flags_of(const char* mode) {
   return (mode[0] == 'r' ? O_RDONLY : O_WRONLY) | closes;
 }
 
+int flags_to_open(const char* mode) {
+  return flags_of(mode) | (mode[0] == 'w' ? O_CREAT | O_TRUNC : mode[0] == 'a' ? O_CREAT : 0);
+}
+
 }  // namespace
 
 WAITPOINT_INTERPOSED FILE* fopen64(const char* __restrict path, const char* __restrict mode) {
@@ -31,6 +36,7 @@ WAITPOINT_INTERPOSED FILE* fopen64(const char* __restrict path, const char* __re
     FILE* const stream = WAITPOINT_NEXT(fopen64)(path, mode);
     return has_host ? stream : with_own_bytes(stream, mode);  // of the program, before main()
   }
+  before_call<"fopen">([&] { return opening(AT_FDCWD, path, flags_to_open(mode)); });
   note_use_of(path);
   const bool only_reads = mode[0] == 'r' && std::strchr(mode, '+') == nullptr;
   const int generated = only_reads && is_in_proc(path)

@@ -12,6 +12,7 @@
 #include "fibers/posix/base/error_number.hpp"
 #include "fibers/posix/base/interposed.hpp"
 #include "fibers/posix/descriptors/descriptors.hpp"
+#include "fibers/posix/program/state_calls.hpp"
 #include "fibers/posix/program/waiting.hpp"
 #include "fibers/posix/signals/cancellation.hpp"
 #include "fibers/posix/signals/signals.hpp"
@@ -31,7 +32,7 @@ bool is_open_to(mqd_t queue, short events) {
 bool waits(mqd_t queue) {
   mq_attr attributes{};
   const ErrorNumberKept kept;
-  return mq_getattr(queue, &attributes) == 0 && (attributes.mq_flags & O_NONBLOCK) == 0;
+  return WAITPOINT_NEXT(mq_getattr)(queue, &attributes) == 0 && (attributes.mq_flags & O_NONBLOCK) == 0;
 }
 
 // `call` never waits: its deadline is in the past, so it fails with ETIMEDOUT instead.
@@ -94,7 +95,8 @@ WAITPOINT_INTERPOSED int mq_timedsend(mqd_t queue, const char* bytes, std::size_
 // The system reports a message by a signal, even if the program asked for a thread.
 WAITPOINT_INTERPOSED int mq_notify(mqd_t queue, const sigevent* event) noexcept {
   if (!is_simulated() || event == nullptr || event->sigev_notify != SIGEV_THREAD)
-    return WAITPOINT_NEXT(mq_notify)(queue, event);
+    return before_call<"mq_notify">(changing(place::channels)), WAITPOINT_NEXT(mq_notify)(queue, event);
+  before_call<"mq_notify">(changing(place::channels));
   void* const memory = std::malloc(sizeof(Notice));
   auto* const notice = memory != nullptr ? new (memory) Notice() : nullptr;
   if (notice == nullptr || !notice->prepare(*event)) return fail(ENOMEM);

@@ -19,6 +19,7 @@
 #include "fibers/posix/family/order.hpp"
 #include "fibers/posix/ipc/access.hpp"
 #include "fibers/posix/ipc/named_objects.hpp"
+#include "fibers/posix/program/state_calls.hpp"
 
 namespace waitpoint::posix {
 namespace {
@@ -160,6 +161,7 @@ WAITPOINT_INTERPOSED sem_t* sem_open(const char* name, int flags, ...) noexcept 
     count = va_arg(more, unsigned);
     va_end(more);
   }
+  before_call<"sem_open">(changing(place::objects));
   int at = 0;
   if (const int error = posix::open(name, flags, mode, count, at); error != 0) {
     errno = error;
@@ -169,6 +171,7 @@ WAITPOINT_INTERPOSED sem_t* sem_open(const char* name, int flags, ...) noexcept 
 }
 
 WAITPOINT_INTERPOSED int sem_close(sem_t* semaphore) noexcept {
+  before_call<"sem_close">(changing(place::objects));
   for (int at = 0; names != nullptr && at < names_max; ++at) {
     if (opened[at] == 0 || &names->at[at]->semaphore != semaphore) continue;
     --opened[at];
@@ -179,6 +182,7 @@ WAITPOINT_INTERPOSED int sem_close(sem_t* semaphore) noexcept {
 }
 
 WAITPOINT_INTERPOSED int sem_unlink(const char* name) noexcept {
+  before_call<"sem_unlink">(changing(place::objects));
   if (*name == '/') ++name;
   const int at = names != nullptr ? find_named(name) : names_max;
   if (at == names_max) return fail(ENOENT);

@@ -10,6 +10,7 @@
 #include "fibers/posix/base/interposed.hpp"
 #include "fibers/posix/descriptors/descriptors.hpp"
 #include "fibers/posix/descriptors/partners.hpp"
+#include "fibers/posix/program/state_calls.hpp"
 
 namespace waitpoint::posix {
 namespace {
@@ -76,6 +77,7 @@ using namespace waitpoint;
 using namespace waitpoint::posix;
 
 WAITPOINT_INTERPOSED int listen(int descriptor, int most) noexcept {
+  before_call<"listen">(reading(place::descriptors) | changing(place::channels));
   if (!is_simulated() || !is_tcp(descriptor)) return WAITPOINT_NEXT(listen)(descriptor, most);
   send_at_once(descriptor);
   const int result = WAITPOINT_NEXT(listen)(descriptor, longest_queue);
@@ -84,6 +86,7 @@ WAITPOINT_INTERPOSED int listen(int descriptor, int most) noexcept {
 }
 
 WAITPOINT_INTERPOSED int setsockopt(int descriptor, int level, int option, const void* value, socklen_t size) noexcept {
+  before_call<"setsockopt">(reading(place::descriptors) | changing(place::channels));
   const bool has_number = is_simulated() && size >= sizeof(int) && can_be_read(value) && is_known(descriptor);
   if (has_number && is_about_delay(level, option) && is_tcp(descriptor)) {
     streams[descriptor].asked_for = *static_cast<const int*>(value) != 0;
@@ -95,6 +98,7 @@ WAITPOINT_INTERPOSED int setsockopt(int descriptor, int level, int option, const
 
 WAITPOINT_INTERPOSED int getsockopt(int descriptor, int level, int option, void* __restrict value,
                                     socklen_t* __restrict size) noexcept {
+  before_call<"getsockopt">(reading(place::descriptors) | reading(place::channels));
   const int result = WAITPOINT_NEXT(getsockopt)(descriptor, level, option, value, size);
   if (result == 0 && is_simulated() && *size == sizeof(int) && is_known(descriptor) && is_about_delay(level, option))
     *static_cast<int*>(value) = streams[descriptor].asked_for ? 1 : 0;

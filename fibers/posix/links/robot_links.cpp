@@ -7,6 +7,7 @@
 
 #include "core/error.hpp"
 #include "fibers/posix/base/error_number.hpp"
+#include "fibers/posix/base/interposed.hpp"
 #include "fibers/posix/descriptors/descriptors.hpp"
 #include "fibers/posix/descriptors/owners.hpp"
 #include "fibers/posix/program/thread.hpp"
@@ -20,7 +21,7 @@ int option_of(int descriptor, int option) {
   int value = 0;
   socklen_t size = sizeof value;
   const ErrorNumberKept kept;
-  return getsockopt(descriptor, SOL_SOCKET, option, &value, &size) == 0 ? value : -1;
+  return WAITPOINT_NEXT(getsockopt)(descriptor, SOL_SOCKET, option, &value, &size) == 0 ? value : -1;
 }
 
 bool is_connected_to(int descriptor, const SocketAddress& peer) {

@@ -12,6 +12,7 @@
 #include "fibers/posix/base/interposed.hpp"
 #include "fibers/posix/family/processes.hpp"
 #include "fibers/posix/program/program.hpp"
+#include "fibers/posix/program/state_calls.hpp"
 #include "fibers/posix/time/clocks.hpp"
 
 namespace waitpoint::posix {
@@ -30,11 +31,13 @@ using namespace waitpoint::posix;
 WAITPOINT_INTERPOSED pid_t getpid() noexcept { return family::this_process(); }
 // Programs poll it for the end of their parent.
 WAITPOINT_INTERPOSED pid_t getppid() noexcept {
+  before_call<"getppid">(reading(place::process));
   if (is_simulated()) read_clock();
   return family::own != nullptr ? family::own->parent : static_cast<pid_t>(WAITPOINT_NEXT(syscall)(SYS_getppid));
 }
 
 WAITPOINT_INTERPOSED pid_t getpgid(pid_t id) noexcept {
+  before_call<"getpgid">(reading(place::process));
   if (family::own == nullptr) return WAITPOINT_NEXT(getpgid)(id);
   const Process* const process = asked(id);
   return process != nullptr ? process->group : fail(ESRCH);
@@ -43,6 +46,7 @@ WAITPOINT_INTERPOSED pid_t __getpgid(pid_t id) noexcept { return getpgid(id); }
 WAITPOINT_INTERPOSED pid_t getpgrp() noexcept { return getpgid(0); }
 
 WAITPOINT_INTERPOSED int setpgid(pid_t id, pid_t group) noexcept {
+  before_call<"setpgid">(changing(place::process));
   if (family::own == nullptr) return WAITPOINT_NEXT(setpgid)(id, group);
   Process* const process = asked(id);
   if (group < 0) return fail(EINVAL);
@@ -59,12 +63,14 @@ WAITPOINT_INTERPOSED int setpgid(pid_t id, pid_t group) noexcept {
 WAITPOINT_INTERPOSED int setpgrp() noexcept { return setpgid(0, 0); }
 
 WAITPOINT_INTERPOSED pid_t getsid(pid_t id) noexcept {
+  before_call<"getsid">(reading(place::process));
   if (family::own == nullptr) return WAITPOINT_NEXT(getsid)(id);
   const Process* const process = asked(id);
   return process != nullptr ? process->session : fail(ESRCH);
 }
 
 WAITPOINT_INTERPOSED pid_t setsid() noexcept {
+  before_call<"setsid">(changing(place::process));
   if (family::own == nullptr) return WAITPOINT_NEXT(setsid)();
   Process& process = *family::own;
   for (const Process& each : family::entries())

@@ -16,6 +16,7 @@
 #include "fibers/posix/base/error_number.hpp"
 #include "fibers/posix/base/interposed.hpp"
 #include "fibers/posix/program/program.hpp"
+#include "fibers/posix/program/state_calls.hpp"
 #include "fibers/posix/program/thread.hpp"
 
 namespace waitpoint::posix {
@@ -60,10 +61,12 @@ void draw_random_bytes_of_the_process() {
 
 using namespace waitpoint::posix;
 
+// The order of draws is an outcome.
 WAITPOINT_INTERPOSED ssize_t getrandom(void* buffer, std::size_t size, unsigned flags) {
   constexpr unsigned of_either = GRND_RANDOM | GRND_INSECURE;
   if ((flags & ~(GRND_NONBLOCK | of_either)) != 0 || (flags & of_either) == of_either) return fail(EINVAL);
   if (size > 0 && !can_be_written(buffer, size)) return fail(EFAULT);
+  before_call<"getrandom">(changing(place::random));
   fill_with_random(buffer, size);
   return static_cast<ssize_t>(size);
 }
@@ -71,18 +74,27 @@ WAITPOINT_INTERPOSED ssize_t getrandom(void* buffer, std::size_t size, unsigned 
 WAITPOINT_INTERPOSED int getentropy(void* buffer, std::size_t size) {
   if (size > 256) return fail(EIO);
   if (size > 0 && !can_be_written(buffer, size)) return fail(EFAULT);
+  before_call<"getentropy">(changing(place::random));
   fill_with_random(buffer, size);
   return 0;
 }
 
-WAITPOINT_INTERPOSED std::uint32_t arc4random() noexcept { return static_cast<std::uint32_t>(draw_random() >> 32); }
-WAITPOINT_INTERPOSED void arc4random_buf(void* buffer, std::size_t size) noexcept { fill_with_random(buffer, size); }
+WAITPOINT_INTERPOSED std::uint32_t arc4random() noexcept {
+  before_call<"arc4random">(changing(place::random));
+  return static_cast<std::uint32_t>(draw_random() >> 32);
+}
+WAITPOINT_INTERPOSED void arc4random_buf(void* buffer, std::size_t size) noexcept {
+  before_call<"arc4random_buf">(changing(place::random));
+  fill_with_random(buffer, size);
+}
 WAITPOINT_INTERPOSED std::uint32_t arc4random_uniform(std::uint32_t bound) noexcept {
+  before_call<"arc4random_uniform">(changing(place::random));
   return static_cast<std::uint32_t>((draw_random() >> 32) * bound >> 32);
 }
 
 // libstdc++'s std::random_device, which reads the processor's generator: unsigned random_device::_M_getval().
 WAITPOINT_INTERPOSED unsigned _ZNSt13random_device9_M_getvalEv(void*) {
+  before_call<"random_device">(changing(place::random));
   return static_cast<unsigned>(draw_random() >> 32);
 }
 

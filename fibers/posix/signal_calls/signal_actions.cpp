@@ -9,6 +9,7 @@
 #include "fibers/posix/base/interposed.hpp"
 #include "fibers/posix/family/turn.hpp"
 #include "fibers/posix/program/program.hpp"
+#include "fibers/posix/program/state_calls.hpp"
 #include "fibers/posix/signals/signals.hpp"
 
 namespace waitpoint::posix {
@@ -38,6 +39,7 @@ WAITPOINT_INTERPOSED int sigaction(int signal, const struct sigaction* action, s
   if (is_host_code()) return WAITPOINT_NEXT(sigaction)(signal, action, old);
   if (!is_signal(signal) || signal == 32 || signal == 33) return fail(EINVAL);
   if (action != nullptr && contains(unblockable, signal)) return fail(EINVAL);
+  before_call<"sigaction">(action != nullptr ? changing(place::signals) : reading(place::signals));
   Program& program = program_now();
   ProgramSignals& signals = program.signals;
   struct sigaction& known = signals.actions[signal];

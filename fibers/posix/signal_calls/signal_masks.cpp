@@ -11,6 +11,7 @@
 #include "fibers/posix/base/error_number.hpp"
 #include "fibers/posix/base/interposed.hpp"
 #include "fibers/posix/program/program.hpp"
+#include "fibers/posix/program/state_calls.hpp"
 #include "fibers/posix/signals/signals.hpp"
 #include "fibers/posix/traps/access_breakpoints.hpp"
 
@@ -32,6 +33,7 @@ void block_from_now_on(SignalSet blocked) {
 }
 
 int change_mask(int how, const sigset_t* set, sigset_t* old) {
+  if (set != nullptr) before_call<"sigprocmask">(changing(place::signals));
   const SignalSet before = blocked_now();
   if (set != nullptr && !can_be_read(set)) return EFAULT;
   if (set != nullptr) {
@@ -148,6 +150,7 @@ WAITPOINT_INTERPOSED int sigprocmask(int how, const sigset_t* set, sigset_t* old
 }
 
 WAITPOINT_INTERPOSED int sigpending(sigset_t* set) noexcept {
+  before_call<"sigpending">(reading(place::signals | place::timers));
   if (!is_simulated()) return WAITPOINT_NEXT(sigpending)(set);
   if (!can_be_written(set)) return fail(EFAULT);
   take_in_signals_from_outside();

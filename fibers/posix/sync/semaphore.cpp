@@ -11,6 +11,7 @@
 #include "fibers/posix/base/error_number.hpp"
 #include "fibers/posix/base/interposed.hpp"
 #include "fibers/posix/program/program.hpp"
+#include "fibers/posix/program/state_calls.hpp"
 #include "fibers/posix/program/waitable.hpp"
 #include "fibers/posix/signals/cancellation.hpp"
 #include "fibers/posix/sync/shared_object.hpp"
@@ -110,6 +111,7 @@ WAITPOINT_INTERPOSED int sem_trywait(sem_t* semaphore) noexcept {
 }
 
 WAITPOINT_INTERPOSED int sem_getvalue(sem_t* __restrict semaphore, int* __restrict count) noexcept {
+  if (are_calls_events()) pass(kernel::Operation::load, &bytes_of(semaphore).waitable().object);
   *count = static_cast<int>(bytes_of(semaphore).count);
   return 0;
 }

@@ -15,6 +15,7 @@
 #include "fibers/posix/base/argument_memory.hpp"
 #include "fibers/posix/base/error_number.hpp"
 #include "fibers/posix/base/interposed.hpp"
+#include "fibers/posix/program/state_calls.hpp"
 #include "fibers/posix/program/thread.hpp"
 #include "fibers/posix/signals/signals.hpp"
 
@@ -82,6 +83,7 @@ using namespace waitpoint;
 using namespace waitpoint::posix;
 
 WAITPOINT_INTERPOSED int pthread_setname_np(pthread_t id, const char* name) noexcept {
+  before_call<"pthread_setname_np">(changing(place::threads));
   const std::size_t length = std::strlen(name);
   if (length > 15) return ERANGE;
   Thread* const thread = find_running(id);
@@ -93,6 +95,7 @@ WAITPOINT_INTERPOSED int pthread_setname_np(pthread_t id, const char* name) noex
 }
 
 WAITPOINT_INTERPOSED int pthread_getname_np(pthread_t id, char* name, std::size_t size) noexcept {
+  before_call<"pthread_getname_np">(reading(place::threads));
   const Thread* const thread = find_running(id);
   if (thread == nullptr) return ESRCH;
   if (size < 16) return ERANGE;
@@ -102,6 +105,7 @@ WAITPOINT_INTERPOSED int pthread_getname_np(pthread_t id, char* name, std::size_
 }
 
 WAITPOINT_INTERPOSED int pthread_getattr_np(pthread_t id, pthread_attr_t* attributes) noexcept {
+  before_call<"pthread_getattr_np">(reading(place::threads));
   Thread* const thread = find_running(id);
   if (thread == nullptr) return ESRCH;
   const kernel::Stack& stack = thread->task->fiber.stack;
@@ -120,6 +124,7 @@ WAITPOINT_INTERPOSED int pthread_getattr_np(pthread_t id, pthread_attr_t* attrib
 }
 
 WAITPOINT_INTERPOSED int pthread_setaffinity_np(pthread_t id, std::size_t size, const cpu_set_t* set) noexcept {
+  before_call<"pthread_setaffinity_np">(changing(place::threads));
   Thread* const thread = find_running(id);
   if (thread == nullptr) return ESRCH;
   if (!can_be_read(set)) return EFAULT;
@@ -131,6 +136,7 @@ WAITPOINT_INTERPOSED int pthread_setaffinity_np(pthread_t id, std::size_t size, 
 }
 
 WAITPOINT_INTERPOSED int pthread_getaffinity_np(pthread_t id, std::size_t size, cpu_set_t* set) noexcept {
+  before_call<"pthread_getaffinity_np">(reading(place::threads));
   const Thread* const thread = find_running(id);
   if (thread == nullptr) return ESRCH;
   if (!thread->has_processors) return sched_getaffinity(0, size, set) == 0 ? 0 : errno;
@@ -141,6 +147,7 @@ WAITPOINT_INTERPOSED int pthread_getaffinity_np(pthread_t id, std::size_t size, 
 }
 
 WAITPOINT_INTERPOSED int pthread_setschedparam(pthread_t id, int policy, const sched_param* parameters) noexcept {
+  before_call<"pthread_setschedparam">(changing(place::threads));
   Thread* const thread = find_running(id);
   if (thread == nullptr) return ESRCH;
   const int least = sched_get_priority_min(policy), greatest = sched_get_priority_max(policy);
@@ -158,6 +165,7 @@ WAITPOINT_INTERPOSED int pthread_setschedprio(pthread_t id, int priority) noexce
 }
 
 WAITPOINT_INTERPOSED int pthread_getschedparam(pthread_t id, int* policy, sched_param* parameters) noexcept {
+  before_call<"pthread_getschedparam">(reading(place::threads));
   const Thread* const thread = find_running(id);
   if (thread == nullptr) return ESRCH;
   *policy = thread->policy;

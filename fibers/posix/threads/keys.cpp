@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fibers/posix/threads/keys.hpp"
+#include "fibers/posix/program/state_calls.hpp"
 
 #include <limits.h>
 #include <pthread.h>
@@ -22,6 +23,7 @@ static_assert(sizeof(tss_t) == sizeof(pthread_key_t));
 unsigned keys_end = 0;  // one past the greatest key made
 
 int make(pthread_key_t* key, Destructor destructor) {
+  before_call<"pthread_key_create">(changing(place::threads));
   const int error = WAITPOINT_NEXT(pthread_key_create)(key, nullptr);
   if (error != 0 || *key >= PTHREAD_KEYS_MAX) return error;
   keys[*key] = {true, destructor};
@@ -61,6 +63,7 @@ WAITPOINT_INTERPOSED int __pthread_key_create(pthread_key_t* key, void (*destruc
 WAITPOINT_INTERPOSED int tss_create(tss_t* key, tss_dtor_t destructor) { return make(key, destructor) == 0 ? 0 : 2; }
 
 WAITPOINT_INTERPOSED int pthread_key_delete(pthread_key_t key) noexcept {
+  before_call<"pthread_key_delete">(changing(place::threads));
   if (key < PTHREAD_KEYS_MAX) keys[key] = {};
   return WAITPOINT_NEXT(pthread_key_delete)(key);
 }

@@ -14,6 +14,7 @@
 #include "fibers/posix/family/processes.hpp"
 #include "fibers/posix/files/machine.hpp"
 #include "fibers/posix/program/program.hpp"
+#include "fibers/posix/program/state_calls.hpp"
 #include "fibers/posix/program/thread.hpp"
 #include "fibers/posix/time/clocks.hpp"
 
@@ -67,18 +68,20 @@ using namespace waitpoint;
 using namespace waitpoint::posix;
 
 WAITPOINT_INTERPOSED int sched_setscheduler(pid_t id, int policy, const sched_param* parameters) noexcept {
+  before_call<"sched_setscheduler">(changing(place::threads));
   Thread* const thread = thread_with(id);
   if (thread == nullptr) return WAITPOINT_NEXT(sched_setscheduler)(family::in_system(id), policy, parameters);
   const int plain = policy & ~SCHED_RESET_ON_FORK;
   if (parameters == nullptr) return fail(EINVAL);
   if (!can_be_read(parameters)) return fail(EFAULT);
   if (!is_priority_of(plain, parameters->sched_priority)) return fail(EINVAL);
-  if (geteuid() != 0 && parameters->sched_priority > 0) return fail(EPERM);
+  if (WAITPOINT_NEXT(geteuid)() != 0 && parameters->sched_priority > 0) return fail(EPERM);
   thread->policy = plain;
   thread->priority = parameters->sched_priority;
   return 0;
 }
 WAITPOINT_INTERPOSED int sched_getscheduler(pid_t id) noexcept {
+  before_call<"sched_getscheduler">(reading(place::threads));
   const Thread* const thread = thread_with(id);
   return thread == nullptr ? WAITPOINT_NEXT(sched_getscheduler)(family::in_system(id)) : thread->policy;
 }
@@ -88,6 +91,7 @@ WAITPOINT_INTERPOSED int sched_setparam(pid_t id, const sched_param* parameters)
   return sched_setscheduler(id, thread->policy, parameters);
 }
 WAITPOINT_INTERPOSED int sched_getparam(pid_t id, sched_param* parameters) noexcept {
+  before_call<"sched_getparam">(reading(place::threads));
   const Thread* const thread = thread_with(id);
   if (thread == nullptr) return WAITPOINT_NEXT(sched_getparam)(family::in_system(id), parameters);
   if (parameters == nullptr) return fail(EINVAL);
@@ -121,21 +125,24 @@ WAITPOINT_INTERPOSED int sched_getaffinity(pid_t id, std::size_t size, cpu_set_t
 }
 
 WAITPOINT_INTERPOSED int getpriority(__priority_which_t which, id_t id) noexcept {
+  before_call<"getpriority">(reading(place::threads));
   const Thread* const thread = later_thread_with(which, id);
   return thread == nullptr ? WAITPOINT_NEXT(getpriority)(which, in_system(which, id))
                            : niceness_of_process() + thread->niceness;
 }
 WAITPOINT_INTERPOSED int setpriority(__priority_which_t which, id_t id, int to) noexcept {
+  before_call<"setpriority">(changing(place::threads));
   Thread* const thread = later_thread_with(which, id);
   if (thread == nullptr)
     return change_niceness_of_process([&] { return WAITPOINT_NEXT(setpriority)(which, in_system(which, id), to); });
   to = to < least_niceness ? least_niceness : to > greatest_niceness ? greatest_niceness : to;
   const int of_process = niceness_of_process();
-  if (geteuid() != 0 && to < of_process + thread->niceness) return fail(EACCES);
+  if (WAITPOINT_NEXT(geteuid)() != 0 && to < of_process + thread->niceness) return fail(EACCES);
   thread->niceness = to - of_process;
   return 0;
 }
 WAITPOINT_INTERPOSED int nice(int by) noexcept {
+  before_call<"nice">(changing(place::threads));
   if (!is_simulated() || this_thread().id == getpid())
     return change_niceness_of_process([&] { return WAITPOINT_NEXT(nice)(by); });
   const id_t own = static_cast<id_t>(this_thread().id);

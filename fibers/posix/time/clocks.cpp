@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fibers/posix/time/clocks.hpp"
+#include "fibers/posix/program/state_calls.hpp"
 
 #include <sys/syscall.h>
 #include <sys/time.h>
@@ -141,7 +142,8 @@ WAITPOINT_INTERPOSED int clock_settime(clockid_t clock, const timespec* time) no
   if (clock < 0 && is_clock(clock)) return fail(EPERM);
   if (clock != CLOCK_REALTIME) return fail(EINVAL);
   if (!is_valid(*time) || time->tv_sec < 0 || time->tv_sec > last_date_s) return fail(EINVAL);
-  if (geteuid() != 0) return fail(EPERM);
+  if (WAITPOINT_NEXT(geteuid)() != 0) return fail(EPERM);
+  before_call<"clock_settime">(changing(place::run));
   set_by_ns += time->tv_sec * second_ns + time->tv_nsec - reading_ns(CLOCK_REALTIME, posix::now());
   return 0;
 }

@@ -12,6 +12,7 @@
 #include "fibers/posix/base/argument_memory.hpp"
 #include "fibers/posix/base/error_number.hpp"
 #include "fibers/posix/base/interposed.hpp"
+#include "fibers/posix/program/state_calls.hpp"
 #include "fibers/posix/program/waiting.hpp"
 #include "fibers/posix/signals/signals.hpp"
 #include "fibers/posix/time/clocks.hpp"
@@ -119,6 +120,7 @@ WAITPOINT_INTERPOSED int getitimer(__itimer_which_t which, itimerval* state) noe
   const int number = static_cast<int>(which);
   if (number < 0 || number > 2) return fail(EINVAL);
   if (!can_be_written(state)) return fail(EFAULT);
+  before_call<"getitimer">(reading(place::timers));
   read_clock();
   const SignalTimer* const timer = timer_of_program(number);
   if (timer == nullptr) return fail(ENOMEM);

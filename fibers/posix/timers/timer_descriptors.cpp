@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fibers/posix/timers/timer_descriptors.hpp"
+#include "fibers/posix/program/state_calls.hpp"
 
 #include <sys/eventfd.h>
 #include <sys/timerfd.h>
@@ -143,6 +144,7 @@ WAITPOINT_INTERPOSED int timerfd_settime(int descriptor, int flags, const itimer
   if ((flags & ~(TFD_TIMER_ABSTIME | TFD_TIMER_CANCEL_ON_SET)) != 0) return fail(EINVAL);
   if (!is_valid(to->it_value) || !is_valid(to->it_interval) || to->it_value.tv_sec < 0 || to->it_interval.tv_sec < 0)
     return fail(EINVAL);
+  const AlsoUsing descriptors(changing(place::channels) | reading(place::descriptors));
   pass(kernel::Operation::timer_start, nullptr);
   TimerDescriptor* const timer = timer_of(descriptor);
   if (timer == nullptr) return fail(EBADF);  // another thread has closed it meanwhile
@@ -164,6 +166,7 @@ WAITPOINT_INTERPOSED int timerfd_settime(int descriptor, int flags, const itimer
 }
 
 WAITPOINT_INTERPOSED int timerfd_gettime(int descriptor, itimerspec* time) noexcept {
+  before_call<"timerfd_gettime">(reading(place::timers | place::descriptors));
   const TimerDescriptor* const timer = timer_of(descriptor);
   if (timer == nullptr) return WAITPOINT_NEXT(timerfd_gettime)(descriptor, time);
   if (!can_be_written(time)) return fail(EFAULT);

@@ -19,6 +19,7 @@
 #include "fibers/posix/base/error_number.hpp"
 #include "fibers/posix/base/interposed.hpp"
 #include "fibers/posix/program/program.hpp"
+#include "fibers/posix/program/state_calls.hpp"
 #include "fibers/posix/program/waiting.hpp"
 #include "fibers/posix/signals/signals.hpp"
 #include "fibers/posix/time/clocks.hpp"
@@ -195,6 +196,7 @@ using namespace waitpoint::posix;
 WAITPOINT_INTERPOSED int timer_create(clockid_t clock, sigevent* event, timer_t* id) noexcept {
   if (!is_simulated()) return WAITPOINT_NEXT(timer_create)(clock, event, id);
   if ((event != nullptr && !can_be_read(event)) || !can_be_written(id)) return fail(EFAULT);
+  before_call<"timer_create">(changing(place::timers));
   void* const memory = std::malloc(sizeof(Timer));
   if (memory == nullptr) return fail(EAGAIN);
   auto* const timer = new (memory) Timer(this_program());
@@ -253,6 +255,7 @@ WAITPOINT_INTERPOSED int timer_settime(timer_t id, int flags, const itimerspec* 
 
 WAITPOINT_INTERPOSED int timer_gettime(timer_t id, itimerspec* state) noexcept {
   if (!is_simulated()) return WAITPOINT_NEXT(timer_gettime)(id, state);
+  before_call<"timer_gettime">(reading(place::timers));
   const Timer* const timer = find_timer(id);
   if (timer == nullptr) return fail(EINVAL);
   if (!can_be_written(state)) return fail(EFAULT);
@@ -263,6 +266,7 @@ WAITPOINT_INTERPOSED int timer_gettime(timer_t id, itimerspec* state) noexcept {
 
 WAITPOINT_INTERPOSED int timer_getoverrun(timer_t id) noexcept {
   if (!is_simulated()) return WAITPOINT_NEXT(timer_getoverrun)(id);
+  before_call<"timer_getoverrun">(reading(place::timers));
   const Timer* const timer = find_timer(id);
   return timer == nullptr ? fail(EINVAL) : timer->told;
 }

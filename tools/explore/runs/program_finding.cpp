@@ -222,6 +222,8 @@ ProcessFinding finding_of_run(const RunMemory& memory, int status, const std::st
     finding.lesson.progress = static_cast<const exploration::Dpor&>(*explored.strategy).progress();
   finding.has_unlearned_code = has_unlearned_code(record);
   finding.has_left_out_values = has_left_out_values(record);
+  finding.uses_futexes = record.uses_futexes;
+  finding.meets_outside = record.meets_outside;
   if (wanted.profile) {
     finding.lesson.profile = explored.profile;
     finding.lesson.profile.finish(explored.explorer.steps());

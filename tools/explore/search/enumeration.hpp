@@ -27,6 +27,7 @@ class Enumeration {
   bool take(const ProcessFinding& finding);
   /// After the last: Exhaustive::scope().
   std::optional<std::string> scope() const { return schedules_->scope(); }
+  std::string unproved() const { return schedules_->unproved(); }
 
  private:
   Enumeration(std::string name, std::unique_ptr<Exhaustive> schedules)

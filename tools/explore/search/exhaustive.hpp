@@ -21,8 +21,10 @@ class Exhaustive {
   /// strategy cannot continue for this program.
   std::optional<Plan> after(const ProcessFinding& finding);
   /// The scope of the search when it is exhausted: " with at most 2 preemptions, except turns of spinning tasks";
-  /// nothing if a schedule was lost, with those that follow from it.
+  /// nothing if a schedule was lost, with those that follow from it, or if schedules prove nothing.
   std::optional<std::string> scope() const;
+  /// The reason why all schedules are not all orders; empty if they are.
+  std::string unproved() const;
 
  protected:
   explicit Exhaustive(std::string scope) : scope_(std::move(scope)) {}
@@ -31,7 +33,7 @@ class Exhaustive {
   virtual std::optional<Plan> next(const ProcessFinding& finding) = 0;
 
   std::string scope_;
-  bool is_broken_ = false, is_at_calls_ = false;
+  bool is_broken_ = false, is_at_calls_ = false, has_futexes_ = false, is_outside_ = false;
   exploration::Omissions omissions_;
 };
 

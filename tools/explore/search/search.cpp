@@ -189,10 +189,12 @@ void Search::end_enumeration() {
   tell_exhaustion(ended_.size());
   const std::optional<std::string> scope = enumeration_->scope();
   is_exhausted_ = is_exhaustive_ || exhaustion_.end_enumeration(scope.has_value());
-  if (is_exhausted_)
+  if (is_exhausted_) {
     scope_ = scope;
-  else
+    unproved_ = enumeration_->unproved();
+  } else {
     enumeration_ = Enumeration::after_draws(exhaustion_.strategy());
+  }
 }
 
 // Of schedules up to the failure that ends the search: how many more had been begun depends on the machine.

@@ -45,6 +45,8 @@ class Search {
   bool interrupted() const { return interrupted_; }
   /// The scope of an exhausted search; nothing if it was not.
   const std::optional<std::string>& scope() const { return scope_; }
+  /// The reason why all schedules have been tried, and there may be other orders; empty if that is not so.
+  const std::string& unproved() const { return unproved_; }
   /// The strategy of the options draws: it was an enumeration that exhausted the search.
   bool has_drawn() const { return !is_exhaustive_; }
 
@@ -99,6 +101,7 @@ class Search {
   std::optional<std::uint64_t> enumerating_;  // the place of its present or last schedule
   bool has_races_ = false;
   bool is_exhausted_ = false;
+  std::string unproved_;
   std::optional<std::string> scope_;
 };
 

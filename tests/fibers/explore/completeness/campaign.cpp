@@ -132,7 +132,7 @@ int run(const Asked& asked) {
   for (std::uint64_t i = 0; i < (is_single ? 1 : asked.count); ++i) {
     // Each schedule of threads takes a process: the number of schedules must be small.
     const std::uint64_t number = are_small ? 2 * (asked.first + i) : asked.first + i;
-    const Program program = is_single ? read_program(asked.program) : make_program(number);
+    const Program program = is_single ? read_program(asked.program) : make_program(number, asked.is_exec);
     const Enumerated all = enumerate(program, states_max);
     for (Tally& tally : tallies) compare_one(program, all, cover_by, tally, asked.is_exec ? " --exec" : "");
     if ((asked.is_exec || i % 100 == 99) && isatty(STDERR_FILENO) != 0)

@@ -6,6 +6,7 @@
 #include <memory>
 #include <sstream>
 
+#include "core/error.hpp"
 #include "fibers/explore/body.hpp"
 #include "fibers/explore/strategies/factory.hpp"
 #include "fibers/kernel/interruption.hpp"
@@ -138,6 +139,7 @@ class Run {
       case Step::acquire_for: read(thread, units_[object].try_acquire_for(std::chrono::seconds(operand))); break;
       case Step::try_acquire: read(thread, units_[object].try_acquire()); break;
       case Step::release: units_[object].release(); break;
+      case Step::count: throw BadInput("program", "a semaphore's units are read by POSIX threads only: --exec");
       case Step::sleep: this_thread::sleep_for(std::chrono::seconds(std::max<int>(operand, 1))); break;
       case Step::exit_all: end("exit", thread);
       default: access(instruction, thread);

@@ -133,6 +133,7 @@ class Search {
             ++after.units[object];
           finish(after, t);
         });
+      case Step::count: return finish(next, t, state.units[object]);
       case Step::load: return finish(next, t, state.values[object]);
       case Step::store: next.values[object] = operand; return finish(next, t);
       case Step::add: next.values[object] += operand; return finish(next, t, state.values[object]);

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A program of program.hpp on POSIX threads: program TEXT FILE.
 //
-// Each run appends a record to FILE, in shared memory, so that it is known however the run ends. Atomics are plain
-// memory: the post of a semaphore before each access is their switch point.
+// Each run appends a record to FILE, in shared memory, so that it is known however the run ends. An atomic is the
+// offset of an open file, which lseek() reads, sets and adds to; if it is only read and set, the second one is a
+// variable of the environment. One that is replaced if it is 0, which no call does, is plain memory: the post of a
+// semaphore before each access is its switch point.
 #include <fcntl.h>
 #include <pthread.h>
 #include <semaphore.h>
@@ -33,6 +35,9 @@ static pthread_t threads[threads_max];
 static pthread_mutex_t mutexes[objects] = {PTHREAD_MUTEX_INITIALIZER, PTHREAD_MUTEX_INITIALIZER};
 static pthread_cond_t conditions[objects] = {PTHREAD_COND_INITIALIZER, PTHREAD_COND_INITIALIZER};
 static sem_t units[objects], turn;
+static int files[objects];  // of atomics that are offsets
+static int is_variable;     // the second atomic
+static const char* const numerals[] = {"0", "1", "2", "3", "4", "5", "6", "7", "8", "9"};
 
 static void end(int how, int by) {
   if (record->ending == 0) {
@@ -61,8 +66,22 @@ static void add_read(int self, int value) {
   if (record->threads[self].count < reads_max) record->threads[self].reads[record->threads[self].count++] = value;
 }
 
+static void access_offset(int self, char step, int object, int operand) {
+  const long offset = lseek(files[object], step == 'g' ? 0 : operand, step == 'p' ? SEEK_SET : SEEK_CUR);
+  record->values[object] = (int)offset;
+  if (step != 'p') add_read(self, (int)offset - (step == 'f' ? operand : 0));
+}
+
+static void access_variable(int self, char step, int operand) {
+  const char* const value = step == 'p' ? (setenv("VALUE", numerals[operand], 1), numerals[operand]) : getenv("VALUE");
+  if (step == 'p') record->values[1] = operand;
+  if (step == 'g') add_read(self, value[0] - '0');
+}
+
 // An atomic's operation, after its switch point.
 static void access_atomic(int self, char step, int object, int operand) {
+  if (is_variable && object == 1) return access_variable(self, step, operand);
+  if (files[object] > 0) return access_offset(self, step, object, operand);
   sem_post(&turn);
   const int before = record->values[object];
   if (step != 'p') add_read(self, before);
@@ -82,6 +101,11 @@ static int lock_before(int mutex, struct timespec deadline) {
 }
 static int wait_before(int condition, struct timespec deadline) {
   return pthread_cond_timedwait(&conditions[condition], &mutexes[condition], &deadline) == 0;
+}
+static int units_of(int semaphore) {
+  int value = 0;
+  sem_getvalue(&units[semaphore], &value);
+  return value;
 }
 static int acquire_before(int semaphore, struct timespec deadline) {
   return sem_timedwait(&units[semaphore], &deadline) == 0;
@@ -134,6 +158,7 @@ static void execute(int self, char step, int object, int operand, int* created, 
     case 'b': pthread_cond_broadcast(&conditions[object]); break;
     case 'a': sem_wait(&units[object]); break;
     case 'A': add_read(self, acquire_before(object, after(operand))); break;
+    case 'v': add_read(self, units_of(object)); break;
     case 'q': add_read(self, sem_trywait(&units[object]) == 0); break;
     case 'r': sem_post(&units[object]); break;
     case 'z': nanosleep(&span, NULL); break;
@@ -181,6 +206,10 @@ int main(int count, char** arguments) {
   if (record == MAP_FAILED) return 2;
   for (int i = 0; i < objects; ++i) sem_init(&units[i], 0, (unsigned)(arguments[1][i] - '0'));
   sem_init(&turn, 0, 0);
+  for (int i = 0; i < objects; ++i)
+    if (strstr(arguments[1], i == 0 ? "x0" : "x1") == NULL) files[i] = open(arguments[2], O_RDONLY);
+  is_variable = strstr(arguments[1], "x1") == NULL && strstr(arguments[1], "f1") == NULL;
+  setenv("VALUE", "0", 1);
   int thread = 0;
   for (const char* at = strchr(arguments[1], '|'); at != NULL && thread < threads_max; at = strchr(at, '|'))
     texts[thread++] = ++at;

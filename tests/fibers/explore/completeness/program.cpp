@@ -8,7 +8,7 @@
 namespace waitpoint::completeness {
 namespace {
 
-constexpr std::string_view letters = "cjlLtuwWnbaAqrgpfxzsek";
+constexpr std::string_view letters = "cjlLtuwWnbaAqrvgpfxzsek";
 
 bool is_digit(char letter) { return letter >= '0' && letter <= '9'; }
 std::uint8_t digit(char letter) { return static_cast<std::uint8_t>(letter - '0'); }

@@ -32,6 +32,7 @@ enum class Step : char {
   acquire_for = 'A',  ///< for `operand` instants; reads its success
   try_acquire = 'q',  ///< reads its success
   release = 'r',      ///< a unit
+  count = 'v',        ///< reads the semaphore's units; of POSIX threads only
   load = 'g',         ///< reads atomic `object`
   store = 'p',        ///< `operand`
   add = 'f',          ///< `operand`; reads the value before

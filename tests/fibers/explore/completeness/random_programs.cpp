@@ -12,7 +12,7 @@ constexpr std::size_t length_max = 8;
 
 class Maker {
  public:
-  explicit Maker(std::uint64_t number) : draws_(number, "tests", "completeness") {
+  Maker(std::uint64_t number, bool has_calls) : draws_(number, "tests", "completeness"), has_calls_(has_calls) {
     is_small_ = number % 2 == 0;
     const std::size_t threads = is_small_ ? (one_in(4) ? 3 : 2) : 2 + below(3);
     for (std::uint8_t& units : program_.units) units = static_cast<std::uint8_t>(below(2));
@@ -69,7 +69,9 @@ class Maker {
         break;
       case conditions: add_condition(thread, which, held); break;
       case semaphores: {
-        const Step step = pick({Step::acquire, Step::release, Step::release, Step::try_acquire});
+        const Step step = has_calls_ && one_in(4)
+                              ? Step::count
+                              : pick({Step::acquire, Step::release, Step::release, Step::try_acquire});
         thread.push_back(step == Step::acquire && times_out() ? Instruction{Step::acquire_for, which, span()}
                                                               : Instruction{step, which, 0});
         break;
@@ -111,7 +113,7 @@ class Maker {
 
   RandomStream draws_;
   std::uint64_t drawn_ = 0;
-  bool is_small_ = false, has_timeouts_ = false;
+  bool is_small_ = false, has_timeouts_ = false, has_calls_;
   std::array<std::uint8_t, kinds> most_objects_{};
   std::vector<Kind> kinds_;
   Program program_;
@@ -119,6 +121,6 @@ class Maker {
 
 }  // namespace
 
-Program make_program(std::uint64_t number) { return Maker(number).take(); }
+Program make_program(std::uint64_t number, bool has_calls) { return Maker(number, has_calls).take(); }
 
 }  // namespace waitpoint::completeness
