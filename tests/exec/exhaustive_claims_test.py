@@ -120,6 +120,23 @@ class Claims(ExecCase):
               assert(seen == 1);
             }""", ".cpp", ("dpor", "portfolio"))
 
+    def test_a_system_call_by_number_depends_on_all_others(self):
+        self.expect_failure("""
+            #include <assert.h>
+            #include <pthread.h>
+            #include <sys/syscall.h>
+            #include <unistd.h>
+            static void* cover(void* none) { syscall(SYS_umask, 077); return none; }
+            int main(void) {
+              pthread_t other;
+              syscall(SYS_umask, 022);
+              pthread_create(&other, NULL, cover, NULL);
+              const long seen = syscall(SYS_umask, 022);
+              pthread_join(other, NULL);
+              assert(seen == 022);
+              return 0;
+            }""")
+
     def test_locks_by_futexes_of_the_program_prove_nothing_at_calls(self):
         file, program = self.folder / "futex.c", self.folder / "futex"
         file.write_text("""

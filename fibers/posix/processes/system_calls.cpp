@@ -26,10 +26,12 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <climits>
 #include <csignal>
 #include <cstdarg>
+#include <iterator>
 #include <optional>
 
 extern "C" {
@@ -44,6 +46,7 @@ extern "C" {
 #include "fibers/posix/processes/clones.hpp"
 #include "fibers/posix/program/program.hpp"
 #include "fibers/posix/program/repeatability.hpp"
+#include "fibers/posix/program/state_calls.hpp"
 #include "fibers/posix/signals/cancellation.hpp"
 #include "fibers/posix/sync/futex.hpp"
 #include "fibers/posix/sync/futex_vectors.hpp"
@@ -255,8 +258,18 @@ std::optional<long> call_about_sockets(long number, const CallWords& words) {
   }
 }
 
+// Of the process's memory, which no event is about, of the thread's own state, or of what does not change.
+bool has_no_footprint(long number) {
+  constexpr long numbers[] = {
+      SYS_mmap,  SYS_munmap,  SYS_mremap,   SYS_mprotect,        SYS_madvise,         SYS_brk,
+      SYS_mlock, SYS_munlock, SYS_rseq,     SYS_set_robust_list, SYS_get_robust_list, SYS_arch_prctl,
+      SYS_uname, SYS_fsync,   SYS_fdatasync};
+  return std::find(std::begin(numbers), std::end(numbers), number) != std::end(numbers);
+}
+
 }  // namespace
 
+// What a call that goes to the system does is not known here: in an exploration it depends on every other event.
 long simulated_call(long number, const CallWords& words) {
   const CancellationDisabled disabled;
   for (const auto about : {call_about_threads, call_about_scheduling, call_about_time, call_about_ipc,
@@ -264,6 +277,7 @@ long simulated_call(long number, const CallWords& words) {
     if (const std::optional<long> result = about(number, words)) return *result;
   if (number == SYS_io_uring_setup) note_unrepeatable("io_uring_setup()");
   if (number == SYS_perf_event_open) note_unrepeatable("perf_event_open()");
+  if (!has_no_footprint(number)) before_call<"syscall">(changing(place::all));
   return call_system(number, words);
 }
 
