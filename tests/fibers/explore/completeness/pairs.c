@@ -276,7 +276,9 @@ static void* run_between(void* argument) {
   return argument;
 }
 
-static void set_up(void) {
+static void set_up(const char* folder) {
+  unsigned hash = 0;
+  for (const char* at = folder; *at != '\0'; ++at) hash = hash * 31 + (unsigned char)*at;
   sigset_t blocked;
   sigemptyset(&blocked);
   sigaddset(&blocked, SIGTERM);
@@ -299,7 +301,7 @@ static void set_up(void) {
     fputs("stream", streams[i]), rewind(streams[i]);
     const struct mq_attr of = {.mq_maxmsg = 4, .mq_msgsize = 16};
     char name[64];
-    snprintf(name, sizeof name, "/pairs%d-%d", (int)getpid(), i);
+    snprintf(name, sizeof name, "/pairs-%x-%d", hash, i);  // the machine's other runs have others
     queues[i] = mq_open(name, O_RDWR | O_CREAT | O_NONBLOCK, 0600, &of);
     if (queues[i] < 0) abort();
     mq_unlink(name), mq_send(queues[i], "m", 1, 0);
@@ -355,7 +357,7 @@ int main(int count, char** arguments) {
   const char* const build_up = arguments[1];
   made[0] = find(arguments[2]), made[1] = find(arguments[3]);
   objects_of[1] = arguments[4][0] == '0';
-  set_up();
+  set_up(arguments[5]);
   pthread_t threads[3];
   if (strncmp(build_up, "native:", 7) == 0) order = build_up + 7;
   if (strcmp(build_up, "twice") == 0) repeats = 2;

@@ -18,6 +18,7 @@ import collections
 import itertools
 import pathlib
 import random
+import re
 import subprocess
 import sys
 import tempfile
@@ -52,7 +53,8 @@ class Pairs:
             words += ["--strategy", strategy]
         found, told = self.outcomes([*words, "--"], *case)
         summary = told.split("\n")[0]
-        self.counts[strategy] += int(summary.split()[0]) if summary[:1].isdigit() else 0
+        schedules = re.search(r"(\d+) schedule", summary)
+        self.counts[strategy + " schedules"] += int(schedules[1]) if schedules else 0
         self.counts[strategy + " runs"] += 1
         return found, "exhausti" in told or "exhausted" in told, summary
 
