@@ -137,6 +137,29 @@ class Claims(ExecCase):
               return 0;
             }""")
 
+    def test_two_calls_whose_order_matters_are_named(self):
+        file, program = self.folder / "variable.c", self.folder / "variable"
+        file.write_text("""
+            #include <assert.h>
+            #include <pthread.h>
+            #include <stdlib.h>
+            #include <unistd.h>
+            static void* change(void* none) { setenv("V", "new", 1); return none; }
+            int main(void) {
+              pthread_t changer;
+              setenv("V", "old", 1);
+              pthread_create(&changer, NULL, change, NULL);
+              access("/", F_OK);
+              const char first = getenv("V")[0];
+              pthread_join(changer, NULL);
+              assert(first == 'o');
+              return 0;
+            }""")
+        subprocess.run(["gcc", "-g", "-O1", "-pthread", file, "-o", program], check=True)
+        done = explore("--switch-at", "calls", "--strategy", "random", "--", program)
+        self.assertRegex(done.stdout, r"the two events whose order matters:\n  first in the failing run: .*, about to call setenv\n"
+                                      r"      at change .*\n  first in a passing run: .*, about to call getenv\n      at main ")
+
     def test_locks_by_futexes_of_the_program_prove_nothing_at_calls(self):
         file, program = self.folder / "futex.c", self.folder / "futex"
         file.write_text("""

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fibers/sync/report/object_names.hpp"
 
+#include <string_view>
+
 namespace waitpoint::sync {
 namespace {
 
@@ -11,6 +13,7 @@ constexpr std::uint32_t holders_shown = 4;
 std::string describe(const kernel::Task& task) { return std::string(task.name) + " of " + task.robot->name; }
 
 std::string describe(const kernel::Object& object) {
+  if (object.kind == std::string_view("function")) return object.label;  // of a call
   std::string text = object.kind;
   text += " #" + std::to_string(object.number);
   if (object.label[0] != '\0') text += std::string(" \"") + object.label + "\"";
