@@ -81,13 +81,13 @@ std::string text_of(const std::string& file) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-// By schedule, from the file of results: true if it was cut short.
-std::vector<bool> are_cut(const std::string& results) {
-  std::vector<bool> cut;
+// The line of each schedule in the file of results.
+std::vector<std::string> lines_of(const std::string& results) {
+  std::vector<std::string> all;
   std::istringstream lines(results);
   for (std::string line; std::getline(lines, line);)
-    if (!line.starts_with('#')) cut.push_back(line.find("cut short") != line.npos);
-  return cut;
+    if (!line.starts_with('#')) all.push_back(line);
+  return all;
 }
 
 }  // namespace
@@ -107,12 +107,15 @@ Covered cover_by_exec(const ExecTools& tools, const Program& program, const std:
   covered.is_finished = said.find("exhaustive") != said.npos;
   covered.leaves_turns = said.find("turns of spinning") != said.npos;
   const Outcomes all = enumerate(program, states_max).outcomes;
-  const std::vector<bool> cut = are_cut(text_of(results));
+  const std::vector<std::string> lines = lines_of(text_of(results));
   constexpr std::size_t before = 1;  // the default order, for the profile; after the search come those of the report
   for (std::size_t i = 0; i < records.size() / page; ++i) {
-    if (i >= before && i - before < cut.size() && cut[i - before]) continue;
+    const std::string line = i >= before && i - before < lines.size() ? lines[i - before] : "";
+    if (line.find("cut short") != line.npos) continue;
     Record record;
     std::memcpy(&record, records.data() + i * page, sizeof record);
+    // The thread that ends the program has said so, but its event did not come.
+    if (line.find("deadlock") != line.npos) record.ending = 0;
     covered.outcomes.merge(outcomes_of(record, program.threads.size(), all));
     ++covered.schedules;
   }
