@@ -9,6 +9,7 @@
 #include "core/confinement.hpp"
 #include "core/exception_text.hpp"
 #include "core/printable_line.hpp"
+#include "core/process_state.hpp"
 #include "fibers/kernel/fault_reports.hpp"
 #include "fibers/kernel/process_end.hpp"
 #include "fibers/sync/post_mortem.hpp"
@@ -40,6 +41,8 @@ int carry_out(int argc, const char* const* argv, std::vector<genom::ModuleType> 
   // Of two types of one name the first counts.
   std::vector<genom::ModuleType> types = std::move(own);
   for (genom::ModuleType& type : tools::shipped_modules()) types.push_back(std::move(type));
+  if (const std::string floats = FloatEnvironment::restore_standard(); !floats.empty())
+    report_changed_surroundings("the program, or a library that it loads, before main()", {floats});
   const kernel::FaultReports reports(nullptr);  // also of constructors; once for all windows of a run
   kernel::set_call_stack_writer(sync::write_call_stack);
   tools::prefer_errors_to_signals();

@@ -9,6 +9,7 @@
 #include "core/doing.hpp"
 #include "core/exception_text.hpp"
 #include "core/nearest_name.hpp"
+#include "core/process_state.hpp"
 
 namespace waitpoint::bridge {
 
@@ -24,6 +25,7 @@ std::unique_ptr<genom::Module> make_module(const scenario::ModuleScenario& modul
   }
   const std::string doing = "constructing module " + module.name + " of robot " + robot;
   const Doing construction(doing.c_str());
+  const ProcessStateKept surroundings(doing.c_str());
   // Errors of settings have a line of their own; others get the module's.
   try {
     std::unique_ptr<genom::Module> made = type->make(setup);

@@ -5,6 +5,7 @@
 
 #include "core/doing.hpp"
 #include "core/nearest_name.hpp"
+#include "core/process_state.hpp"
 #include "modules/bridge/derived_settings.hpp"
 #include "modules/bridge/module_making.hpp"
 #include "modules/control/controller.hpp"
@@ -89,6 +90,7 @@ Robot::~Robot() {
   while (!modules_.empty()) {
     const std::string doing = "destroying module " + module_scenarios_.back()->name + " of robot " + scenario_.name;
     const Doing destruction(doing.c_str());
+    const ProcessStateKept surroundings(doing.c_str());
     modules_.pop_back();
     module_scenarios_.pop_back();
   }

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "modules/genom/codel_end.hpp"
+
 namespace waitpoint::genom {
 namespace {
 
@@ -54,7 +56,7 @@ void ControlTask::handle(const Letter& letter) {
   if (type.kind == RequestKind::control) {
     threads::this_thread::set_work("the control codel", type.name.c_str());
     const Report report = type.control(letter.payload, output);
-    threads::this_thread::set_work(nullptr, "");
+    end_codel(data_, "the control codel", type.name);
     threads::compute(type.cost);
     if (report == ok) interrupt_incompatible(type);
     return reply(LetterKind::final_reply, letter, report, output);
@@ -76,7 +78,7 @@ Report ControlTask::execute(const RequestType& type, const Letter& letter) {
   Payload output;
   threads::this_thread::set_work("the control codel", type.name.c_str());
   const Report checked = type.control(letter.payload, output);
-  threads::this_thread::set_work(nullptr, "");
+  end_codel(data_, "the control codel", type.name);
   if (checked != ok) return checked;
   interrupt_incompatible(type);
   Activity& a = table.add(*type.task);

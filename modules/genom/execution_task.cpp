@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "modules/genom/codel_end.hpp"
+
 namespace waitpoint::genom {
 
 ExecutionTask::ExecutionTask(ModuleData& module, std::string name, TaskOptions options, TaskComputing computing)
@@ -34,6 +36,7 @@ void ExecutionTask::find_working_set(const AddModule& add_module) {
 
 void ExecutionTask::run(const AddModule& add_module) {
   find_working_set(add_module);
+  restore_after_codel([this] { return "the code before task " + name_ + " of module " + module_.name; });
   if (periodic()) timer_.emplace(Period::every(options_.period_ms), options_.delay_ms, "task period");
   {
     const BothLocks locks(module_);
@@ -93,7 +96,7 @@ void ExecutionTask::call_permanent(const std::function<void()>& codel) {
   if (codel == nullptr) return;
   threads::this_thread::set_work("a permanent codel", name_.c_str());
   codel();
-  threads::this_thread::set_work(nullptr, "");
+  end_codel(module_, "a permanent codel", name_);
   after_codel(options_.cost_us);
 }
 
@@ -121,7 +124,7 @@ bool ExecutionTask::step(Activity& a) {
     if (a.state == State::ether || a.state == State::zombie) break;
     threads::this_thread::set_work(codel_name(a.state), a.type->name.c_str());
   }
-  threads::this_thread::set_work(nullptr, "");
+  end_codel(module_, codel_name(a.state), a.type->name);
   if (!next) return true;
   const State called = a.state;
   after_codel(a.type->cost);

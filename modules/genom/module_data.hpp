@@ -19,12 +19,13 @@
 namespace waitpoint::genom {
 
 struct ModuleData {
-  ModuleData(const std::string& module, std::uint16_t number) : number(number), mailbox(module) {}
+  ModuleData(const std::string& module, std::uint16_t number) : number(number), name(module), mailbox(module) {}
 
   /// A standard report of this module.
   Report report(StandardReport code) const { return make_report(number, code); }
 
   const std::uint16_t number;  ///< identifies the module in its reports
+  const std::string name;
   Mailbox mailbox;
   // On as few cache lines as possible: every wake-up of every task touches them.
   alignas(64) threads::mutex control_lock{"control data"};

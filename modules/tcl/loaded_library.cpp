@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "core/missing_part.hpp"
+#include "core/process_state.hpp"
 #include "modules/tcl/interpreter.hpp"
 
 namespace waitpoint::tcl {
@@ -21,6 +22,7 @@ const Library& load(const std::string& where, int line) {
           : std::filesystem::path(library_path());
   if (!std::filesystem::exists(path))
     throw BadInput(where, line, std::string("scripts in Tcl are not in this program: ") + missing_part::tcl);
+  const ProcessStateKept surroundings("loading the library for Tcl");
   void* const object = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (object == nullptr) throw BadInput(where, line, std::string("the library for Tcl cannot be loaded: ") + dlerror());
   const auto* const loaded = static_cast<const Library*>(dlsym(object, Library::symbol));

@@ -7,15 +7,20 @@
 #include <sys/mman.h>
 #include <sys/personality.h>
 #include <sys/prctl.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
+#include <cfenv>
 #include <chrono>
+#include <clocale>
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
+#include <iomanip>
+#include <iostream>
 #include <string_view>
 #include <thread>
 #include <vector>
@@ -161,6 +166,20 @@ ProcessEnd run_perturbed_process(const PerturbedFiles& files, double limit_s, bo
   if (WIFEXITED(status)) return {WEXITSTATUS(status), ""};
   if (late) return {std::nullopt, fmt::format("exceeded {:.0f} s and was stopped", limit_s)};
   return {std::nullopt, fmt::format("was terminated by signal {} ({})", WTERMSIG(status), strsignal(WTERMSIG(status)))};
+}
+
+void perturb_surroundings() {
+  constexpr int digits = 3;
+  constexpr mode_t other_permissions = 027, usual = 022;
+  std::setlocale(LC_ALL, std::string_view(std::setlocale(LC_ALL, nullptr)) == "C" ? "C.UTF-8" : "C");
+  sigset_t unused;
+  sigemptyset(&unused);
+  sigaddset(&unused, SIGUSR2);
+  pthread_sigmask(SIG_BLOCK, &unused, nullptr);
+  if (umask(other_permissions) == other_permissions) umask(usual);
+  for (std::ostream* const stream : {&std::cout, &std::cerr, &std::clog})
+    *stream << std::hex << std::setprecision(digits);
+  std::feraiseexcept(FE_ALL_EXCEPT);
 }
 
 std::optional<PerturbedFiles> files_of_perturbed_process() {

@@ -4,7 +4,8 @@
 //   before its main()  randomised addresses; another environment in another order, locale and time zone; clocks
 //                      that are off, directories in reverse order, a heap in an order of its own and with filled
 //                      blocks: surroundings/
-//   after it           the stacks of main and of the run's tasks: perturbed_memory.hpp
+//   after it           the stacks of main and of the run's tasks: perturbed_memory.hpp; locale, signal mask, umask,
+//                      formats of the standard streams, and the flags of floating-point exceptions
 //
 // Both processes share the command line, the current folder, the files, and $PATH, $HOME, $WAITPOINT_...
 #pragma once
@@ -32,6 +33,9 @@ void check_perturbed_process_possible();
 /// Starts the process with the same command line and waits for its end. Stops it after `limit_s`, or when this process
 /// is interrupted. Throws BadInput if no process can be created.
 ProcessEnd run_perturbed_process(const PerturbedFiles& files, double limit_s, bool (*interrupted)());
+
+/// In a perturbed process, before the run: see above.
+void perturb_surroundings();
 
 /// In a perturbed process: its files; otherwise nothing. BadInput for an invalid variable.
 std::optional<PerturbedFiles> files_of_perturbed_process();

@@ -14,6 +14,7 @@
 
 #include "core/exception_text.hpp"
 #include "core/number_text.hpp"
+#include "core/process_state.hpp"
 #include "fibers/kernel/run.hpp"
 #include "fibers/sync/duration_record.hpp"
 #include "fibers/sync/system_calls/system_calls.hpp"
@@ -108,6 +109,7 @@ class SelfCheck {
 
 Carried SelfCheck::carry_out(CheckedRun& checked, const EventComparison* comparison) {
   const double start_s = wall_clock_s();
+  const CodelsChecked codels;
   Carried run;
   try {
     RunEnd end = RunEnd::time_reached;
@@ -200,6 +202,7 @@ int SelfCheck::perturbed(const PerturbedFiles& files) {
   SharedMapping shared(files.log);
   compare_surroundings(*shared.operator->());
   if (files.durations >= 0) durations_ = parse_duration_record(durations_name, contents(files.durations));
+  perturb_surroundings();
   EventComparison comparison(files.log, fill_stack);
   const Carried run = compared(comparison);
   if (interrupted_()) return status_interrupted;

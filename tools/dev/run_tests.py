@@ -76,6 +76,7 @@ OWN_CASES = {
     "faults": [sys.executable, str(ROOT / "tests/faults/faults_test.py"), BUILD],
     "gdb": [sys.executable, str(ROOT / "tests/programs/gdb_test.py"), BUILD],
     "deaths": [sys.executable, str(ROOT / "tests/programs/deaths_test.py"), BUILD],
+    "surroundings": [sys.executable, str(ROOT / "tests/programs/surroundings_test.py"), BUILD],
     "ends of runs": [sys.executable, str(ROOT / "tests/programs/ends_of_runs_test.py"), BUILD],
     "generated modules": [sys.executable, str(ROOT / "tests/programs/genom_test.py"), BUILD],
     "external robots": [sys.executable, str(ROOT / "tests/programs/external_test.py"), BUILD],
