@@ -82,6 +82,10 @@ RunVerdict Body::carry_out(Strategy& strategy, const Played& played, Time until,
   verdict.end = simulation_.global_time();
   verdict.events = kernel::events(simulation_.scheduler());
   verdict.is_beyond_enumeration = explorer_.is_beyond_enumeration();
+  verdict.cuts_polls_short = explorer_.schedule().cuts_polls_short;
+  verdict.has_unlearned_code = races::noted_unlearned();
+  verdict.has_left_out_values = races::left_out_values();
+  verdict.has_raced = races::any_found();
   if (recording != nullptr) recording->finish();
   simulation_.unwind();
   if (checks_ != nullptr)
@@ -89,7 +93,7 @@ RunVerdict Body::carry_out(Strategy& strategy, const Played& played, Time until,
       failure_ = failure_.empty() || ended_by_checks ? failures : failures + "\n" + failure_;
     }
   if (!failure_.empty() && verdict.passed()) verdict.kind = RunVerdict::Kind::unmet;
-  if (fails_on_races_ && failure_.empty() && races::any_found()) {
+  if (fails_on_races_ && failure_.empty() && verdict.has_raced) {
     verdict.kind = RunVerdict::Kind::race;
     failure_ = describe_races(places_);
   }
@@ -112,6 +116,7 @@ Finding Body::finding_of(const RunVerdict& verdict) const {
   static_cast<RunVerdict&>(finding) = verdict;
   finding.words = failure_;
   finding.take(explorer_.schedule(), explorer_.parted());
+  finding.lesson.choices = explorer_.schedule().decisions;
   return finding;
 }
 

@@ -60,7 +60,7 @@ class Body {
   RunVerdict run(Strategy& strategy, const Played& played = {});
   /// The last run's failure, whose first line is the headline; empty if it passed.
   const std::string& failure() const { return failure_; }
-  /// The finding of the last run, which had this verdict.
+  /// The finding of the last run, which had this verdict, with its choices.
   Finding finding_of(const RunVerdict& verdict) const;
   /// Runs it by a plan that is not drawn, and records what is wanted.
   Finding repeat(const Plan& plan, const WantedEvidence& wanted);

@@ -11,10 +11,14 @@ namespace waitpoint::exploration {
 
 class BodyTarget final : public Target {
  public:
-  /// `body` must outlive it. The numbers of runs are those of the analysis of a failure.
-  explicit BodyTarget(Body& body, std::string name = "", std::uint64_t runs_to_minimize = 200'000,
-                      std::uint64_t runs_to_explain = 20'000)
-      : body_(body), name_(std::move(name)), runs_to_minimize_(runs_to_minimize), runs_to_explain_(runs_to_explain) {}
+  /// `body` must outlive it. The numbers of runs are those of the analysis of a failure. `command` runs the program.
+  BodyTarget(Body& body, std::string name, std::uint64_t runs_to_minimize, std::uint64_t runs_to_explain,
+             std::string command = "")
+      : body_(body),
+        name_(std::move(name)),
+        runs_to_minimize_(runs_to_minimize),
+        runs_to_explain_(runs_to_explain),
+        command_(std::move(command)) {}
 
   std::string name() const override { return name_; }
   TargetTraits traits() const override {
@@ -26,6 +30,9 @@ class BodyTarget final : public Target {
                 "the default order, which passed at first, now fails: the body leaks state from one "
                 "schedule into the next\n"};
   }
+  std::string replay_command(const Finding&, const std::string& token) const override {
+    return "WAITPOINT_REPLAY=" + token + " " + command_;
+  }
   std::optional<Finding> repeat(const Plan& plan, const WantedEvidence& wanted) override {
     return body_.repeat(plan, wanted);
   }
@@ -34,6 +41,7 @@ class BodyTarget final : public Target {
   Body& body_;
   std::string name_;
   std::uint64_t runs_to_minimize_, runs_to_explain_;
+  std::string command_;
 };
 
 }  // namespace waitpoint::exploration

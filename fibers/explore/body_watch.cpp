@@ -13,8 +13,9 @@ RunVerdict take_profile(Body& body, Profile& profile) {
   if (races::present()) {
     races::forget_learned();
     races::learn(true);
-    (void)body.run(fifo);
+    const RunVerdict learning = body.run(fifo);
     races::learn(false);
+    if (!learning.passed() && learning.kind != RunVerdict::Kind::race) return learning;
   }
   Profiling counting(profile);
   kernel::Scheduler& scheduler = body.simulation().scheduler();
@@ -26,15 +27,14 @@ RunVerdict take_profile(Body& body, Profile& profile) {
   return verdict;
 }
 
-Timeline take_timeline(Body& body) {
-  Timeline timeline;
+RunVerdict take_timeline(Body& body, Timeline& timeline) {
   TimelineRecorder recording(timeline, &body.explorer());
   kernel::Scheduler& scheduler = body.simulation().scheduler();
   kernel::set_watch(scheduler, &recording);
   Fifo rest;
-  (void)body.run(rest);
+  const RunVerdict verdict = body.run(rest);
   kernel::set_watch(scheduler, nullptr);
-  return timeline;
+  return verdict;
 }
 
 }  // namespace waitpoint::exploration

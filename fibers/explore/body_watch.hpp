@@ -8,10 +8,11 @@
 
 namespace waitpoint::exploration {
 
-/// Runs `body` in the default order and records its profile; returns the result.
+/// Runs `body` in the default order and records its profile; returns the result, of the first run that fails if there
+/// are several.
 RunVerdict take_profile(Body& body, Profile& profile);
 
-/// Runs `body` in the default order and records its timeline.
-Timeline take_timeline(Body& body);
+/// Runs `body` in the default order and records its timeline; returns the result.
+RunVerdict take_timeline(Body& body, Timeline& timeline);
 
 }  // namespace waitpoint::exploration

@@ -2,21 +2,20 @@
 // One call of explore(): runs schedules of one body until one fails or a limit is reached.
 #pragma once
 
-#include <memory>
-#include <optional>
+#include <functional>
+#include <string>
 
 #include "fibers/explore/body.hpp"
+#include "fibers/explore/body_runs.hpp"
 #include "fibers/explore/body_target.hpp"
-#include "fibers/explore/explore_options.hpp"
 #include "fibers/explore/explore_report.hpp"
-#include "fibers/explore/races/distinct_races.hpp"
 #include "fibers/explore/report/finding_file.hpp"
 #include "fibers/explore/report/timeline.hpp"
-#include "fibers/explore/schedules/exhaustion.hpp"
 #include "fibers/explore/schedules/token.hpp"
-#include "fibers/explore/search/race_findings.hpp"
+#include "fibers/explore/search/search.hpp"
 #include "fibers/explore/strategies/profile.hpp"
 #include "fibers/explore/supervisor.hpp"
+#include "fibers/explore/target/explore_options.hpp"
 
 namespace waitpoint::exploration {
 
@@ -30,43 +29,20 @@ class Campaign {
   ExploreReport replay(const Token& token);
 
  private:
-  struct Found {
-    Finding finding;
-    Schedule schedule;
-    Token token;
-    std::string which;                  // name of the schedule
-    bool is_default = false;            // the default order
-    const char* enumeration = nullptr;  // as in fails()
-  };
-
-  /// An exhaustive strategy that follows the campaign's own.
-  struct Enumeration {
-    const char* name;
-    std::unique_ptr<Strategy> strategy = nullptr;
-    std::uint64_t number = 0;  // of its next schedule
-
-    explicit Enumeration(const char* of_strategy) : name(of_strategy) {}
-  };
-
   bool begins_well();
-  bool goes_on_after(const Found& found);
   void search();
+  void judge_default(const RunVerdict& verdict);
+  bool has_failed() const;
   void look_for_leaks();
-  bool fails(Strategy& strategy, std::uint64_t number, const char* enumeration);
-  void begin_enumeration();
-  bool enumerate();
   std::string difference_to_the_first();
-  void set_scope(const Strategy& strategy, const std::string& what);
-  void tell(const Found& found);
-  void report_irreproducible(const Found& found);
+  /// `which`: the name of its schedule.
+  void tell(const FailedRun& found, const std::string& which, const Token& token);
+  void report_irreproducible(const FailedRun& found, const std::string& which);
   void write_finding(const std::string& file, FindingFile finding);
   RunVerdict play(const Token& token);
   std::string difference_to(const Token& token, const RunVerdict& verdict);
   std::string event_at(const Token& token, std::uint32_t decision);
-  Found last_run(const RunVerdict& verdict) const;
-  Token token_of(const Finding& finding) const;
   bool is_reproducible(const Finding& finding);
-  std::string replay_command(const std::string& token) const;
   Trail trail_of(const Finding& finding, std::uint32_t log_spacing);
   std::string replay_by(const Token& token, const Finding& finding);
 
@@ -78,13 +54,13 @@ class Campaign {
   BodyTarget target_;
   Profile profile_;
   Supervisor supervisor_;
-  std::uint64_t usual_digest_ = 0;  // of the default schedule
-  Timeline usual_;                  // its first run
-  Exhaustion exhaustion_;
-  std::optional<Enumeration> enumeration_;
-  races::DistinctRaces new_races_;
-  RaceFindings races_;
-  std::optional<Found> first_race_;
+  BodyRuns runs_;
+  Discoveries discoveries_;
+  const TimeLimit time_limit_;
+  Search search_;
+  std::uint64_t usual_digest_ = 0;  // of the first run, which is in the default order
+  RunVerdict::Kind usual_kind_ = RunVerdict::Kind::passed;
+  Timeline usual_;  // of the second one, which should be the same
   ExploreReport report_;
 };
 

@@ -5,7 +5,7 @@
 
 #include "core/error.hpp"
 #include "fibers/explore/body.hpp"
-#include "fibers/explore/explore_options.hpp"
+#include "fibers/explore/target/explore_options.hpp"
 
 namespace waitpoint::exploration {
 

@@ -22,8 +22,8 @@
 
 #include "fibers/explore/body.hpp"
 #include "fibers/explore/check.hpp"
-#include "fibers/explore/explore_options.hpp"
 #include "fibers/explore/explore_report.hpp"
+#include "fibers/explore/target/explore_options.hpp"
 #if defined(GTEST_TEST)
 #include "fibers/explore/googletest.hpp"
 #elif defined(CATCH_VERSION_MAJOR) || defined(CATCH_TEST_MACROS_HPP_INCLUDED)

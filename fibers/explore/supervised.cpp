@@ -86,7 +86,7 @@ class Watchman {
   bool is_default() const { return supervised_.doing == Stage::default_schedule; }
   std::string which() const {
     if (supervised_.doing == Stage::replay) return "the replayed schedule";
-    return is_default() ? "the default schedule" : "schedule " + std::to_string(supervised_.number);
+    return is_default() ? "the default order" : "schedule " + std::to_string(supervised_.number);
   }
   std::string within() const {
     if (supervised_.doing != Stage::minimizing) return "within " + which();

@@ -342,15 +342,15 @@ class RacyCounter(Installed):
         self.assertEqual(status, 1, output)
         self.assertRegex(output, r"data race at 0x\w+")
         self.assertRegex(output, r"(?s)first: .* by task one#1.*racy_counter\.cpp:\d+.*second: .* by task two#2.*racy_counter\.cpp:\d+")
-        self.assertRegex(output, r"waitpoint: the default schedule: data race of the write at .*racy_counter\.cpp:\d+ and the ")
+        self.assertRegex(output, r"waitpoint: the default order: data race of the write at .*racy_counter\.cpp:\d+ and the ")
         self.assertRegex(output, "schedule \\d+ of .* failed: a check failed in task main of .*: an increment is lost\n")
-        self.assertIn("also found, by the default schedule: data race at", output)
+        self.assertIn("also found, by the default order: data race at", output)
         self.assertEqual(output.count("data race at"), 1, output)
 
     def test_the_first_one_may_end_the_campaign(self):
         status, output = self.outcome("unlocked", races="fail")
         self.assertEqual(status, 1, output)
-        self.assertIn("the default schedule failed: a data race\n", output)
+        self.assertIn("the default order failed: a data race\n", output)
         self.assertEqual(output.count("data race at"), 1, output)
 
     def test_none_is_found_under_a_lock(self):

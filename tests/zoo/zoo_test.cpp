@@ -57,7 +57,7 @@ TEST(Zoo, ThePortfolioFindsEachAndItIsCutShort) {
       const auto found = search.find("portfolio", seed, schedules_max);
       EXPECT_TRUE(found) << specimen.name << ", seed " << seed;
       if (!found) continue;
-      exploration::BodyTarget target(search.body(), "", runs_to_minimize);
+      exploration::BodyTarget target(search.body(), "", runs_to_minimize, 0);
       exploration::Trials trials(target, nullptr, target.traits().to_minimize);
       exploration::FewerSwitches fewer(trials, 0, found->failure);
       fewer.run();

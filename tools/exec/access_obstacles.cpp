@@ -6,8 +6,6 @@
 
 namespace waitpoint::tools {
 
-using posix::AccessObstacle;
-
 AccessObstacle obstacle_of(const posix::Record& record) {
   const auto* const log = static_cast<const posix::RaceLog*>(common_of(record, posix::family::Part::races));
   return log != nullptr ? log->obstacle : AccessObstacle::none;

@@ -4,14 +4,14 @@
 
 #include <string>
 
+#include "fibers/explore/strategies/switch_points.hpp"
 #include "fibers/posix/program/record.hpp"
-#include "fibers/posix/traps/access_obstacle.hpp"
 
 namespace waitpoint::tools {
 
 /// The obstacles that the run has met.
-posix::AccessObstacle obstacle_of(const posix::Record& record);
+AccessObstacle obstacle_of(const posix::Record& record);
 /// "the program handles SIGTRAP"; empty if there is nothing to say.
-std::string words_of(posix::AccessObstacle obstacle);
+std::string words_of(AccessObstacle obstacle);
 
 }  // namespace waitpoint::tools

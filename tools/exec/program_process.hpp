@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
+#include "fibers/explore/strategies/switch_points.hpp"
 #include "fibers/posix/traps/access_instruction.hpp"
 #include "tools/exec/program_list.hpp"
 #include "tools/exec/run_memory.hpp"
-#include "tools/exec/switch_at.hpp"
 
 namespace waitpoint::tools {
 

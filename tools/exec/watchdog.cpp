@@ -12,8 +12,6 @@
 namespace waitpoint::tools {
 namespace {
 
-constexpr double patience_s = 10;  // processor time
-
 double processor_s(pid_t process) {
   clockid_t clock{};
   timespec used{};
@@ -34,7 +32,7 @@ std::string Watchdog::look() {
     since_s_ = now_s;
     reported_ = false;
   }
-  if (reported_ || now_s - since_s_ < patience_s) return "";
+  if (reported_ || now_s - since_s_ < patience_s_) return "";
   reported_ = true;
   const Computing computing = computing_thread(record_);
   std::string text = computing.thread.empty() ? "a thread" : fmt::format("thread '{}'", computing.thread);

@@ -14,13 +14,18 @@ namespace waitpoint::tools {
 
 class Watchdog {
  public:
-  explicit Watchdog(const posix::Record& record) : record_(record) {}
+  static constexpr double usual_patience_s = 10;
+
+  /// `patience_s`, of processor time, is the length of a period.
+  explicit Watchdog(const posix::Record& record, double patience_s = usual_patience_s)
+      : record_(record), patience_s_(patience_s) {}
 
   /// Call at intervals; returns a message once per such period, otherwise nothing.
   std::string look();
 
  private:
   const posix::Record& record_;
+  double patience_s_;
   pid_t process_ = 0;  ///< of the system, that had the turn when `events_` was first read
   std::uint64_t events_ = 0;
   double since_s_ = 0;  ///< its processor time then

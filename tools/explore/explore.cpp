@@ -4,12 +4,14 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <functional>
 #include <optional>
 #include <vector>
 
 #include "core/error.hpp"
 #include "core/number_text.hpp"
+#include "fibers/explore/search/search.hpp"
 #include "fibers/sync/system_calls/system_calls.hpp"
 #include "modules/scenario/scenario_reader.hpp"
 #include "tools/command/interruption.hpp"
@@ -21,8 +23,8 @@
 #include "tools/explore/runs/program_target.hpp"
 #include "tools/explore/runs/run_with_nodes.hpp"
 #include "tools/explore/runs/scene.hpp"
-#include "tools/explore/search/discoveries.hpp"
-#include "tools/explore/search/search.hpp"
+#include "tools/explore/search/jobs.hpp"
+#include "tools/explore/search/results_file.hpp"
 #include "tools/explore/search_json.hpp"
 #include "tools/explore/shown_search.hpp"
 #include "tools/finding/finding_page.hpp"
@@ -30,6 +32,11 @@
 #include "tools/output/output_file.hpp"
 
 namespace waitpoint::tools {
+
+using exploration::Discoveries;
+using exploration::FailedRun;
+using exploration::Search;
+
 namespace {
 
 std::string finding_text(const FailureReport& report) {
@@ -94,18 +101,18 @@ void tell(const FailureReport& report, Files& files, bool is_json) {
 }
 
 /// Ends a search with its status, and its document if that is wanted.
-int end_search(const ProcessTarget& target, int status, const std::optional<SearchCounts>& counts,
+int end_search(const ProcessTarget& target, int status, const Search* search, double seconds,
                const ReportedFailure* failure) {
   if (!target.options().json) return status;
-  return end_with_json("explore", status, search_json(target.name(), counts, failure));
+  return end_with_json("explore", status, search_json(target.name(), search, seconds, failure));
 }
 
 /// The default order has failed, and nothing else is run.
-int end_at_once(ProcessTarget& target, SearchProgress& progress, const ProcessFinding& usual, Files& files) {
+int end_at_once(ProcessTarget& target, SearchProgress& progress, const Finding& usual, Files& files) {
   const FailureReport report = report_default(target, progress, usual);
   tell(report, files, target.options().json);
   const ReportedFailure failure{usual, report};
-  return end_search(target, 1, std::nullopt, &failure);
+  return end_search(target, 1, nullptr, 0, &failure);
 }
 
 std::string sum(const ProcessTarget& target, const Search& search, double seconds, bool is_interrupted) {
@@ -124,9 +131,9 @@ std::string sum(const ProcessTarget& target, const Search& search, double second
 }
 
 // Failures of a graver kind than a data race are analysed without regard to races, which may be in each run.
-FailureReport report_of(ProcessTarget& target, SearchProgress& progress, const Discoveries& discoveries) {
+FailureReport report_of(ProcessTarget& target, SearchProgress& progress, Discoveries& discoveries) {
   const FailedRun& gravest = *discoveries.gravest();
-  const bool is_race = gravest.finding.kind == ProcessFinding::Kind::race;
+  const bool is_race = gravest.finding.kind == RunVerdict::Kind::race;
   if (!is_race) target.ignore_races();
   if (gravest.finding.switch_at == SwitchAt::accesses) {
     target.set_profile(gravest.finding.lesson.profile);
@@ -134,68 +141,125 @@ FailureReport report_of(ProcessTarget& target, SearchProgress& progress, const D
   }
   FailureReport result =
       gravest.number ? report(target, progress, gravest) : report_default(target, progress, gravest.finding);
-  result.text += discoveries.besides(is_race ? result.races : std::vector<ToldRace>());
+  // The noise of its run, if there is one, has no token.
+  if (result.graver && !target.traits().has_noise)
+    discoveries.take({.number = {}, .finding = *result.graver, .is_of_analysis = true});
+  result.text += discoveries.besides(gravest, is_race ? result.races : std::vector<ToldRace>());
   return result;
 }
 
 // The default order. A program that is in a loop without a call may wait there for another thread: then accesses are
-// switch points of all schedules.
-std::optional<ProcessFinding> run_usual(ProcessTarget& target) {
-  std::optional<ProcessFinding> usual = target.run_apart({.drawn = false}, {.profile = true});
-  const bool may_wait = usual && usual->kind == ProcessFinding::Kind::no_progress &&
-                        usual->switch_at == SwitchAt::calls && target.options().switch_at == SwitchAt::automatic &&
-                        target.options().snapshots == 0;
+// switch points of all schedules. Where time is short, a fifth of it tells that it is in a loop.
+std::optional<Finding> run_usual(ProcessTarget& target) {
+  const ExploreOptions& options = target.options();
+  const bool may_switch =
+      !options.program.empty() && options.switch_at == SwitchAt::automatic && options.snapshots == 0;
+  const double patience_s = std::min(Watchdog::usual_patience_s, options.time_limit_s / 5);
+  const bool is_short = may_switch && options.time_limit_s > 0 && patience_s < Watchdog::usual_patience_s;
+  if (is_short) target.set_patience(patience_s);
+  std::optional<Finding> usual = target.run_apart({.drawn = false}, {.profile = true});
+  if (is_short) target.set_patience(Watchdog::usual_patience_s);
+  const bool may_wait =
+      may_switch && usual && usual->kind == RunVerdict::Kind::no_progress && usual->switch_at == SwitchAt::calls;
   if (!may_wait) return usual;
   target.switch_at(SwitchAt::accesses);
-  if (std::optional<ProcessFinding> again = target.run_apart({.drawn = false}, {.profile = true});
-      !again || again->passed())
+  if (std::optional<Finding> again = target.run_apart({.drawn = false}, {.profile = true}); !again || again->passed())
     return again;
   target.switch_at(std::nullopt);
-  return usual;
+  return is_short ? target.run_apart({.drawn = false}, {.profile = true}) : usual;
 }
 
 // A schedule counts as endless beyond the fixed limit plus this multiple of the default order's time.
 constexpr double usual_times_max = 10;
 
+// As in SearchExtent::decided_after.
+constexpr std::uint64_t decision_interval = 64;
+
+// Draws of a scenario are never exhausted, as it has too many schedules; a shard does not know those of others; results
+// are of as many as asked for.
+exploration::SearchExtent extent_of(const ProcessTarget& target, ResultsFile* results) {
+  const ExploreOptions& options = target.options();
+  const bool is_program = !options.program.empty();
+  // Without noise the default order is a single schedule.
+  const bool is_one = options.strategy == "fifo" && !target.traits().has_noise;
+  exploration::SearchExtent extent{
+      .first = options.shard.index - 1,
+      .step = options.shard.count,
+      .iterations = is_one ? std::min<std::uint64_t>(options.iterations, 1) : options.iterations,
+      .may_be_exhausted = is_program && options.strategy != "fifo" && options.shard.count == 1 && results == nullptr,
+      .learns = is_program,
+      .decided_after = decision_interval};
+  if (results != nullptr)
+    extent.each = [results](std::uint64_t number, const Finding& finding) { results->take(number, finding); };
+  return extent;
+}
+
+constexpr int status_nothing_ran = 3;
+
+// No schedule has come to its end, and none has failed.
+std::string why_nothing_ran(const ProcessTarget& target, bool has_usual) {
+  const ExploreOptions& options = target.options();
+  if (!target.time_limit().is_over())
+    return fmt::format("waitpoint: --shard: none of its schedules is among the first {} of --iterations\n",
+                       options.iterations);
+  return fmt::format("waitpoint: --time-limit: {} has ended within {} s: nothing is known of {}\n",
+                     has_usual ? "no schedule but the default order" : "not even the default order",
+                     number_text(options.time_limit_s), target.name());
+}
+
+// A failure is reported in the time that is left, or in another second.
+void begin_report(ProcessTarget& target) {
+  constexpr double least_s = 0.8;
+  if (target.options().time_limit_s > 0)
+    target.set_time_limit(exploration::TimeLimit(std::max(target.time_limit().left_s(), least_s)));
+}
+
 int search(ProcessTarget& target, Files& files) {
   heed_signals();
+  const exploration::TimeLimit time_limit(target.options().time_limit_s);
+  target.set_time_limit(time_limit);
   target.prepare();
   SearchProgress progress(stderr, isatty(STDERR_FILENO) != 0);
   if (files.viewers() != nullptr) files.viewers()->listen_to(progress);
   target.set_limit(target.options().schedule_limit_s.value_or(0));
   const double usual_start_s = progress.seconds();
-  std::optional<ProcessFinding> usual = run_usual(target);
+  std::optional<Finding> usual = run_usual(target);
   const double usual_s = progress.seconds() - usual_start_s;
   target.set_limit(
       target.options().schedule_limit_s.value_or(ExploreOptions::usual_schedule_limit_s + usual_times_max * usual_s));
   if (usual) std::fputs(usual->evidence.system_calls.c_str(), stderr);
-  Discoveries discoveries(target, progress);
+  Discoveries discoveries(target, target.options(), &progress);
   if (usual && exploration::goes_on_after(usual->kind, target.options().races == Races::report)) {
     discoveries.take({std::nullopt, *usual});
   } else if (usual && !usual->passed() && files.results() == nullptr) {
+    begin_report(target);
     return end_at_once(target, progress, *usual, files);
   }
   if (usual) target.set_profile(std::move(usual->lesson.profile));
-  Search search(target, progress, discoveries, files.results());
+  Jobs jobs(target);
+  Search search(target.options(), extent_of(target, files.results()), time_limit, jobs, discoveries, &progress);
   const double start_s = progress.seconds();
+  if (usual && files.results() != nullptr) files.results()->begin(target);
   if (usual) search.run();
+  progress.finish();
   const double seconds = progress.seconds() - start_s;
   if (usual && files.results() != nullptr) files.results()->commit();
-  const bool is_interrupted = search.interrupted() || !usual;
+  const bool is_interrupted = interruption() != 0;
   const std::string words = sum(target, search, seconds, is_interrupted);
   write_text(words, target.options().json);
   if (files.viewers() != nullptr) files.viewers()->end(words);
   const FailedRun* const gravest = discoveries.gravest();
-  const SearchCounts counts{search.schedules(), search.distinct(), search.failures(),          search.raced(), seconds,
-                            is_interrupted,     search.scope(),    words_of(search.obstacle())};
   if (gravest == nullptr) {
     files.leave(target.options());
-    return end_search(target, is_interrupted ? 130 : 0, counts, nullptr);
+    const bool has_run = search.schedules() > 0;
+    if (!has_run && !is_interrupted) std::fputs(why_nothing_ran(target, usual.has_value()).c_str(), stderr);
+    return end_search(target, is_interrupted ? 130 : has_run ? 0 : status_nothing_ran, &search, seconds, nullptr);
   }
+  begin_report(target);
   const FailureReport report = report_of(target, progress, discoveries);
   tell(report, files, target.options().json);
   const ReportedFailure failure{gravest->finding, report};
-  return end_search(target, is_interrupted ? 130 : 1, counts, &failure);
+  return end_search(target, is_interrupted ? 130 : 1, &search, seconds, &failure);
 }
 
 }  // namespace

@@ -3,6 +3,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "tools/command/interruption.hpp"
+#include "tools/exec/access_obstacles.hpp"
 #include "tools/explore/runs/finding_json.hpp"
 
 namespace waitpoint::tools {
@@ -10,11 +12,15 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json json_of(const SearchCounts& counts) {
-  Json json{{"schedules", counts.schedules}, {"distinct", counts.distinct}, {"failed", counts.failures},
-            {"raced", counts.raced},         {"seconds", counts.seconds},   {"exhausted", counts.scope.has_value()}};
-  if (counts.scope && !counts.scope->empty()) json["scope"] = *counts.scope;
-  if (!counts.obstacle.empty()) json["calls_only"] = counts.obstacle;
+Json json_of(const exploration::Search& search, double seconds) {
+  Json json{{"schedules", search.schedules()},
+            {"distinct", search.distinct()},
+            {"failed", search.failures()},
+            {"raced", search.raced()},
+            {"seconds", seconds},
+            {"exhausted", search.scope().has_value()}};
+  if (const auto& scope = search.scope(); scope && !scope->empty()) json["scope"] = *scope;
+  if (const std::string obstacle = words_of(search.obstacle()); !obstacle.empty()) json["calls_only"] = obstacle;
   return json;
 }
 
@@ -35,11 +41,12 @@ Json json_of(const ReportedFailure& failure) {
 
 }  // namespace
 
-std::string search_json(const std::string& target, const std::optional<SearchCounts>& counts,
+std::string search_json(const std::string& target, const exploration::Search* search, double seconds,
                         const ReportedFailure* failure) {
-  const bool is_interrupted = counts && counts->is_interrupted;
-  Json json{{"target", target}, {"outcome", failure != nullptr ? "failed" : is_interrupted ? "interrupted" : "passed"}};
-  if (counts) json["search"] = json_of(*counts);
+  const char* const passed = search != nullptr && search->schedules() == 0 ? "nothing run" : "passed";
+  const char* const outcome = failure != nullptr ? "failed" : interruption() != 0 ? "interrupted" : passed;
+  Json json{{"target", target}, {"outcome", outcome}};
+  if (search != nullptr) json["search"] = json_of(*search, seconds);
   if (failure != nullptr) json["failure"] = json_of(*failure);
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }

@@ -199,8 +199,8 @@ void Children::end_those_beyond_limits() {
   }
 }
 
-std::optional<Children::Ended> Children::stop_longest() {
-  constexpr double long_s = 1, patience_s = 10;
+std::optional<Children::Ended> Children::stop_longest(double patience_s) {
+  constexpr double long_s = 1;
   const auto longest = std::ranges::min_element(running_, {}, &Running::started_s);
   const double now_s = wall_clock_s();
   if (longest == running_.end() || now_s - longest->started_s < long_s) return std::nullopt;

@@ -45,8 +45,9 @@ class Children {
   std::size_t count() const { return running_.size(); }
   /// Waits for a job to end, for at most `timeout_ms`; kills those beyond a limit.
   std::optional<Ended> wait(int timeout_ms);
-  /// Asks the child that has run longest, if that is a second at least, to end by SIGTERM, and returns its answer.
-  std::optional<Ended> stop_longest();
+  /// Asks the child that has run longest, if that is a second at least, to end by SIGTERM, and returns its answer, if
+  /// it comes in time.
+  std::optional<Ended> stop_longest(double patience_s);
   /// Kills the children of jobs from `number` up.
   void kill_from(std::uint64_t number);
 

@@ -40,6 +40,7 @@ class Analyser {
     const std::size_t found = analysis_.least.switches.size();
     FewerSwitches fewer(trials, found_plan_.number, analysis_.least);
     fewer.run();
+    note_gravest(trials);
     is_noise_ = fewer.is_noise();
     analysis_.is_minimized = is_noise_ || fewer.repeats() || traits_.is_cheap;
     if (!analysis_.is_minimized) return;
@@ -68,13 +69,19 @@ class Analyser {
     Trials trials(target_, progress_, traits_.to_explain);
     const LeastFailure failure{analysis_.plan.number, analysis_.least, traits_.latest(analysis_.least)};
     const auto choice = last_choice(target_, trials, failure);
+    if (choice) reversed_ = reversed_events(trials, failure, *choice);
+    note_gravest(trials);
     if (!choice) return;
     analysis_.finding.choice = choice->words;
-    reversed_ = reversed_events(trials, failure, *choice);
     if (is_default_ && !traits_.is_cheap) return;  // sought for the page alone: the text is the same without one
     analysis_.text += "the last choice from which it could still have passed" +
                       std::string(is_default_ ? " by deviating from the default order" : "") + ": " + choice->words +
                       "\n" + reversed_.text;
+  }
+
+  void note_gravest(const Trials& trials) {
+    if (trials.gravest().kind > (analysis_.graver ? *analysis_.graver : analysis_.least).kind)
+      analysis_.graver = trials.gravest();
   }
 
   // Empty if there is a pair.

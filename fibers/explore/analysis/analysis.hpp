@@ -3,6 +3,7 @@
 // whose order matters, the last events of the tasks.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,7 +27,8 @@ struct Analysis {
   std::string text;                  ///< lines for people
   std::vector<ToldRace> races = {};  ///< that the least run shows
   std::string trace = {};
-  FindingFile finding = {};  ///< its choice, note and steps; with AnalysisOptions::page its schedules
+  std::optional<Finding> graver = {};  ///< a failure of a graver kind in one of the runs
+  FindingFile finding = {};            ///< its choice, note and steps; with AnalysisOptions::page its schedules
 };
 
 /// Of the failure `found` by a run of `plan`, of which the default order has neither switches nor deviations.

@@ -4,11 +4,11 @@
 #pragma once
 
 #include <algorithm>
-#include <chrono>
 #include <string>
 
 #include "fibers/explore/target/progress_listener.hpp"
 #include "fibers/explore/target/target.hpp"
+#include "fibers/explore/target/time_limit.hpp"
 
 namespace waitpoint::exploration {
 
@@ -16,18 +16,20 @@ class Trials {
  public:
   /// `progress` may be null.
   Trials(Target& target, ProgressListener* progress, const Effort& effort)
-      : target_(target), traits_(target.traits()), progress_(progress), left_(effort), start_(Clock::now()) {}
+      : target_(target), traits_(target.traits()), progress_(progress), left_(effort), time_limit_(effort.seconds) {}
 
   const TargetTraits& traits() const { return traits_; }
   /// Runs so far.
   std::uint64_t used() const { return used_; }
+  /// The first run of the gravest kind, but for those that were killed, which cannot be repeated; or one that passed.
+  const Finding& gravest() const { return gravest_; }
   /// The budget is exhausted, or a signal has interrupted a run.
   bool is_over() const { return is_over_; }
 
   /// A run by the plan; nothing once it is over. `activity`, in words, is for the progress.
   template <class Words>
   std::optional<Finding> run(const Plan& plan, const WantedEvidence& wanted, const Words& activity) {
-    is_over_ = is_over_ || used_ == left_.runs || left_.events == 0 || is_late();
+    is_over_ = is_over_ || used_ == left_.runs || left_.events == 0 || time_limit_.is_over();
     if (is_over_) return std::nullopt;
     ++used_;
     if (progress_ != nullptr) {
@@ -37,23 +39,20 @@ class Trials {
     }
     std::optional<Finding> finding = target_.repeat(plan, wanted);
     is_over_ = !finding;
-    if (finding) left_.events -= std::min(left_.events, finding->events);
+    if (!finding) return finding;
+    left_.events -= std::min(left_.events, finding->events);
+    if (finding->kind > gravest_.kind && finding->kind != RunVerdict::Kind::killed) gravest_ = *finding;
     return finding;
   }
 
  private:
-  using Clock = std::chrono::steady_clock;
-
-  bool is_late() const {
-    return left_.seconds > 0 && std::chrono::duration<double>(Clock::now() - start_).count() >= left_.seconds;
-  }
-
   Target& target_;
   const TargetTraits traits_;
   ProgressListener* progress_;
   Effort left_;  // but for the runs
-  const Clock::time_point start_;
+  const TimeLimit time_limit_;
   std::uint64_t used_ = 0;
+  Finding gravest_;
   bool is_over_ = false;
 };
 

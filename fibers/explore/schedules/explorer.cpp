@@ -125,7 +125,7 @@ std::uint32_t Explorer::next(Task* const* ready, std::uint32_t count) {
 std::uint32_t Explorer::next_with_care(Task* const* ready, std::uint32_t count) {
   if (spinning_ != 0 && polls_only({ready, count}) && ++idle_turns_ > idle_yields_max &&
       kernel::is_due_later(scheduler_)) {
-    schedule_.cuts_polls_short = left_out_.turns = true;
+    schedule_.cuts_polls_short = true;
     return later;
   }
   if (++step_of_instant_ > steps_max_)
@@ -228,7 +228,6 @@ std::span<Task* const> Explorer::leave_spinning_out(std::span<Task* const> ready
     for (std::uint32_t i = 0; i < ready.size(); ++i)
       if (ready[i] != last_) add(i);
   }
-  left_out_.turns |= offered_.size() < ready.size();
   return offered_;
 }
 
@@ -307,8 +306,6 @@ void Explorer::take_over(std::span<const Decision> decisions, std::span<const Sw
 std::uint32_t Explorer::alternative(Decision decision, const Task& task, std::uint32_t offered, std::uint64_t time) {
   const Choice choice = decision.choice;
   const std::uint32_t count = decision.count;
-  left_out_.spurious |= choice == Choice::spurious;
-  left_out_.turns |= decision.spinning != 0;
   std::uint32_t chosen = count;
   if (plays_) {
     if (const Decision* const played = of_prefix(choice, count)) chosen = played->chosen;
@@ -345,7 +342,6 @@ Duration Explorer::cost(Duration least, Duration greatest, std::uint32_t chosen)
 
 Duration Explorer::computing(const Task& task, Duration least, Duration greatest) {
   const std::uint32_t count = costs_between(least, greatest);
-  left_out_.costs |= count > 2;
   return cost(least, greatest, among(Choice::computing, task, count));
 }
 

@@ -36,13 +36,6 @@ struct Played {
   std::size_t stop_at = ~std::size_t{0};
 };
 
-/// The alternatives that exhaustive strategies omit.
-struct LeftOut {
-  bool turns = false;     ///< turns of spinning tasks, while others could continue or time could pass
-  bool costs = false;     ///< costs of computations between the offered values
-  bool spurious = false;  ///< spurious wake-ups
-};
-
 /// True if the pending event has no effect on others, as those that tasks repeat when they poll.
 bool is_look(const Task& task);
 
@@ -76,8 +69,6 @@ class Explorer final : public kernel::Decisions {
   bool was_cut() const { return was_cut_; }
   /// True if this schedule has taken an alternative that exhaustive strategies omit.
   bool is_beyond_enumeration() const { return is_beyond_enumeration_; }
-  /// Accumulated over all schedules so far.
-  const LeftOut& left_out() const { return left_out_; }
   /// The candidates of the decision at which the run was stopped.
   std::span<Task* const> stopped_before() const { return stopped_before_; }
 
@@ -154,7 +145,6 @@ class Explorer final : public kernel::Decisions {
   bool was_cut_ = false;
   bool is_beyond_enumeration_ = false;
   bool has_spun_ = false;
-  LeftOut left_out_;
 };
 
 }  // namespace waitpoint::exploration

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fibers/explore/strategies/dfs.hpp"
 
-#include "core/error.hpp"
+#include <algorithm>
+
 #include "fibers/explore/strategies/fifo.hpp"
 
 namespace waitpoint::exploration {
@@ -46,6 +47,47 @@ bool Dfs::end() {
   if (path_.empty()) return false;
   ++path_.back().tried;
   return true;
+}
+
+namespace {
+
+// The alternatives of a decision in the order in which they are tried: the default one, then the others that were
+// offered; of a cost the two ends.
+std::vector<std::uint32_t> tried_in_order(const Decision& decision) {
+  if (decision.choice == Choice::computing) return {0, decision.count - 1};
+  std::vector<std::uint32_t> order = {decision.usual};
+  for (std::uint32_t i = 0; i < decision.count; ++i)
+    if (i != decision.usual && !decision.spins(i)) order.push_back(i);
+  return order;
+}
+
+}  // namespace
+
+void Dfs::resume(std::span<const Decision> choices) {
+  resumed_.assign(choices.begin(), choices.end());
+  path_.clear();
+  at_.clear();
+  preempted_ = 0;
+  for (std::uint32_t at = 0; at < choices.size(); ++at) {
+    const Decision& decision = choices[at];
+    if (decision.choice == Choice::spurious || (decision.can_continue && preempted_ == preemptions_)) continue;
+    preempted_ += decision.can_continue && decision.is_switch();
+    const std::vector<std::uint32_t> order = tried_in_order(decision);
+    const auto chosen = std::find(order.begin(), order.end(), decision.chosen);
+    path_.push_back({static_cast<std::uint32_t>(order.size()), static_cast<std::uint32_t>(chosen - order.begin())});
+    at_.push_back(at);
+  }
+  depth_ = path_.size();
+}
+
+std::vector<Deviation> Dfs::deviations() const {
+  std::vector<Deviation> deviations;
+  if (path_.empty()) return deviations;
+  const std::uint32_t last = at_[path_.size() - 1];
+  for (std::uint32_t at = 0; at < last; ++at)
+    if (resumed_[at].is_switch()) deviations.push_back({at, resumed_[at].chosen});
+  deviations.push_back({last, tried_in_order(resumed_[last])[path_.back().tried]});
+  return deviations;
 }
 
 std::string Dfs::scope() const {

@@ -6,6 +6,10 @@
 // Of the cost of a computation it tries the two ends.
 #pragma once
 
+#include <span>
+#include <vector>
+
+#include "fibers/explore/strategies/schedule.hpp"
 #include "fibers/explore/strategies/strategy.hpp"
 
 namespace waitpoint::exploration {
@@ -22,7 +26,12 @@ class Dfs final : public Strategy {
   bool end() override;
   bool is_exhaustive() const override { return true; }
   std::string scope() const override;
-  std::uint32_t preemptions() const { return preemptions_; }
+
+  /// The choices of a schedule that another process has run, in the default order but for deviations(): the search
+  /// continues with end().
+  void resume(std::span<const Decision> choices);
+  /// After that: the next schedule.
+  std::vector<Deviation> deviations() const;
 
  private:
   struct Level {
@@ -35,6 +44,8 @@ class Dfs final : public Strategy {
   std::vector<Level> path_;
   std::size_t depth_ = 0;
   std::uint32_t preempted_ = 0;
+  std::vector<Decision> resumed_;  // all choices of the resumed schedule
+  std::vector<std::uint32_t> at_;  // the choice of each level
 };
 
 }  // namespace waitpoint::exploration

@@ -14,6 +14,7 @@
 #include "fibers/explore/strategies/profile.hpp"
 #include "fibers/explore/strategies/reads_from.hpp"
 #include "fibers/explore/strategies/schedule.hpp"
+#include "fibers/explore/strategies/switch_points.hpp"
 
 namespace waitpoint::exploration {
 
@@ -29,10 +30,13 @@ struct RunVerdict {
   bool has_left_out_values = false;    ///< a load was not offered a value that it may have returned
   bool uses_futexes = false;           ///< the program's own locks are atomics, which are events at accesses only
   bool meets_outside = false;          ///< the run depends on what is not simulated
+  bool has_raced = false;              ///< with data races, even if it is not a failure
   bool parted = false;                 ///< the plan did not fit the run
-  std::uint64_t digest = 0;            ///< 0: unknown, the process was killed
-  std::uint64_t order = 0;             ///< equal for runs that differ in nothing but the order of independent events
-  Time end = {};                       ///< when the run ended, or its failure was certain
+  SwitchAt switch_at = SwitchAt::automatic;        ///< of a program that is not instrumented: calls or accesses
+  AccessObstacle obstacle = AccessObstacle::none;  ///< why it has calls in place of accesses
+  std::uint64_t digest = 0;                        ///< 0: unknown, the process was killed
+  std::uint64_t order = 0;  ///< equal for runs that differ in nothing but the order of independent events
+  Time end = {};            ///< when the run ended, or its failure was certain
   std::uint64_t events = 0, decisions = 0;
 
   bool passed() const { return kind == Kind::passed; }

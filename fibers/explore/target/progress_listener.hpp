@@ -15,6 +15,8 @@ class ProgressListener {
   virtual void update(std::uint64_t schedules, std::uint64_t distinct, std::uint64_t failures) = 0;
   /// Another activity, in words.
   virtual void update(const std::string& words) = 0;
+  /// Other text follows.
+  virtual void finish() = 0;
 };
 
 }  // namespace waitpoint::exploration

@@ -46,6 +46,8 @@ class Target {
   /// The name in reports.
   virtual std::string name() const = 0;
   virtual TargetTraits traits() const = 0;
+  /// The command that repeats a run, by its token or by a file with its schedule.
+  virtual std::string replay_command(const Finding& finding, const std::string& token) const = 0;
   /// Executes the run by the plan; nothing if a signal interrupted it.
   virtual std::optional<Finding> repeat(const Plan& plan, const WantedEvidence& wanted) = 0;
   std::optional<Finding> repeat(const Plan& plan) { return repeat(plan, {}); }

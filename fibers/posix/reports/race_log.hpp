@@ -12,8 +12,8 @@
 
 #include "fibers/explore/races/located_race.hpp"
 #include "fibers/explore/strategies/memory_option.hpp"
+#include "fibers/explore/strategies/switch_points.hpp"
 #include "fibers/posix/traps/access_instruction.hpp"
-#include "fibers/posix/traps/access_obstacle.hpp"
 
 namespace waitpoint::posix {
 

@@ -17,8 +17,8 @@
 #include <cstdint>
 #include <span>
 
+#include "fibers/explore/strategies/switch_points.hpp"
 #include "fibers/posix/traps/access_instruction.hpp"
-#include "fibers/posix/traps/access_obstacle.hpp"
 
 namespace waitpoint::posix {
 

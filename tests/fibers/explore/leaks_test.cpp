@@ -9,6 +9,7 @@
 
 #include "fibers/explore/explore.hpp"
 #include "fibers/sync/atomic.hpp"
+#include "fibers/sync/mutex.hpp"
 #include "fibers/sync/thread.hpp"
 #include "tests/fibers/explore/contains.hpp"
 
@@ -68,6 +69,33 @@ TEST(Explore, ABodyThatLeaksStateIsNamedWithTheFirstDifference) {
   EXPECT_FALSE(report.passed);
   EXPECT_TRUE(contains(report.text, "the body leaks state from one schedule into the next")) << report;
   EXPECT_TRUE(contains(report.text, "'main#0 yield")) << report;
+}
+
+// Each run is judged: the first ones in the default order, those that look for leaks, the search's, the last one.
+TEST(Explore, AFailureOfAnySingleRunFailsTheReport) {
+  int runs = 0, failing = -1;
+  const auto body = [&] {
+    const int run = runs++;
+    mutex lock;
+    thread other([&] {
+      lock.lock();
+      lock.unlock();
+    });
+    lock.lock();
+    lock.unlock();
+    other.join();
+    check(run != failing, "that run");
+  };
+  const ExploreReport passing = explore(body, {.iterations = 20});
+  EXPECT_TRUE(passing.passed) << passing;
+  const int all = runs;
+  EXPECT_GT(all, 50);
+  for (failing = 0; failing < all; ++failing) {
+    runs = 0;
+    const ExploreReport report = explore(body, {.iterations = 20});
+    EXPECT_FALSE(report.passed) << "run " << failing;
+    EXPECT_TRUE(contains(report.text, "that run")) << report;
+  }
 }
 
 TEST(Explore, MemoryThatEachScheduleLeavesIsCounted) {

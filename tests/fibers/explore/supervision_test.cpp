@@ -50,8 +50,8 @@ TEST(Explore, AScheduleThatGoesOnForLongIsToldAndAtItsLimitEndedWithItsToken) {
     std::exit(0);
   };
   EXPECT_EXIT(compute_for_ever(), ended,
-              "the default schedule has run for 10 s;.*\nreplay: WAITPOINT_REPLAY=wx1.1.0+.= .*\n"
-              "waitpoint: the default schedule exceeded the limit of 12 s: process terminated\n"
+              "the default order has run for 10 s;.*\nreplay: WAITPOINT_REPLAY=wx1.1.0+.= .*\n"
+              "waitpoint: the default order exceeded the limit of 12 s: process terminated\n"
               "replay: WAITPOINT_REPLAY=wx1.1.0+.= .*\n$");
 }
 

@@ -13,7 +13,7 @@ Batches of_short_schedules() {
   Batches batches(16);
   for (int i = 0; i < 10; ++i) {
     const std::uint32_t count = batches.size();
-    batches.start({0, count}, 0);
+    batches.start({0, 0, count}, 0);
     batches.end(0, count, count * 0.0001);
   }
   return batches;
@@ -26,28 +26,29 @@ TEST(Batches, GrowToTheLimitForShortSchedules) {
 
 TEST(Batches, ShrinkToOneAfterASlowSchedule) {
   Batches batches = of_short_schedules();
-  batches.start({0, 16}, 0);
+  batches.start({0, 0, 16}, 0);
   batches.end(0, 1, 0.1);
   EXPECT_EQ(batches.size(), 1u);
 }
 
 TEST(Batches, LeaveWhatFollowsASchedulesFailure) {
   Batches batches = of_short_schedules();
-  batches.start({20, 16}, 0);
-  batches.start({36, 16}, 0);
+  batches.start({20, 120, 16}, 0);
+  batches.start({36, 136, 16}, 0);
   batches.end(36, 16, 0.002);
   batches.end(20, 5, 0.001);
   EXPECT_FALSE(batches.take_left(25));
   const auto left = batches.take_left(any_place);
   ASSERT_TRUE(left);
   EXPECT_EQ(left->place, 25u);
+  EXPECT_EQ(left->number, 125u);
   EXPECT_EQ(left->count, 11u);
   EXPECT_FALSE(batches.take_left(any_place));
 }
 
 TEST(Batches, RepeatOneByOneAfterALostProcess) {
   Batches batches = of_short_schedules();
-  batches.start({20, 3}, 0);
+  batches.start({20, 120, 3}, 0);
   EXPECT_TRUE(batches.divide(20));
   for (std::uint64_t place = 20; place < 23; ++place) {
     const auto left = batches.take_left(any_place);

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "core/error.hpp"
+#include "fibers/explore/search/feedback.hpp"
 #include "tools/exec/access_obstacles.hpp"
 #include "tools/exec/family_report.hpp"
 #include "tools/exec/program_run.hpp"
@@ -19,7 +20,6 @@
 #include "tools/explore/runs/program_target.hpp"
 #include "tools/explore/runs/run_streams.hpp"
 #include "tools/explore/runs/run_with_nodes.hpp"
-#include "tools/explore/search/feedback.hpp"
 #include "tools/nodes/log_folder.hpp"
 #include "tools/output/json_document.hpp"
 #include "tools/output/output_file.hpp"
@@ -49,18 +49,18 @@ struct ReplayedProgram {
 };
 
 /// A run; the program's output is discarded.
-ProcessFinding look(ReplayedProgram& replayed, const ExploreOptions& options, const Plan& plan,
+Finding look(ReplayedProgram& replayed, const ExploreOptions& options, const Plan& plan,
                     const WantedEvidence& wanted, const exploration::Profile& known) {
   RunMemory memory(settings_of(options));
   ask_for_run(memory, replayed.files, options, plan, wanted, known);
   const ProgramRun run(replayed.files, memory, replayed.begin_run(),
                        options.schedule_limit_s.value_or(ExploreOptions::usual_schedule_limit_s));
-  ProcessFinding finding = finding_of_run(memory, run.status(), "", wanted, false);
-  if (run.is_over_limit()) finding.kind = ProcessFinding::Kind::no_progress;
+  Finding finding = finding_of_run(memory, run.status(), "", wanted, false);
+  if (run.is_over_limit()) finding.kind = RunVerdict::Kind::no_progress;
   return finding;
 }
 
-void check_obstacle(const ProcessFinding& finding) {
+void check_obstacle(const Finding& finding) {
   if (const std::string words = words_of(finding.obstacle); !words.empty())
     throw BadInput("--switch-at", words + "; expected calls");
 }
@@ -70,7 +70,7 @@ exploration::Profile take_profile(ReplayedProgram& replayed, const ExploreOption
   exploration::Profile known, profile;
   known.code = learn_code(replayed.files, [&](const Plan& learning, const std::vector<std::uint64_t>& code) {
     known.code = code;
-    ProcessFinding finding = look(replayed, options, learning, {.learn = true}, known);
+    Finding finding = look(replayed, options, learning, {.learn = true}, known);
     check_obstacle(finding);
     return finding;
   });
@@ -99,7 +99,7 @@ Replay::Replay(const ExploreOptions& asked) : options(asked) {
   replayed.emplace(options);
   const exploration::Profile profile = take_profile(*replayed, options, record.plan);
   const auto learn_from = [&](const Plan& plan) { return look(*replayed, options, plan, {.pairs = true}, profile); };
-  const Plan plan = record.plan.drawn ? Feedback(options.strategy, options.seed).plan_of(record.plan.number, learn_from)
+  const Plan plan = record.plan.drawn ? exploration::Feedback(options.strategy, options.seed).plan_of(record.plan.number, learn_from)
                                       : record.plan;
   wanted = {.words = !record.plan.drawn, .places = true};
   if (options.trace) wanted.events = {.trace = true};
@@ -132,11 +132,11 @@ int replay_program(const ExploreOptions& asked) {
   const ProgramRun run(replayed.files, memory, replayed.begin_run(), limit_s, show);
   show();
   const std::string output = options.has_nodes ? replayed.streams.whole_output() : "";
-  ProcessFinding finding = finding_of_run(memory, run.status(), output, wanted, options.races != Races::ignore);
+  Finding finding = finding_of_run(memory, run.status(), output, wanted, options.races != Races::ignore);
   if (options.has_nodes) tell_unmet(finding);
   if (options.has_nodes) finding.words = finding.headline();
   if (run.is_over_limit()) {
-    finding.kind = ProcessFinding::Kind::no_progress;
+    finding.kind = RunVerdict::Kind::no_progress;
     finding.words = over_limit(limit_s);
   }
   check_obstacle(finding);

@@ -6,8 +6,8 @@
 #include "core/error.hpp"
 #include "tools/explore/replay/replay_json.hpp"
 #include "tools/explore/replay/replay_record.hpp"
+#include "tools/explore/runs/replay_command.hpp"
 #include "tools/explore/runs/scene.hpp"
-#include "tools/explore/search/failed_run.hpp"
 #include "tools/output/json_document.hpp"
 #include "tools/output/output_file.hpp"
 #include "tools/output/progress.hpp"
@@ -32,7 +32,7 @@ int replay(const ExploreOptions& asked, const scenario::Scenario& scenario, std:
   WantedEvidence wanted{.words = !record.plan.drawn, .places = true};
   if (options.trace) wanted.events = {.trace = true};
   if (!wanted.events && !record.trail.marks.empty()) wanted.trail = record.trail.log_spacing;
-  const ProcessFinding finding = scene.run(record.plan, wanted);
+  const Finding finding = scene.run(record.plan, wanted);
   check_is_run_of(record, {scene.schedule(), scene.switches(), finding}, options.replay);
   bridge::RunResult result = scene.result();
   result.seed = options.seed;  // not the seed of the schedule's noise, which is derived from it

@@ -7,7 +7,7 @@
 
 namespace waitpoint::tools {
 
-std::string replay_json(const ExploreOptions& options, const ReplayRecord& record, const ProcessFinding& finding,
+std::string replay_json(const ExploreOptions& options, const ReplayRecord& record, const Finding& finding,
                         const std::string& summary) {
   using Json = nlohmann::ordered_json;
   Json json{{"replayed", options.replay},

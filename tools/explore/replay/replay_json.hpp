@@ -9,7 +9,7 @@
 namespace waitpoint::tools {
 
 /// `summary`: of a scenario's run, an object of JSON; empty for a program.
-std::string replay_json(const ExploreOptions& options, const ReplayRecord& record, const ProcessFinding& finding,
+std::string replay_json(const ExploreOptions& options, const ReplayRecord& record, const Finding& finding,
                         const std::string& summary);
 
 }  // namespace waitpoint::tools

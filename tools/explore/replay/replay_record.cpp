@@ -81,7 +81,7 @@ std::string known_before(const Replayed& run, std::size_t i) {
 
 /// Where the run left the record, in words; empty if nowhere.
 std::string parting(const ReplayRecord& record, const Replayed& run) {
-  const ProcessFinding& finding = run.finding;
+  const Finding& finding = run.finding;
   const std::string where = fmt::format("after event {} at {} s", finding.events, to_string(finding.end));
   std::vector<Switch> met = run.schedule.switches;
   std::sort(met.begin(), met.end());

@@ -22,7 +22,7 @@ struct ReplayRecord {
 struct Replayed {
   const exploration::Schedule& schedule;
   const std::vector<exploration::Told>& told;  ///< its switches
-  const ProcessFinding& finding;
+  const Finding& finding;
 };
 
 /// Reads options.replay, for the target with this fingerprint; the record's strategy and seed become the options'.

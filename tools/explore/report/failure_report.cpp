@@ -6,6 +6,7 @@
 #include "fibers/explore/analysis/analysis.hpp"
 #include "fibers/explore/schedules/token.hpp"
 #include "tools/command/version.hpp"
+#include "tools/explore/runs/replay_command.hpp"
 #include "tools/explore/runs/switch_points.hpp"
 
 namespace waitpoint::tools {
@@ -13,25 +14,24 @@ namespace {
 
 using exploration::Analysis;
 using exploration::Token;
-using exploration::token_digest;
 
 // The trail of the run by this plan; empty for programs, runs from mid-run and killed runs.
 exploration::Trail trail_of(ProcessTarget& target, const Plan& plan, const exploration::Finding& finding) {
   exploration::Trail trail;
   const ExploreOptions& options = target.options();
-  if (!options.program.empty() || options.from || finding.kind == ProcessFinding::Kind::killed) return trail;
+  if (!options.program.empty() || options.from || finding.kind == RunVerdict::Kind::killed) return trail;
   const auto told = target.repeat(plan, {.trail = exploration::log_spacing_for(finding.events)});
   if (told && told->digest == finding.digest) (void)exploration::read_trail(told->evidence.trail, trail);
   return trail;
 }
 
-std::string headline(const std::string& which, const ProcessFinding& finding) {
-  if (finding.kind == ProcessFinding::Kind::killed) return fmt::format("{} failed: {}\n", which, finding.words);
+std::string headline(const std::string& which, const Finding& finding) {
+  if (finding.kind == RunVerdict::Kind::killed) return fmt::format("{} failed: {}\n", which, finding.words);
   return fmt::format("{} failed at {} s: {}\n", which, to_string(finding.end), finding.words);
 }
 
 /// The failure is analysed, and its report begun, up to what the analysis says.
-Analysis analysed(ProcessTarget& target, SearchProgress& progress, const Plan& plan, const ProcessFinding& found,
+Analysis analysed(ProcessTarget& target, SearchProgress& progress, const Plan& plan, const Finding& found,
                   const std::string& which, FailureReport& report) {
   const ExploreOptions& options = target.options();
   Analysis analysis =
@@ -42,6 +42,7 @@ Analysis analysed(ProcessTarget& target, SearchProgress& progress, const Plan& p
   if (analysis.least.digest != 0) report.text += "digest: " + digest_text(analysis.least.digest) + "\n";
   report.races = std::move(analysis.races);
   report.trace = std::move(analysis.trace);
+  report.graver = analysis.graver;
   report.finding = std::move(analysis.finding);
   report.schedule = {target.fingerprint(),
                      options.strategy,
@@ -70,29 +71,29 @@ void tell_replay(const ProcessTarget& target, const ExploreOptions& options, con
 
 }  // namespace
 
-FailureReport report_default(ProcessTarget& target, SearchProgress& progress, const ProcessFinding& finding) {
+FailureReport report_default(ProcessTarget& target, SearchProgress& progress, const Finding& finding) {
   FailureReport report;
   const ExploreOptions options = with_switches_at(finding.switch_at, target.options());
   const std::string which =
       target.traits().has_noise ? "the default order, with the scenario's own noise," : "the default order";
   (void)analysed(target, progress, {.drawn = false}, finding, which, report);
   report.schedule.strategy = "fifo";
-  const Token token{0, token_digest(finding.digest), "", 0, 0, {}, {}, options.memory};
+  const Token token = exploration::token_by_deviations(finding, options);
   tell_replay(target, options, finding.words, to_text_with(token, report.schedule.trail), "the default order", report);
   return report;
 }
 
-FailureReport report(ProcessTarget& target, SearchProgress& progress, const FailedRun& failed) {
+FailureReport report(ProcessTarget& target, SearchProgress& progress, const exploration::FailedRun& failed) {
   const ExploreOptions options = with_switches_at(failed.finding.switch_at, target.options());
   FailureReport report;
-  const std::string which = name_of(failed, options);
+  const std::string which = exploration::name_of(failed, options);
   const Plan found = plan_of(failed, options);
   const Analysis analysis = analysed(target, progress, found, failed.finding, which + ",", report);
   const exploration::Finding& least = analysis.least;
   const Token as_found = token_of(failed, options);
   Token token = as_found;
   if (analysis.is_minimized && analysis.plan.number == 0) {
-    const Token deviating{0, token_digest(least.digest), "", 0, 0, least.deviations, {}, options.memory};
+    const Token deviating = exploration::token_by_deviations(least, options);
     if (to_text(deviating).size() <= exploration::token_length_max) token = deviating;
   }
   const exploration::Trail trail = token == as_found ? trail_of(target, found, failed.finding) : report.schedule.trail;

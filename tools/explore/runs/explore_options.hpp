@@ -9,12 +9,12 @@
 #include <vector>
 
 #include "core/time.hpp"
-#include "fibers/explore/explore_options.hpp"
+#include "fibers/explore/strategies/switch_points.hpp"
+#include "fibers/explore/target/explore_options.hpp"
 #include "tools/command/options/results.hpp"
 #include "tools/command/options/scenario.hpp"
 #include "tools/command/options/viewing.hpp"
 #include "tools/exec/program_conditions.hpp"
-#include "tools/exec/switch_at.hpp"
 
 namespace waitpoint::tools {
 

@@ -42,11 +42,9 @@ void pass_evidence(Pass& pass, Evidence& evidence) {
 }
 
 // The order of the fields, for both directions.
-template <class Pass, class RunVerdict, class F>
-void pass_fields(Pass& pass, RunVerdict& verdict, F& finding) {
+template <class Pass, class Verdict, class F>
+void pass_fields(Pass& pass, Verdict& verdict, F& finding) {
   pass(verdict);
-  pass(finding.switch_at);
-  pass(finding.obstacle);
   pass(finding.words);
   pass(finding.racing);
   pass(finding.switches);
@@ -57,7 +55,7 @@ void pass_fields(Pass& pass, RunVerdict& verdict, F& finding) {
 
 }  // namespace
 
-std::string to_bytes(const ProcessFinding& finding) {
+std::string to_bytes(const Finding& finding) {
   FieldWriter writer;
   pass_fields(writer, static_cast<const exploration::RunVerdict&>(finding), finding);
   writer(finding.lesson.profile.tasks.size());
@@ -67,8 +65,8 @@ std::string to_bytes(const ProcessFinding& finding) {
   return std::move(writer.bytes);
 }
 
-ProcessFinding finding_of(std::string_view bytes) {
-  ProcessFinding finding;
+Finding finding_of(std::string_view bytes) {
+  Finding finding;
   FieldReader reader(bytes);
   pass_fields(reader, static_cast<exploration::RunVerdict&>(finding), finding);
   std::size_t tasks = 0, races = 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The result of one schedule of a scenario or a program. Computed in a process of its own and sent through a pipe, from
-// a program to itself, as bytes.
+// The result of one schedule of a scenario or a program as bytes: it is computed in a process of its own, and sent
+// through a pipe from a program to itself.
 #pragma once
 
 #include <string>
@@ -9,23 +9,18 @@
 #include "fibers/explore/target/finding.hpp"
 #include "fibers/explore/target/plan.hpp"
 #include "fibers/explore/target/wanted_evidence.hpp"
-#include "fibers/posix/traps/access_obstacle.hpp"
-#include "tools/exec/switch_at.hpp"
 
 namespace waitpoint::tools {
 
+using exploration::Finding;
 using exploration::Plan;
+using exploration::RunVerdict;
 using exploration::ToldRace;
 using exploration::WantedEvidence;
 
-struct ProcessFinding : exploration::Finding {
-  SwitchAt switch_at = SwitchAt::automatic;  ///< of a program that is not instrumented: calls or accesses
-  posix::AccessObstacle obstacle = posix::AccessObstacle::none;  ///< why it has calls in place of accesses
-};
-
-std::string to_bytes(const ProcessFinding& finding);
+std::string to_bytes(const Finding& finding);
 /// Parses the complete output of to_bytes().
-ProcessFinding finding_of(std::string_view bytes);
+Finding finding_of(std::string_view bytes);
 /// "wp1:0123456789abcdef".
 std::string digest_text(std::uint64_t digest);
 

@@ -9,6 +9,6 @@
 namespace waitpoint::tools {
 
 /// An object: the kind of failure ("passed" for none), what failed in words, the virtual time, the digest if known.
-std::string finding_json(const ProcessFinding& finding);
+std::string finding_json(const Finding& finding);
 
 }  // namespace waitpoint::tools

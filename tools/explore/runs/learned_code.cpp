@@ -8,7 +8,7 @@ namespace waitpoint::tools {
 namespace {
 
 // In random orders, after a run in the default order.
-std::uint64_t learning_runs(const ProcessFinding& usual) {
+std::uint64_t learning_runs(const Finding& usual) {
   constexpr std::uint64_t short_run = 5'000, medium_run = 50'000;  // in events
   if (usual.decisions == 0) return 0;
   return usual.events <= short_run ? 8 : usual.events <= medium_run ? 2 : 0;
@@ -38,16 +38,16 @@ void add_alike(const std::vector<posix::AccessInstruction>& all, std::vector<std
 
 std::vector<std::uint64_t> learn_code(
     const ProgramFiles& files,
-    const std::function<ProcessFinding(const Plan& plan, const std::vector<std::uint64_t>& known)>& learn) {
+    const std::function<Finding(const Plan& plan, const std::vector<std::uint64_t>& known)>& learn) {
   if (!files.watches_accesses()) return {};
-  const ProcessFinding usual = learn({.drawn = false}, {});
-  if (usual.obstacle != posix::AccessObstacle::none) return {};
+  const Finding usual = learn({.drawn = false}, {});
+  if (usual.obstacle != AccessObstacle::none) return {};
   std::vector<std::uint64_t> known = usual.lesson.profile.code;
   const std::uint64_t more = files.instrumented ? 0 : learning_runs(usual);
   for (std::uint64_t i = 0; i < more; ++i) {
-    const ProcessFinding finding = learn({.drawn = false, .at_random_from = 0, .attempt = i}, known);
-    if (finding.kind == ProcessFinding::Kind::no_progress) break;  // the next could take as long, too
-    if (finding.obstacle != posix::AccessObstacle::none) return {};
+    const Finding finding = learn({.drawn = false, .at_random_from = 0, .attempt = i}, known);
+    if (finding.kind == RunVerdict::Kind::no_progress) break;  // the next could take as long, too
+    if (finding.obstacle != AccessObstacle::none) return {};
     known.insert(known.end(), finding.lesson.profile.code.begin(), finding.lesson.profile.code.end());
   }
   add_alike(files.accesses, known);

@@ -18,6 +18,6 @@ namespace waitpoint::tools {
 /// learned with them.
 std::vector<std::uint64_t> learn_code(
     const ProgramFiles& files,
-    const std::function<ProcessFinding(const Plan& plan, const std::vector<std::uint64_t>& known)>& learn);
+    const std::function<Finding(const Plan& plan, const std::vector<std::uint64_t>& known)>& learn);
 
 }  // namespace waitpoint::tools

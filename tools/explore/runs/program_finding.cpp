@@ -63,28 +63,28 @@ std::vector<posix::AccessInstruction> learned(const std::vector<posix::AccessIns
   return found;
 }
 
-void judge(const RunMemory& memory, int status, ProcessFinding& finding) {
+void judge(const RunMemory& memory, int status, Finding& finding) {
   const posix::Ending ending = memory.record().ending;
-  finding.kind = ProcessFinding::Kind::unmet;
+  finding.kind = RunVerdict::Kind::unmet;
   if (!memory.record().began) {
     finding.words = "did not reach main()";
   } else if (ending == posix::Ending::deadlock) {
-    finding.kind = ProcessFinding::Kind::deadlock;
+    finding.kind = RunVerdict::Kind::deadlock;
     finding.words = "deadlock";
   } else if (ending == posix::Ending::no_progress) {
-    finding.kind = ProcessFinding::Kind::no_progress;
+    finding.kind = RunVerdict::Kind::no_progress;
     finding.words = "no progress: the threads poll without end";
   } else if (ending == posix::Ending::idle) {
-    finding.kind = ProcessFinding::Kind::no_progress;
+    finding.kind = RunVerdict::Kind::no_progress;
     finding.words = "idle: only timers expire, and no thread wakes another";
   } else if (WIFSIGNALED(status)) {
     // An abort is how assertions fail.
-    if (WTERMSIG(status) != SIGABRT) finding.kind = ProcessFinding::Kind::crash;
+    if (WTERMSIG(status) != SIGABRT) finding.kind = RunVerdict::Kind::crash;
     finding.words = "terminated by " + signal_in_words(WTERMSIG(status));
   } else if (WEXITSTATUS(status) != 0) {
     finding.words = "exit status " + std::to_string(WEXITSTATUS(status));
   } else {
-    finding.kind = ProcessFinding::Kind::passed;
+    finding.kind = RunVerdict::Kind::passed;
   }
 }
 
@@ -174,28 +174,29 @@ bool has_parted_elsewhere(const posix::Record& record) {
 
 }  // namespace
 
-void tell_races(const posix::Record& record, ProcessFinding& finding) {
+void tell_races(const posix::Record& record, Finding& finding) {
   for (const auto& [process, races] : races_by_process(record))
     for (const races::Race& race : races) finding.evidence.races.push_back(exploration::told(race, process));
 }
 
-ProcessFinding finding_of_run(const RunMemory& memory, int status, const std::string& output,
-                              const WantedEvidence& wanted, bool races_fail) {
-  ProcessFinding finding;
+Finding finding_of_run(const RunMemory& memory, int status, const std::string& output, const WantedEvidence& wanted,
+                       bool races_fail) {
+  Finding finding;
   judge(memory, status, finding);
   if (!finding.passed() && !output.empty()) finding.words += "\n" + output;
   const posix::Record& record = memory.record();
   finding.obstacle = obstacle_of(record);
   finding.racing = racing_code(record);
+  finding.has_raced = !finding.racing.empty();
   if (wanted.places) tell_races(record, finding);
   if (wanted.places && !finding.passed()) finding.evidence.details = last_calls_of(record);
   if (const std::string misuse = first_misuse(record); finding.passed() && !misuse.empty()) {
-    finding.kind = ProcessFinding::Kind::misuse;
+    finding.kind = RunVerdict::Kind::misuse;
     finding.words = "misuse: " + misuse;
     if (wanted.places) finding.evidence.details = misuses_of(record);
   }
-  if (finding.passed() && races_fail && !finding.racing.empty()) {
-    finding.kind = ProcessFinding::Kind::race;
+  if (finding.passed() && races_fail && finding.has_raced) {
+    finding.kind = RunVerdict::Kind::race;
     finding.words = "a data race";
     if (wanted.places) finding.evidence.details = races_of(record);
   }

@@ -20,10 +20,10 @@ exploration::Schedule schedule_of(const posix::Record& record);
 
 /// The finding of a finished run: `status` is as from waitpid(), `output` the program's last output. A run passes with
 /// exit status 0, without a data race if `races_fail`.
-ProcessFinding finding_of_run(const RunMemory& memory, int status, const std::string& output,
-                              const WantedEvidence& wanted, bool races_fail);
+Finding finding_of_run(const RunMemory& memory, int status, const std::string& output, const WantedEvidence& wanted,
+                       bool races_fail);
 
 /// Adds the run's data races in words.
-void tell_races(const posix::Record& record, ProcessFinding& finding);
+void tell_races(const posix::Record& record, Finding& finding);
 
 }  // namespace waitpoint::tools

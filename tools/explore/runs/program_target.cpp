@@ -86,13 +86,13 @@ void ProgramTarget::prepare() {
   const ForkServer server(calls_.files, settings_of(options_));
 }
 
-ProcessFinding ProgramTarget::run(const Plan& plan, const WantedEvidence& wanted) {
+Finding ProgramTarget::run(const Plan& plan, const WantedEvidence& wanted) {
   const SwitchAt at = fixed_switch_at().value_or(switch_points_of(plan, options_));
   return at == SwitchAt::calls || calls_.files.instrumented ? run_at_calls(plan, wanted)
                                                             : run_at_accesses(plan, wanted);
 }
 
-ProcessFinding ProgramTarget::run_at_calls(const Plan& plan, const WantedEvidence& wanted) {
+Finding ProgramTarget::run_at_calls(const Plan& plan, const WantedEvidence& wanted) {
   const bool learns = wanted.profile && calls_.files.instrumented;
   exploration::Profile learned;
   // The default order's profile is taken with the switch points that all runs have.
@@ -101,28 +101,28 @@ ProcessFinding ProgramTarget::run_at_calls(const Plan& plan, const WantedEvidenc
       learned.code = code;
       return run_once(calls_, learning, {.learn = true}, learned);
     });
-  ProcessFinding finding = run_once(calls_, plan, wanted, learns ? learned : profile_of_calls());
+  Finding finding = run_once(calls_, plan, wanted, learns ? learned : profile_of_calls());
   if (wanted.profile) finding.lesson.profile.code = learned.code;
   if (!calls_.files.instrumented) finding.switch_at = SwitchAt::calls;
   return finding;
 }
 
 // A run that would be disturbed by breakpoints is made again without, so that a correct program does not fail.
-ProcessFinding ProgramTarget::run_at_accesses(const Plan& plan, const WantedEvidence& wanted) {
-  posix::AccessObstacle obstacle = prepare_accesses();
-  if (obstacle == posix::AccessObstacle::none) {
+Finding ProgramTarget::run_at_accesses(const Plan& plan, const WantedEvidence& wanted) {
+  AccessObstacle obstacle = prepare_accesses();
+  if (obstacle == AccessObstacle::none) {
     const exploration::Profile& known = *accesses_->profile;
-    ProcessFinding finding = run_once(*accesses_, plan, wanted, known);
+    Finding finding = run_once(*accesses_, plan, wanted, known);
     finding.switch_at = SwitchAt::accesses;
     // Of other instructions than the learned ones nothing is known.
     if (wanted.choices) finding.has_unlearned_code = true;
     if (wanted.profile) finding.lesson.profile.code = known.code;
     if (!wanted.profile && !finding.passed()) finding.lesson.profile = known;
-    if (finding.obstacle == posix::AccessObstacle::none || is_to_stop != 0) return finding;
+    if (finding.obstacle == AccessObstacle::none || is_to_stop != 0) return finding;
     obstacle = finding.obstacle;
-    if (obstacle == posix::AccessObstacle::endless) obstacle_ = obstacle;  // the next could take as long
+    if (obstacle == AccessObstacle::endless) obstacle_ = obstacle;  // the next could take as long
   }
-  ProcessFinding finding = run_at_calls(plan, wanted);
+  Finding finding = run_at_calls(plan, wanted);
   finding.obstacle = obstacle;
   return finding;
 }
@@ -140,13 +140,12 @@ const exploration::Profile& ProgramTarget::profile_of_calls() {
 }
 
 // Once for each process that makes runs: all learn the same.
-posix::AccessObstacle ProgramTarget::prepare_accesses() {
+AccessObstacle ProgramTarget::prepare_accesses() {
   if (!obstacle_) obstacle_ = learn_accesses();
   return *obstacle_;
 }
 
-posix::AccessObstacle ProgramTarget::learn_accesses() {
-  using posix::AccessObstacle;
+AccessObstacle ProgramTarget::learn_accesses() {
   if (!has_disassembler()) return AccessObstacle::no_disassembler;
   accesses_.emplace(ProgramFiles(options_.program, false, SwitchAt::accesses));
   if (accesses_->files.accesses.empty()) return AccessObstacle::several_programs;
@@ -159,7 +158,7 @@ posix::AccessObstacle ProgramTarget::learn_accesses() {
   bool has_failed = false;
   profile.code = learn_code(accesses_->files, [&](const Plan& learning, const std::vector<std::uint64_t>& code) {
     profile.code = code;
-    ProcessFinding finding = run_once(*accesses_, learning, {.learn = true}, profile);
+    Finding finding = run_once(*accesses_, learning, {.learn = true}, profile);
     obstacle = finding.obstacle;
     has_failed = has_failed || !finding.passed();
     return finding;
@@ -167,7 +166,7 @@ posix::AccessObstacle ProgramTarget::learn_accesses() {
   if (obstacle != AccessObstacle::none) return obstacle;
   if (profile.code.empty()) return has_failed ? AccessObstacle::unlearned : AccessObstacle::nothing_shared;
   if (!needs_profile(options_.strategy)) return obstacle;
-  const ProcessFinding usual = run_once(*accesses_, {.drawn = false}, {.profile = true}, profile);
+  const Finding usual = run_once(*accesses_, {.drawn = false}, {.profile = true}, profile);
   const std::vector<std::uint64_t> code = std::move(profile.code);
   profile = usual.lesson.profile;
   profile.code = code;
@@ -175,14 +174,14 @@ posix::AccessObstacle ProgramTarget::learn_accesses() {
 }
 
 // Looking up source lines takes a second: a process tells of each race once, in the first run that shows it.
-bool ProgramTarget::shows_new_races(const ProcessFinding& finding) {
+bool ProgramTarget::shows_new_races(const Finding& finding) {
   const std::size_t before = told_.size();
   told_.insert(finding.racing.begin(), finding.racing.end());
   return told_.size() > before;
 }
 
-ProcessFinding ProgramTarget::run_once(Runs& runs, const Plan& plan, const WantedEvidence& wanted,
-                                       const exploration::Profile& profile) {
+Finding ProgramTarget::run_once(Runs& runs, const Plan& plan, const WantedEvidence& wanted,
+                                const exploration::Profile& profile) {
   posix::Settings settings = settings_of(options_);
   if (!runs.server) {
     // A process has one memory of runs.
@@ -193,9 +192,9 @@ ProcessFinding ProgramTarget::run_once(Runs& runs, const Plan& plan, const Wante
     runs.server.emplace(runs.files, settings);
   }
   if (options_.snapshots > 0) settings.makes_reruns = false;
-  ProcessFinding finding = run_in_process(runs, settings, plan, wanted, profile, true);
-  if (!runs.server->is_followed() || finding.kind <= ProcessFinding::Kind::misuse || is_to_stop != 0 ||
-      finding.obstacle != posix::AccessObstacle::none)
+  Finding finding = run_in_process(runs, settings, plan, wanted, profile, true);
+  if (!runs.server->is_followed() || finding.kind <= RunVerdict::Kind::misuse || is_to_stop != 0 ||
+      finding.obstacle != AccessObstacle::none)
     return finding;
   // A failure is reported as it happens in a process of its own, whose calls are not trapped.
   runs.server->fork_next();
@@ -215,9 +214,9 @@ RunMemory& ProgramTarget::begin_run(Runs& runs, const posix::Settings& settings,
   }
 }
 
-ProcessFinding ProgramTarget::run_in_process(Runs& runs, const posix::Settings& settings, const Plan& plan,
-                                             const WantedEvidence& wanted, const exploration::Profile& profile,
-                                             bool makes_snapshots) {
+Finding ProgramTarget::run_in_process(Runs& runs, const posix::Settings& settings, const Plan& plan,
+                                      const WantedEvidence& wanted, const exploration::Profile& profile,
+                                      bool makes_snapshots) {
   if (own_logs_) own_logs_->clear();
   RunMemory& memory = begin_run(runs, settings, plan, wanted, makes_snapshots);
   ask_for_run(memory, runs.files, options_, plan, wanted, profile);
@@ -227,7 +226,7 @@ ProcessFinding ProgramTarget::run_in_process(Runs& runs, const posix::Settings& 
   RunWatch watch(
       memory.record(),
       limit_s() <= 0 && wanted.learn && plan.at_random_from ? ExploreOptions::usual_schedule_limit_s : limit_s(),
-      is_to_stop);
+      patience_s(), time_limit(), is_to_stop);
   std::optional<int> status;
   while (!(status = runs.server->wait(look_around_ms)))
     if (watch.words().empty() && watch.is_to_end()) kill(process, SIGKILL);
@@ -238,15 +237,15 @@ ProcessFinding ProgramTarget::run_in_process(Runs& runs, const posix::Settings& 
     return watch.is_to_end();
   };
   if (watch.words().empty() && !wanted.stop_before) end_others(memory.record(), is_to_end_by_now);
-  ProcessFinding finding = finding_of_run(memory, *status, runs.streams.end_of_output(), wanted, races_fail());
+  Finding finding = finding_of_run(memory, *status, runs.streams.end_of_output(), wanted, races_fail());
   if (options_.has_nodes) tell_unmet(finding);
   if (options_.races == Races::report && !wanted.learn && !wanted.places && shows_new_races(finding))
     tell_races(memory.record(), finding);
   if (!watch.words().empty()) {
-    finding.kind = ProcessFinding::Kind::no_progress;
+    finding.kind = RunVerdict::Kind::no_progress;
     finding.words = watch.words();
     if (watch.has_gone_on()) finding.digest = 0;
-    if (!runs.files.accesses.empty()) finding.obstacle = posix::AccessObstacle::endless;
+    if (!runs.files.accesses.empty()) finding.obstacle = AccessObstacle::endless;
   }
   if (memory.record().explored != nullptr)
     snapshots_.add(runs.server->take_snapshots(), plan, schedule_of(memory.record()));

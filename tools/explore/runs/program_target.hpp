@@ -32,7 +32,7 @@ class ProgramTarget final : public ProcessTarget {
   /// Starts it once, up to main().
   void prepare() override;
   using ProcessTarget::run;
-  ProcessFinding run(const Plan& plan, const WantedEvidence& wanted) override;
+  Finding run(const Plan& plan, const WantedEvidence& wanted) override;
 
  private:
   bool has_processes() const override { return true; }
@@ -47,24 +47,22 @@ class ProgramTarget final : public ProcessTarget {
     std::optional<ForkServer> server = {};
   };
 
-  bool shows_new_races(const ProcessFinding& finding);
+  bool shows_new_races(const Finding& finding);
   const exploration::Profile& profile_of_calls();
-  posix::AccessObstacle prepare_accesses();
-  posix::AccessObstacle learn_accesses();
-  ProcessFinding run_at_accesses(const Plan& plan, const WantedEvidence& wanted);
-  ProcessFinding run_at_calls(const Plan& plan, const WantedEvidence& wanted);
-  ProcessFinding run_once(Runs& runs, const Plan& plan, const WantedEvidence& wanted,
-                          const exploration::Profile& profile);
-  ProcessFinding run_in_process(Runs& runs, const posix::Settings& settings, const Plan& plan,
-                                const WantedEvidence& wanted, const exploration::Profile& profile,
-                                bool makes_snapshots);
+  AccessObstacle prepare_accesses();
+  AccessObstacle learn_accesses();
+  Finding run_at_accesses(const Plan& plan, const WantedEvidence& wanted);
+  Finding run_at_calls(const Plan& plan, const WantedEvidence& wanted);
+  Finding run_once(Runs& runs, const Plan& plan, const WantedEvidence& wanted, const exploration::Profile& profile);
+  Finding run_in_process(Runs& runs, const posix::Settings& settings, const Plan& plan, const WantedEvidence& wanted,
+                         const exploration::Profile& profile, bool makes_snapshots);
   RunMemory& begin_run(Runs& runs, const posix::Settings& settings, const Plan& plan, const WantedEvidence& wanted,
                        bool makes_snapshots);
 
   const ExploreOptions& options_;
   Runs calls_;                    // with accesses, too, if the program is instrumented
   std::optional<Runs> accesses_;  // with breakpoints
-  std::optional<posix::AccessObstacle> obstacle_ = {};
+  std::optional<AccessObstacle> obstacle_ = {};
   std::uint64_t fingerprint_;
   std::set<exploration::RacingCode> told_;         // the races of this process's findings so far
   std::optional<LogFolder> logs_, own_logs_ = {};  // of all processes that make runs, and of this one; for nodes

@@ -10,14 +10,21 @@
 
 namespace waitpoint::tools {
 
-RunWatch::RunWatch(const posix::Record& record, double limit_s, const volatile std::sig_atomic_t& is_to_stop)
-    : record_(record), watchdog_(record), limit_s_(limit_s), start_s_(wall_clock_s()), is_to_stop_(is_to_stop) {}
+RunWatch::RunWatch(const posix::Record& record, double limit_s, double patience_s,
+                   const exploration::TimeLimit& time_limit, const volatile std::sig_atomic_t& is_to_stop)
+    : record_(record),
+      watchdog_(record, patience_s),
+      limit_s_(limit_s),
+      start_s_(wall_clock_s()),
+      time_limit_(time_limit),
+      is_to_stop_(is_to_stop) {}
 
 bool RunWatch::is_to_end() {
   if (!words_.empty()) return true;
   const bool is_over = limit_s_ > 0 && wall_clock_s() - start_s_ >= limit_s_;
+  const char* const stopped = time_limit_.is_over() ? "stopped at the time limit" : "stopped by a signal";
   if (is_to_stop_ != 0 || is_over)
-    words_ = (is_over ? over_limit(limit_s_) : "stopped by a signal") + " at " + to_string(time_of(record_)) +
+    words_ = (is_over ? over_limit(limit_s_) : stopped) + " at " + to_string(time_of(record_)) +
              " s of virtual time\n" + states_of(record_);
   else
     words_ = watchdog_.look();

@@ -46,8 +46,8 @@ ExploreOptions with_run_as_program(const ExploreOptions& options, const scenario
   return all;
 }
 
-void tell_unmet(ProcessFinding& finding) {
-  if (finding.kind != ProcessFinding::Kind::unmet) return;
+void tell_unmet(Finding& finding) {
+  if (finding.kind != RunVerdict::Kind::unmet) return;
   constexpr std::string_view mark = "waitpoint: not as expected: ";
   std::string unmet;
   for (std::size_t at = finding.words.find(mark); at != std::string::npos; at = finding.words.find(mark, at)) {

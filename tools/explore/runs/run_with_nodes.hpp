@@ -13,6 +13,6 @@ namespace waitpoint::tools {
 ExploreOptions with_run_as_program(const ExploreOptions& options, const scenario::Scenario& scenario);
 
 /// Of such a run that has failed by its status, puts what was not as expected first.
-void tell_unmet(ProcessFinding& finding);
+void tell_unmet(Finding& finding);
 
 }  // namespace waitpoint::tools

@@ -78,7 +78,7 @@ void Scene::prepare() {
     throw BadInput("--from", "the run is over at " + to_string(stage_->experiment.simulation().global_time()) + " s");
 }
 
-ProcessFinding Scene::run(const Plan& plan, const WantedEvidence& wanted) {
+Finding Scene::run(const Plan& plan, const WantedEvidence& wanted) {
   if (options_.from) {
     WAITPOINT_CHECK(!is_left_, "a run sets out from mid-run twice in one process");
   } else {
@@ -97,7 +97,7 @@ ProcessFinding Scene::run(const Plan& plan, const WantedEvidence& wanted) {
   stage_->plan = plan;
   sync::forget_started();
   explorer.begin(*stage_->strategy, {.switches = stage_->plan.switches, .deviations = stage_->plan.deviations});
-  ProcessFinding finding;
+  Finding finding;
   record_and_carry_out(plan, wanted, finding);
   finding.take(explorer.schedule(), explorer.parted());
   finding.order = finding.digest;  // the noise may differ, too
@@ -112,7 +112,7 @@ exploration::TargetTraits Scene::traits() const {
   return traits;
 }
 
-void Scene::record_and_carry_out(const Plan& plan, const WantedEvidence& wanted, ProcessFinding& finding) {
+void Scene::record_and_carry_out(const Plan& plan, const WantedEvidence& wanted, Finding& finding) {
   Simulation& simulation = stage_->experiment.simulation();
   exploration::EvidenceRecorder& recording = stage_->recording.emplace(wanted, simulation, stage_->explorer, finding);
   simulation.tell(wanted.places ? sync::Places::told : sync::Places::left_out);
@@ -130,7 +130,7 @@ void Scene::record_and_carry_out(const Plan& plan, const WantedEvidence& wanted,
 }
 
 void Scene::carry_out(Time until, const exploration::EvidenceRecorder& recording, FloorFrames* floor,
-                      ProcessFinding& finding) {
+                      Finding& finding) {
   run::Experiment& experiment = stage_->experiment;
   const bool is_cut = until < options_.limit(scenario_.until);
   until = std::min(until, options_.limit(scenario_.until));
@@ -142,18 +142,18 @@ void Scene::carry_out(Time until, const exploration::EvidenceRecorder& recording
       end = experiment.run_before(reached);
       if (floor != nullptr) floor->step(std::min(reached, experiment.simulation().global_time()));
       finding.words = joined(run::broken(scenario_.expect, experiment.figures()));
-      if (!finding.words.empty()) finding.kind = ProcessFinding::Kind::unmet;
+      if (!finding.words.empty()) finding.kind = RunVerdict::Kind::unmet;
       if (sync::has_started_outside_of_virtual_time()) {
-        finding.kind = ProcessFinding::Kind::exception;
+        finding.kind = RunVerdict::Kind::exception;
         finding.words = joined({sync::started_outside_of_virtual_time, sync::collected_system_calls()});
       }
     }
     if (finding.passed()) judge(finding, end != RunEnd::time_reached || (judged_at_until_ && !is_cut));
-    if (end == RunEnd::deadlock) finding.kind = ProcessFinding::Kind::deadlock;
-    if (end == RunEnd::no_progress) finding.kind = ProcessFinding::Kind::no_progress;
+    if (end == RunEnd::deadlock) finding.kind = RunVerdict::Kind::deadlock;
+    if (end == RunEnd::no_progress) finding.kind = RunVerdict::Kind::no_progress;
     if (end == RunEnd::deadlock || end == RunEnd::no_progress) finding.words = experiment.simulation().trouble();
   } catch (const std::exception& error) {
-    finding.kind = ProcessFinding::Kind::exception;
+    finding.kind = RunVerdict::Kind::exception;
     finding.words = error.what();
     end = RunEnd::ended;
   }
@@ -162,14 +162,14 @@ void Scene::carry_out(Time until, const exploration::EvidenceRecorder& recording
   finding.events = kernel::events(experiment.simulation().scheduler());
 }
 
-void Scene::judge(ProcessFinding& finding, bool goals_too) const {
+void Scene::judge(Finding& finding, bool goals_too) const {
   scenario::Expectation expect = scenario_.expect;
   if (!goals_too) {
     expect.all_goals_reached = false;
     expect.goals_reached.reset();
   }
   finding.words = joined(run::unmet(expect, stage_->experiment.result()));
-  if (!finding.words.empty()) finding.kind = ProcessFinding::Kind::unmet;
+  if (!finding.words.empty()) finding.kind = RunVerdict::Kind::unmet;
 }
 
 bridge::RunResult Scene::result() const {

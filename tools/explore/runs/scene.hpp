@@ -35,7 +35,7 @@ class Scene final : public ProcessTarget {
   /// Advances to the time at which runs part, if one is set.
   void prepare() override;
   using ProcessTarget::run;
-  ProcessFinding run(const Plan& plan, const WantedEvidence& wanted) override;
+  Finding run(const Plan& plan, const WantedEvidence& wanted) override;
 
   /// After run().
   bridge::RunResult result() const;
@@ -48,10 +48,9 @@ class Scene final : public ProcessTarget {
  private:
   bool has_processes() const override { return false; }
   struct Stage;
-  void record_and_carry_out(const Plan& plan, const WantedEvidence& wanted, ProcessFinding& finding);
-  void carry_out(Time until, const exploration::EvidenceRecorder& recording, FloorFrames* floor,
-                 ProcessFinding& finding);
-  void judge(ProcessFinding& finding, bool goals_too) const;
+  void record_and_carry_out(const Plan& plan, const WantedEvidence& wanted, Finding& finding);
+  void carry_out(Time until, const exploration::EvidenceRecorder& recording, FloorFrames* floor, Finding& finding);
+  void judge(Finding& finding, bool goals_too) const;
 
   const scenario::Scenario& scenario_;
   std::span<const genom::ModuleType> types_;

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/explore/runs/target.hpp"
 
+#include <algorithm>
 #include <cstdio>
 #include <utility>
 
 #include "tools/command/interruption.hpp"
 #include "tools/explore/runs/fields.hpp"
+#include "tools/explore/runs/replay_command.hpp"
+#include "tools/explore/runs/switch_points.hpp"
 
 namespace waitpoint::tools {
 namespace {
@@ -28,20 +31,34 @@ void pass_fields(Pass& pass, P& plan, R& wanted, S& repeats) {
 
 }  // namespace
 
-std::optional<ProcessFinding> ProcessTarget::run_apart(const Plan& plan, const WantedEvidence& wanted) {
+std::string ProcessTarget::replay_command(const Finding& finding, const std::string& token) const {
+  return tools::replay_command(with_switches_at(finding.switch_at, options()), token);
+}
+
+std::optional<Finding> ProcessTarget::run_apart(const Plan& plan, const WantedEvidence& wanted) {
   runs().start(0, to_request(plan, wanted));
-  while (interruption() == 0)
+  while (!is_at_end())
     if (const auto ended = runs().wait(look_around_ms)) return findings_of(*ended).front();
   stop_runs();
   return std::nullopt;
 }
 
 void ProcessTarget::stop_runs() {
+  constexpr double patience_s = 10, patience_at_end_s = 0.4;
   if (!options().program.empty())
-    if (const auto ended = runs().stop_longest())
+    if (const auto ended = runs().stop_longest(interruption() != 0 ? patience_s : patience_at_end_s))
       if (const std::string words = findings_of(*ended).back().words; !words.empty())
         std::fprintf(stderr, "waitpoint: %s\n", words.c_str());
   runs().kill_from(0);
+}
+
+bool ProcessTarget::is_at_end() const { return interruption() != 0 || time_limit_.is_over(); }
+
+// Of what is left of the time one half is for fewer switches, a quarter for the explanation, the rest for the report.
+exploration::TargetTraits ProcessTarget::traits() const {
+  const double left_s = std::max(time_limit_.left_s(), 0.001);
+  return {.to_minimize = {.runs = 2000, .seconds = std::min(90.0, left_s / 2)},
+          .to_explain = {.runs = 200, .seconds = std::min(60.0, left_s / 4)}};
 }
 
 void ProcessTarget::set_profile(exploration::Profile profile) {
@@ -52,6 +69,16 @@ void ProcessTarget::set_profile(exploration::Profile profile) {
 void ProcessTarget::set_limit(double seconds) {
   runs_.reset();
   limit_s_ = seconds;
+}
+
+void ProcessTarget::set_time_limit(const exploration::TimeLimit& time_limit) {
+  runs_.reset();
+  time_limit_ = time_limit;
+}
+
+void ProcessTarget::set_patience(double seconds) {
+  runs_.reset();
+  patience_s_ = seconds;
 }
 
 void ProcessTarget::switch_at(std::optional<SwitchAt> at) {
@@ -87,16 +114,16 @@ std::string ProcessTarget::execute(std::string_view bytes) {
   pass_fields(reader, plan, wanted, repeats);
   FieldWriter results;
   for (std::uint32_t left = repeats.count;; --left, plan.number += repeats.step) {
-    const ProcessFinding finding = run(plan, wanted);
+    const Finding finding = run(plan, wanted);
     results(to_bytes(finding));
     if (left == 0 || !finding.passed()) return std::move(results.bytes);
   }
 }
 
-std::vector<ProcessFinding> ProcessTarget::findings_of(const Children::Ended& ended) {
-  std::vector<ProcessFinding> findings;
+std::vector<Finding> ProcessTarget::findings_of(const Children::Ended& ended) {
+  std::vector<Finding> findings;
   if (const std::string death = death_of(ended); !death.empty()) {
-    findings.emplace_back().kind = ProcessFinding::Kind::killed;
+    findings.emplace_back().kind = RunVerdict::Kind::killed;
     findings.back().words = death;
     return findings;
   }

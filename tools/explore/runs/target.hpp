@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "fibers/explore/target/target.hpp"
+#include "fibers/explore/target/time_limit.hpp"
+#include "tools/exec/watchdog.hpp"
 #include "tools/explore/runs/explore_options.hpp"
 #include "tools/explore/runs/finding.hpp"
 #include "tools/processes/children.hpp"
@@ -29,16 +31,18 @@ class ProcessTarget : public exploration::Target {
   /// Digest of the target's files and options: distinct for distinct targets.
   virtual std::uint64_t fingerprint() const = 0;
   virtual const ExploreOptions& options() const = 0;
-  exploration::TargetTraits traits() const override {
-    return {.to_minimize = {.runs = 2000, .seconds = 90}, .to_explain = {.runs = 200, .seconds = 60}};
-  }
-  /// A run in a process of its own.
+  exploration::TargetTraits traits() const override;
+  std::string replay_command(const Finding& finding, const std::string& token) const override;
+  /// A run in a process of its own; nothing if it was not waited for.
   std::optional<exploration::Finding> repeat(const Plan& plan, const WantedEvidence& wanted) override {
     return run_apart(plan, wanted);
   }
-  std::optional<ProcessFinding> run_apart(const Plan& plan, const WantedEvidence& wanted);
-  /// The search has been interrupted: tells what a program's run that has gone on for long does, and ends all runs.
+  std::optional<Finding> run_apart(const Plan& plan, const WantedEvidence& wanted);
+  /// The search is interrupted, or its time is over: tells what a program's run that has gone on for long does, and
+  /// ends all runs.
   void stop_runs();
+  /// A signal asks to end the search, or its time is over: runs are not waited for.
+  bool is_at_end() const;
 
   /// Advances to the common origin of all runs. BadInput if the target ends before it.
   virtual void prepare() = 0;
@@ -47,6 +51,13 @@ class ProcessTarget : public exploration::Target {
   /// Wall clock limit of each following run; 0: none. There must be no run.
   void set_limit(double seconds);
 
+  /// The end of all following runs, whatever they are for. There must be no run.
+  void set_time_limit(const exploration::TimeLimit& time_limit);
+  const exploration::TimeLimit& time_limit() const { return time_limit_; }
+
+  /// The processor time after which a run that makes no calls is taken for one without progress. There must be no run.
+  void set_patience(double seconds);
+
   /// All following runs have these switch points. There must be no run.
   void switch_at(std::optional<SwitchAt> at);
 
@@ -54,8 +65,8 @@ class ProcessTarget : public exploration::Target {
   void ignore_races();
 
   /// Executes one run by the plan, in a process that does nothing else.
-  virtual ProcessFinding run(const Plan& plan, const WantedEvidence& wanted) = 0;
-  ProcessFinding run(const Plan& plan) { return run(plan, WantedEvidence()); }
+  virtual Finding run(const Plan& plan, const WantedEvidence& wanted) = 0;
+  Finding run(const Plan& plan) { return run(plan, WantedEvidence()); }
 
   /// The processes that execute runs, by requests.
   Children& runs();
@@ -64,7 +75,7 @@ class ProcessTarget : public exploration::Target {
   }
   static std::string to_request(const Plan& plan, const WantedEvidence& wanted, const Repeats& repeats);
   /// The findings of the plan and its repeats, from the process that has run them; one that it was killed, if it was.
-  static std::vector<ProcessFinding> findings_of(const Children::Ended& ended);
+  static std::vector<Finding> findings_of(const Children::Ended& ended);
   /// The greatest number of schedules that one process can run in turn.
   std::uint32_t batch_max() const { return has_processes() ? 16 : 1; }
 
@@ -73,6 +84,7 @@ class ProcessTarget : public exploration::Target {
   /// them.
   virtual bool has_processes() const = 0;
   double limit_s() const { return limit_s_; }
+  double patience_s() const { return patience_s_; }
   bool races_fail() const { return races_fail_; }
   const std::optional<SwitchAt>& fixed_switch_at() const { return fixed_switch_at_; }
   exploration::Profile profile_;
@@ -80,7 +92,8 @@ class ProcessTarget : public exploration::Target {
  private:
   std::string execute(std::string_view request);
 
-  double limit_s_ = 0;
+  double limit_s_ = 0, patience_s_ = Watchdog::usual_patience_s;
+  exploration::TimeLimit time_limit_{0};
   bool races_fail_ = true;
   std::optional<SwitchAt> fixed_switch_at_;
   std::optional<Children> runs_;

@@ -7,17 +7,16 @@
 #include <map>
 #include <optional>
 
+#include "fibers/explore/search/runner.hpp"
+
 namespace waitpoint::tools {
+
+using exploration::Batch;
 
 class Batches {
  public:
-  struct Batch {
-    std::uint64_t place;  ///< of its first schedule
-    std::uint32_t count;
-  };
-
-  /// Of at most `most` schedules.
-  explicit Batches(std::uint32_t most) : most_(most) {}
+  /// Of at most `most` schedules, whose numbers grow by `step`.
+  explicit Batches(std::uint32_t most, std::uint64_t step = 1) : most_(most), step_(step) {}
 
   /// The number of schedules that the next batch may have.
   std::uint32_t size() const { return size_; }
@@ -31,13 +30,15 @@ class Batches {
 
  private:
   struct Running {
-    std::uint32_t count;
+    Batch batch;
     double started_s;
   };
+  void leave(const Batch& batch, std::uint32_t from, std::uint32_t count);
 
   std::uint32_t most_, size_ = 1;
-  std::map<std::uint64_t, Running> running_;     // by place
-  std::map<std::uint64_t, std::uint32_t> left_;  // the counts by place
+  std::uint64_t step_;
+  std::map<std::uint64_t, Running> running_;  // by place
+  std::map<std::uint64_t, Batch> left_;
 };
 
 }  // namespace waitpoint::tools

@@ -8,7 +8,7 @@
 namespace waitpoint::tools {
 namespace {
 
-std::string outcome_of(const ProcessFinding& finding) {
+std::string outcome_of(const Finding& finding) {
   if (!finding.passed()) return "failed: " + finding.headline();
   return finding.was_cut ? "cut short: equivalent to earlier ones" : "passed";
 }
@@ -22,7 +22,7 @@ void ResultsFile::begin(const ProcessTarget& target) {
   file_.show();
 }
 
-void ResultsFile::take(std::uint64_t number, const ProcessFinding& finding) {
+void ResultsFile::take(std::uint64_t number, const Finding& finding) {
   file_.write(fmt::format("{:020} {} {}\n", number, digest_text(finding.digest), outcome_of(finding)));
   file_.flush();
 }

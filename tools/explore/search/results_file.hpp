@@ -23,7 +23,7 @@ class ResultsFile {
   explicit ResultsFile(const std::filesystem::path& path) : file_(path) {}
 
   void begin(const ProcessTarget& target);
-  void take(std::uint64_t number, const ProcessFinding& finding);
+  void take(std::uint64_t number, const Finding& finding);
   void commit() { file_.commit(); }
 
  private:

@@ -31,7 +31,7 @@ class SearchProgress final : public exploration::ProgressListener {
   /// Calls `heard` with each news, too, at most five times a second.
   void listen(std::function<void(const SearchNews&)> heard) { heard_ = std::move(heard); }
   /// Erases the line.
-  void finish();
+  void finish() override;
   /// Seconds since construction.
   double seconds() const { return clock_() - start_s_; }
 

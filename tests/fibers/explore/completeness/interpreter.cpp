@@ -8,6 +8,7 @@
 
 #include "core/error.hpp"
 #include "fibers/explore/body.hpp"
+#include "fibers/explore/search/omissions.hpp"
 #include "fibers/explore/strategies/factory.hpp"
 #include "fibers/kernel/interruption.hpp"
 #include "fibers/sync/atomic.hpp"
@@ -189,6 +190,7 @@ Covered cover(const Program& program, const std::string& strategy, std::uint64_t
   exploration::Body body([&] { run->execute(0); }, nullptr, Time::max(), 100'000);
   const auto chosen = exploration::make_strategy(strategy);
   Covered covered;
+  exploration::Omissions omissions;
   exploration::Profile profile;
   while (covered.schedules < schedules_max && !covered.is_finished) {
     run = std::make_unique<Run>(program);
@@ -196,9 +198,10 @@ Covered cover(const Program& program, const std::string& strategy, std::uint64_t
     const exploration::RunVerdict verdict = body.run(*chosen);
     ++covered.schedules;
     if (!verdict.was_cut) covered.outcomes.insert(run->outcome_of(body.failure()));
+    omissions.take(verdict, body.explorer().schedule().decisions);
     covered.is_finished = !chosen->end();
   }
-  covered.leaves_turns = body.explorer().left_out().turns;
+  covered.leaves_turns = omissions.turns();
   return covered;
 }
 

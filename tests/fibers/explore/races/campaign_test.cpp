@@ -29,9 +29,9 @@ TEST(RacesInACampaign, DoNotHideARarerFailureAndAreReportedOnceEach) {
   EXPECT_TRUE(contains(report.text, "1 switch away from the default order fails")) << report;
   EXPECT_TRUE(contains(report.text, "the last choice from which it could still have passed")) << report;
   EXPECT_EQ(report.races.size(), 2U);
-  EXPECT_EQ(count(report.text, "also found, by the default schedule: data race at "), 2U) << report;
+  EXPECT_EQ(count(report.text, "also found, by the default order: data race at "), 2U) << report;
   EXPECT_EQ(count(report.text, "\nreplay: WAITPOINT_REPLAY="), 3U) << report;
-  EXPECT_EQ(count(lines, "waitpoint: the default schedule: data race of the write at "), 2U) << lines;
+  EXPECT_EQ(count(lines, "waitpoint: the default order: data race of the write at "), 2U) << lines;
   EXPECT_EQ(count(lines, "\n"), 2U) << lines;
 }
 
@@ -41,7 +41,7 @@ TEST(RacesInACampaign, AloneAreAFailureOfTheWholeCampaign) {
   EXPECT_TRUE(contains(testing::internal::GetCapturedStderr(), " (waitpoint::races::planted)\n"));
   EXPECT_FALSE(report.passed);
   EXPECT_EQ(report.schedules, 51U);
-  EXPECT_TRUE(contains(report.text, "the default schedule failed: a data race\ndata race at ")) << report;
+  EXPECT_TRUE(contains(report.text, "the default order failed: a data race\ndata race at ")) << report;
   EXPECT_EQ(report.races.size(), 1U);
   EXPECT_FALSE(contains(report.text, "also found")) << report;
 }
@@ -49,7 +49,7 @@ TEST(RacesInACampaign, AloneAreAFailureOfTheWholeCampaign) {
 TEST(RacesInACampaign, EndItIfTheyAreToFail) {
   const ExploreReport report = explore(race_and_lose, {.races = Races::fail});
   EXPECT_EQ(report.schedules, 1U);
-  EXPECT_TRUE(contains(report.text, "the default schedule failed: 2 data races\n")) << report;
+  EXPECT_TRUE(contains(report.text, "the default order failed: 2 data races\n")) << report;
   EXPECT_TRUE(report.races.empty());
 }
 

@@ -1,44 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/explore/search/failed_run.hpp"
-
-#include <fmt/format.h>
+#include "tools/explore/runs/replay_command.hpp"
 
 #include <cerrno>
 
-#include "fibers/explore/search/failures.hpp"
-#include "fibers/explore/strategies/factory.hpp"
 #include "tools/command/shell_words.hpp"
 
 namespace waitpoint::tools {
-namespace {
-
-using exploration::Token;
-using exploration::token_digest;
-
-// The default order has no number, and exhaustive strategies draw nothing.
-bool is_drawn(const FailedRun& run, const ExploreOptions& options) {
-  return run.number && run.enumeration.empty() && !exploration::make_strategy(options.strategy)->is_exhaustive();
-}
-
-}  // namespace
-
-std::string name_of(const FailedRun& run, const ExploreOptions& options) {
-  if (!run.number) return "the default order";
-  const std::string& strategy = run.enumeration.empty() ? options.strategy : run.enumeration;
-  return exploration::name_of_schedule(*run.number, strategy, options.seed);
-}
-
-Plan plan_of(const FailedRun& run, const ExploreOptions& options) {
-  if (is_drawn(run, options)) return {.number = *run.number, .constraints = run.constraints};
-  return {.drawn = false, .switches = {}, .deviations = run.finding.deviations};
-}
-
-Token token_of(const FailedRun& run, const ExploreOptions& options) {
-  const std::uint32_t digest = token_digest(run.finding.digest);
-  if (is_drawn(run, options)) return {0, digest, options.strategy, options.seed, *run.number, {}, {}, options.memory};
-  return {0, digest, "", 0, 0, run.finding.deviations, {}, options.memory};
-}
-
 namespace {
 
 /// Without the program's name.

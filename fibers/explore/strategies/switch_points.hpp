@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Why a program's accesses are no switch points: with breakpoints it could fail although it is correct.
+// The switch points of a run of a program that is not instrumented.
 #pragma once
 
 #include <cstdint>
 
-namespace waitpoint::posix {
+namespace waitpoint {
 
+/// Simulated calls; accesses of threads to memory that they share and write, too. Instrumented programs always have
+/// both. Automatic: schedules of both kinds.
+enum class SwitchAt : std::uint8_t { automatic, calls, accesses };
+
+/// Why accesses are no switch points: with breakpoints a program could fail although it is correct.
 enum class AccessObstacle : std::uint8_t {
   none,
   trap_handler,  ///< it handles SIGTRAP itself
@@ -21,4 +26,4 @@ enum class AccessObstacle : std::uint8_t {
   no_disassembler,   ///< this waitpoint was built without one
 };
 
-}  // namespace waitpoint::posix
+}  // namespace waitpoint

@@ -8,8 +8,8 @@
 #include <string>
 
 #include "core/time.hpp"
-#include "fibers/explore/races_option.hpp"
 #include "fibers/explore/strategies/memory_option.hpp"
+#include "fibers/explore/target/races_option.hpp"
 
 namespace waitpoint {
 

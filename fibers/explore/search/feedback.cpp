@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/explore/search/feedback.hpp"
+#include "fibers/explore/search/feedback.hpp"
 
 #include <algorithm>
 
 #include "fibers/explore/strategies/factory.hpp"
 
-namespace waitpoint::tools {
-
-using exploration::Draws;
+namespace waitpoint::exploration {
 
 Feedback::Feedback(const std::string& strategy, std::uint64_t seed)
-    : strategy_(exploration::make_strategy(strategy)), seed_(seed), next_(strategy_->first_held(0)) {}
+    : strategy_(make_strategy(strategy)), seed_(seed), next_(strategy_->first_held(0)) {}
 
 // From a whole generation; false while some of it has not ended.
 bool Feedback::learn() {
@@ -33,11 +31,9 @@ std::optional<Plan> Feedback::plan_of_next() {
   return plan;
 }
 
-void Feedback::take(std::uint64_t number, const ProcessFinding& finding) {
-  lessons_[number].pairs = finding.lesson.pairs;
-}
+void Feedback::take(std::uint64_t number, const Finding& finding) { lessons_[number].pairs = finding.lesson.pairs; }
 
-Plan Feedback::plan_of(std::uint64_t number, const std::function<ProcessFinding(const Plan& plan)>& run) {
+Plan Feedback::plan_of(std::uint64_t number, const std::function<Finding(const Plan& plan)>& run) {
   if (!is_learned(number)) return {.number = number};
   for (;;) {
     const Plan plan = *plan_of_next();
@@ -46,4 +42,4 @@ Plan Feedback::plan_of(std::uint64_t number, const std::function<ProcessFinding(
   }
 }
 
-}  // namespace waitpoint::tools
+}  // namespace waitpoint::exploration

@@ -15,10 +15,10 @@
 
 #include "fibers/explore/strategies/reads_from_corpus.hpp"
 #include "fibers/explore/strategies/strategy.hpp"
+#include "fibers/explore/target/finding.hpp"
 #include "fibers/explore/target/plan.hpp"
-#include "tools/explore/runs/finding.hpp"
 
-namespace waitpoint::tools {
+namespace waitpoint::exploration {
 
 class Feedback {
  public:
@@ -30,25 +30,25 @@ class Feedback {
   /// The plan of schedule next(), which becomes the one after; nothing until all of the generations before were told.
   std::optional<Plan> plan_of_next();
   /// Such a schedule has ended; its pairs were requested.
-  void take(std::uint64_t number, const ProcessFinding& finding);
+  void take(std::uint64_t number, const Finding& finding);
 
   /// The plan of a drawn schedule by itself: `run` executes those that it learns from.
-  Plan plan_of(std::uint64_t number, const std::function<ProcessFinding(const Plan& plan)>& run);
+  Plan plan_of(std::uint64_t number, const std::function<Finding(const Plan& plan)>& run);
 
  private:
   static constexpr std::size_t generation = 8;
 
   struct Lesson {
-    exploration::Constraints constraints;
-    std::optional<std::vector<exploration::ReadsFrom>> pairs;  // once it has ended
+    Constraints constraints;
+    std::optional<std::vector<ReadsFrom>> pairs;  // once it has ended
   };
   bool learn();
 
-  std::unique_ptr<exploration::Strategy> strategy_;
+  std::unique_ptr<Strategy> strategy_;
   std::uint64_t seed_;
   std::uint64_t next_;
   std::map<std::uint64_t, Lesson> lessons_;  // by number: the present generation's
-  exploration::ReadsFromCorpus corpus_;
+  ReadsFromCorpus corpus_;
 };
 
-}  // namespace waitpoint::tools
+}  // namespace waitpoint::exploration
