@@ -54,7 +54,7 @@ void declare(Command& command, CheckOptions& options) {
 }
 
 int check(const CheckOptions& options, std::span<const genom::ModuleType> types) {
-  const scenario::Scenario scenario = scenario::read_scenario(options.scenario, options.assignments);
+  const scenario::Scenario scenario = scenario::read_scenario(options.scenario, options.assignments, options.allowed);
   begin_with_program_layer(scenario);
   const RunWatchdog watchdog(RunWatchdog::usual_limit_s);
   if (scenario.log) return check_log(options, scenario, types);

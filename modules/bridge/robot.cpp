@@ -120,6 +120,7 @@ void Robot::make_executive(std::shared_ptr<const executive::KnownSpace> known, s
                                   .script = mission_file(scenario_.script),
                                   .trajectory = mission_file(scenario_.trajectory),
                                   .random = executive_stream(seed)};
+  if (setup.script) setup.script->folders = scenario_.script->folders;
   genom::Settings settings(scenario_.executive);
   derive_outline(robot_outline(scenario_.body.shape), settings, "planning.");
   if (!setup.known->is_known()) setup.parameters.replan_ms = replan_period_unknown;

@@ -51,6 +51,7 @@ void read(genom::Settings& settings, Parameters& parameters);
 struct MissionFile {
   std::string file, text, named_in;
   int named_at = 0;
+  std::vector<std::string> folders{};  ///< whose files a script may read and write
 };
 
 struct ExecutiveSetup {

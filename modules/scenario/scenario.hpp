@@ -133,6 +133,7 @@ struct ControlScenario {
 struct ScriptScenario {
   std::string file;  ///< resolved
   std::string text;
+  std::vector<std::string> folders;  ///< that it may read and write: the scenario's, then others
   Location written;
 };
 

@@ -130,6 +130,19 @@ void read_hosting(const YamlMap& map, Scenario& scenario) {
     for (ProgramScenario& program : robot.programs) program.hosting = hosting;
 }
 
+void give_folders_to_scripts(Scenario& scenario, const std::vector<std::string>& allowed) {
+  namespace fs = std::filesystem;
+  std::vector<std::string> folders = {fs::absolute(scenario.file).parent_path().string()};
+  folders.reserve(1 + allowed.size());
+  for (const std::string& folder : allowed) {
+    std::error_code error;
+    if (!fs::is_directory(folder, error)) throw BadInput("--allow", "there is no folder '" + folder + "'");
+    folders.push_back(fs::absolute(folder).string());
+  }
+  for (RobotScenario& robot : scenario.robots)
+    if (robot.script) robot.script->folders = folders;
+}
+
 }  // namespace
 
 void MapFile::read() {
@@ -148,7 +161,8 @@ world::WorldDescription Scenario::world_without_map() const {
   return world;
 }
 
-Scenario read_scenario(const std::filesystem::path& file, const std::vector<std::string>& assignments) {
+Scenario read_scenario(const std::filesystem::path& file, const std::vector<std::string>& assignments,
+                       const std::vector<std::string>& allowed) {
   const YamlNode document = scenario_document(file, assignments);
   const YamlMap map(document, "the scenario", scenario_keys().names());
   Scenario scenario;
@@ -193,6 +207,7 @@ Scenario read_scenario(const std::filesystem::path& file, const std::vector<std:
   for (const RobotScenario& robot : scenario.robots)
     if (robot.plan != nullptr) scenario.fingerprint = scenario.fingerprint * 31 + fingerprint(*robot.plan);
   add_texts(scenario);
+  give_folders_to_scripts(scenario, allowed);
   return scenario;
 }
 

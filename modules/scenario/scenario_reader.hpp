@@ -21,7 +21,9 @@
 namespace waitpoint::scenario {
 
 /// Reads the file with the options `--set key=value` (given without "--set ") applied. Throws BadInput with file and
-/// line, or with the option if the value comes from one.
-Scenario read_scenario(const std::filesystem::path& file, const std::vector<std::string>& assignments = {});
+/// line, or with the option if the value comes from one. Scripts read and write files below the scenario's folder, and
+/// below the folders of `--allow` in `allowed`.
+Scenario read_scenario(const std::filesystem::path& file, const std::vector<std::string>& assignments = {},
+                       const std::vector<std::string>& allowed = {});
 
 }  // namespace waitpoint::scenario

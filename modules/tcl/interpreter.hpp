@@ -63,6 +63,8 @@ class RobotLink {
 
   virtual Time now() const = 0;
   virtual void sleep_until(Time time) = 0;
+  /// The absolute folders whose files the script may read and write; relative names are in the first. None: no files.
+  virtual std::vector<std::string> folders() const { return {}; }
   /// A line that the script writes: for people, and for the robot's digest.
   virtual void say(const std::string& line) = 0;
 
@@ -108,7 +110,7 @@ struct Procedure {
 /// The library, loaded.
 struct Library {
   static constexpr const char* file = "libwaitpoint-tcl.so";
-  static constexpr const char* symbol = "waitpoint_tcl_library_4";  ///< with the version of this file
+  static constexpr const char* symbol = "waitpoint_tcl_library_5";  ///< with the version of this file
 
   /// Makes an interpreter, in a task that destroys it again. `seed` is that of rand(), `now` the clock of the running
   /// task.

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/nearest_name.hpp"
+#include "core/printable_line.hpp"
 
 namespace waitpoint::tcl {
 namespace {
@@ -18,8 +19,12 @@ std::string text_of(genom::Report report) {
 }
 
 ModuleLink::ModuleLink(genom::NameSpace& names, std::string robot, const std::string& owner,
-                       std::function<void(Time date, const std::string& line)> say)
-    : names_(names), robot_(std::move(robot)), client_(names, owner), say_(std::move(say)) {}
+                       std::function<void(Time date, const std::string& line)> say, std::vector<std::string> folders)
+    : names_(names),
+      robot_(std::move(robot)),
+      client_(names, owner),
+      say_(std::move(say)),
+      folders_(std::move(folders)) {}
 
 std::vector<std::string> ModuleLink::modules() const {
   std::vector<std::string> all;
@@ -70,10 +75,11 @@ void ModuleLink::sleep_until(Time time) {
 }
 
 void ModuleLink::say(const std::string& line) {
+  const std::string printable = printable_line(line);
   Digest digest;
-  digest.add(std::string_view(line));
+  digest.add(std::string_view(printable));
   threads::record(by_a_script, digest.value());
-  say_(threads::now(), line);
+  say_(threads::now(), printable);
 }
 
 }  // namespace waitpoint::tcl

@@ -14,9 +14,9 @@ std::string text_of(genom::Report report);
 
 class ModuleLink : public RobotLink {
  public:
-  /// `say` gets the lines that the script writes. `owner` names the task in reports.
+  /// `say` gets the lines that the script writes, printable. `owner` names the task in reports.
   ModuleLink(genom::NameSpace& names, std::string robot, const std::string& owner,
-             std::function<void(Time date, const std::string& line)> say);
+             std::function<void(Time date, const std::string& line)> say, std::vector<std::string> folders = {});
 
   std::string robot() const override { return robot_; }
   std::vector<std::string> modules() const override;
@@ -27,6 +27,7 @@ class ModuleLink : public RobotLink {
   Answer read_poster(const std::string& module, const std::string& name) override;
   Time now() const override { return threads::now(); }
   void sleep_until(Time time) override;
+  std::vector<std::string> folders() const override { return folders_; }
   void say(const std::string& line) override;
 
  protected:
@@ -38,6 +39,7 @@ class ModuleLink : public RobotLink {
   std::string robot_;
   genom::Client client_;
   std::function<void(Time date, const std::string& line)> say_;
+  std::vector<std::string> folders_;
 };
 
 }  // namespace waitpoint::tcl

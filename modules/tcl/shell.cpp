@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "modules/tcl/shell.hpp"
 
+#include <filesystem>
 #include <mutex>
 #include <utility>
 
@@ -15,7 +16,8 @@ Shell::Shell(genom::NameSpace& names, const Library& library, const std::string&
     : library_(library),
       robot_(robot),
       tell_(std::move(tell)),
-      link_(names, robot, "tcl", [this](Time date, const std::string& line) { tell_(date, line, false); }) {}
+      link_(names, robot, "tcl", [this](Time date, const std::string& line) { tell_(date, line, false); },
+            {std::filesystem::current_path().string(), "/"}) {}  // a person's own: any file
 
 void Shell::submit(const std::string& command) {
   {

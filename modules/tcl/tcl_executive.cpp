@@ -56,8 +56,10 @@ std::string list_of(const std::vector<Point>& points) { return waitpoint::text_o
 }  // namespace
 
 TclExecutive::TclExecutive(const executive::ExecutiveSetup& setup)
-    : ModuleLink(setup.names, setup.robot, "executive",
-                 [robot = setup.robot](Time date, const std::string& line) { write_line(robot, date, line); }),
+    : ModuleLink(
+          setup.names, setup.robot, "executive",
+          [robot = setup.robot](Time date, const std::string& line) { write_line(robot, date, line); },
+          setup.script->folders),
       setup_(setup),
       library_(library_for(setup.script->file, setup.script->text, setup.script->named_in, setup.script->named_at)),
       planner_(setup.known, setup.parameters.planning),

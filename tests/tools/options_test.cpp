@@ -300,6 +300,7 @@ TEST_F(CommandLine, ReplayLineSurvivesAShell) {
   options.scenario = "an floor.yaml";
   options.assignments = {"x=it's"};
   options.confined_to = {"a", "b c"};
+  options.allowed = {"b c"};
   options.journal = "j;1";
   options.replay_durations = "$d";
   EXPECT_EQ(replay_line(options, 3),

@@ -260,7 +260,7 @@ int checked(const CheckSubject& subject) {
 }  // namespace
 
 int self_check(const RunOptions& options, std::span<const genom::ModuleType> types) {
-  const scenario::Scenario scenario = scenario::read_scenario(options.scenario, options.assignments);
+  const scenario::Scenario scenario = scenario::read_scenario(options.scenario, options.assignments, options.allowed);
   if (scenario.has_nodes()) throw BadInput("--verify", "cannot be used for a scenario with nodes");
   begin_with_program_layer(scenario);
   heed_signals();

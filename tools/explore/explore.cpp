@@ -278,7 +278,7 @@ int explore(const ExploreOptions& options, std::span<const genom::ModuleType> ty
     });
   };
   if (!options.program.empty()) return explore_program(options);
-  const scenario::Scenario scenario = scenario::read_scenario(options.scenario, options.assignments);
+  const scenario::Scenario scenario = scenario::read_scenario(options.scenario, options.assignments, options.allowed);
   if (scenario.has_nodes()) return explore_program(with_run_as_program(options, scenario));
   begin_with_program_layer(scenario);
   if (!options.replay.empty()) return replay(options, scenario, types);

@@ -183,7 +183,7 @@ int run_once(const RunOptions& options, const scenario::Scenario& scenario, run:
 
 // May begin this process anew, with a library for the scenario's programs.
 scenario::Scenario scenario_of(const RunOptions& options) {
-  scenario::Scenario scenario = scenario::read_scenario(options.scenario, options.assignments);
+  scenario::Scenario scenario = scenario::read_scenario(options.scenario, options.assignments, options.allowed);
   if (is_rank() && scenario.has_nodes()) throw BadInput("--ranks", "cannot be used for a scenario with nodes");
   if (is_rank()) run::check_dividable(scenario);
   begin_with_program_layer(scenario);

@@ -232,8 +232,7 @@ std::string replay_line(const RunOptions& options, std::uint64_t seed) {
   if (const auto& journal = options.journal ? options.journal : options.replay_journal)
     line += " --replay-journal " + quoted(journal->string());
   if (!options.confined_to.empty()) line += " --confined";
-  for (std::size_t i = 1; i < options.confined_to.size(); ++i)
-    line += " --allow " + quoted(options.confined_to[i].string());
+  for (const std::string& folder : options.allowed) line += " --allow " + quoted(folder);
   for (const std::string& assignment : options.assignments) line += " --set " + in_quotation_marks(assignment);
   if (options.partners.any() && !options.journal)
     line += "  # without what came from outside: --journal FILE records it";

@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Tcl's commands that would show a script the machine: some are deleted, others refuse a part of their arguments. The
-// original of a command that is guarded has no name by which a script could call it.
+// Makes an interpreter safe in Tcl's sense: commands that reach the machine are hidden. Those of files are then given
+// back, for the files that a script may name; the original of such a command has no name by which a script could call
+// it.
 #pragma once
 
 #include <tcl.h>
 
+#include <string>
+#include <vector>
+
 namespace waitpoint::tcl {
 
-/// In a new interpreter, after Tcl_Init().
-void guard_commands(Tcl_Interp* tcl);
+/// In a new interpreter, after Tcl_Init(). `folders` as of ScriptFiles.
+void guard_commands(Tcl_Interp* tcl, const std::vector<std::string>& folders);
 
 }  // namespace waitpoint::tcl

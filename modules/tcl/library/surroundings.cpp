@@ -80,10 +80,11 @@ int call_function(ClientData data, Tcl_Interp* tcl, int count, Tcl_Obj* const* w
   return TCL_OK;
 }
 
+// While it is not yet safe.
+constexpr const char* process_script = "encoding system utf-8";
 constexpr const char* script = R"(
-  unset -nocomplain ::env
   array set ::env {TZ :UTC}
-  encoding system utf-8
+  proc ::tcl::clock::getenv {name} { expr {$name eq {TZ} ? {:UTC} : {}} }  ;# of Tcl in C: the process's
   set ::auto_path [list $::tcl_library]
   foreach name {sinh cosh tanh pow} { rename ::tcl::mathfunc::$name {} }
   rename ::puts ::waitpoint::puts_to_channel
@@ -102,10 +103,11 @@ void set_up_process(Time (*now)()) {
   Tcl_FindExecutable(nullptr);
 }
 
-void set_up_interpreter(Tcl_Interp* tcl, std::uint32_t seed) {
+void set_up_interpreter(Tcl_Interp* tcl, std::uint32_t seed, const std::vector<std::string>& folders) {
   Tcl_CreateNamespace(tcl, "::waitpoint", nullptr, nullptr);
+  Tcl_Eval(tcl, process_script);
+  guard_commands(tcl, folders);
   Tcl_Eval(tcl, script);
-  guard_commands(tcl);
   for (const Function& function : functions)
     Tcl_CreateObjCommand(tcl, (std::string("::tcl::mathfunc::") + function.name).c_str(), call_function,
                          const_cast<Function*>(&function), nullptr);

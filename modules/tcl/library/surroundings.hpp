@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // An interpreter's view of the machine: virtual time in place of the clock, this project's mathematical functions
-// in place of the C library's, rand() from the run's seed; no environment, processes, sockets or events of files.
+// in place of the C library's, rand() from the run's seed, files of the script's folders; no environment, processes,
+// sockets or events of files.
 #pragma once
 
 #include <tcl.h>
 
 #include <cstdint>
+#include <string>
+#include <vector>
 
 #include "core/time.hpp"
 
@@ -13,8 +16,8 @@ namespace waitpoint::tcl {
 
 /// Before the first interpreter: a notifier without events and threads, and a clock that calls `now`.
 void set_up_process(Time (*now)());
-/// In a new interpreter.
-void set_up_interpreter(Tcl_Interp* tcl, std::uint32_t seed);
+/// In a new interpreter. `folders` as of ScriptFiles.
+void set_up_interpreter(Tcl_Interp* tcl, std::uint32_t seed, const std::vector<std::string>& folders);
 /// The seed of rand(), from now on.
 void set_seed(Tcl_Interp* tcl, std::uint32_t seed);
 

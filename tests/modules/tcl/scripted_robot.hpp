@@ -57,12 +57,14 @@ class ScriptedRobot : public genom::TestRobot {
   }
   /// The same in a running task.
   ScriptEnd run_here(const std::string& script) {
-    ModuleLink link(names, "robot", "executive", [this](Time, const std::string& line) { said.push_back(line); });
+    ModuleLink link(
+        names, "robot", "executive", [this](Time, const std::string& line) { said.push_back(line); }, folders);
     const std::unique_ptr<Interpreter> interpreter = tcl_library().make(link, 1, &threads::now);
     return interpreter->run("script.tcl", script);
   }
 
   std::vector<std::string> said;
+  std::vector<std::string> folders;  ///< of scripts
 
  private:
   genom::ExecutionTask& task_ = module.add_task("main", {.period_ms = std::chrono::milliseconds(10)});

@@ -36,9 +36,8 @@ void declare_scenario(Command& command, ScenarioOptions& options, ScenarioArgume
   command.add("--confined", flag(options.is_confined),
               "for a stranger's scenario: files in its own folder and below it alone, and no programs (docs/trust.md)",
               {.is_rare = true});
-  command.add("--allow", texts(options.allowed, "FOLDER"), "with --confined: files in FOLDER, too; may be repeated",
-              {.is_rare = true});
-  command.rules.push_back({"--allow", Rule::Kind::needs, {"--confined"}, "beside it"});
+  command.add("--allow", texts(options.allowed, "FOLDER"),
+              "files of FOLDER, too: for scripts, and with --confined for all; may be repeated", {.is_rare = true});
   command.finally([&options] { confine(options); });
 }
 

@@ -49,8 +49,8 @@ struct ReplayedProgram {
 };
 
 /// A run; the program's output is discarded.
-Finding look(ReplayedProgram& replayed, const ExploreOptions& options, const Plan& plan,
-                    const WantedEvidence& wanted, const exploration::Profile& known) {
+Finding look(ReplayedProgram& replayed, const ExploreOptions& options, const Plan& plan, const WantedEvidence& wanted,
+             const exploration::Profile& known) {
   RunMemory memory(settings_of(options));
   ask_for_run(memory, replayed.files, options, plan, wanted, known);
   const ProgramRun run(replayed.files, memory, replayed.begin_run(),
@@ -99,8 +99,9 @@ Replay::Replay(const ExploreOptions& asked) : options(asked) {
   replayed.emplace(options);
   const exploration::Profile profile = take_profile(*replayed, options, record.plan);
   const auto learn_from = [&](const Plan& plan) { return look(*replayed, options, plan, {.pairs = true}, profile); };
-  const Plan plan = record.plan.drawn ? exploration::Feedback(options.strategy, options.seed).plan_of(record.plan.number, learn_from)
-                                      : record.plan;
+  const Plan plan = record.plan.drawn
+                        ? exploration::Feedback(options.strategy, options.seed).plan_of(record.plan.number, learn_from)
+                        : record.plan;
   wanted = {.words = !record.plan.drawn, .places = true};
   if (options.trace) wanted.events = {.trace = true};
   ask_for_run(memory.emplace(settings_of(options)), replayed->files, options, plan, wanted, profile);
