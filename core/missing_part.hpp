@@ -6,7 +6,7 @@
 
 namespace waitpoint::missing_part {
 
-inline constexpr const char* accesses = "`./dev add accesses` builds them in (Zydis, Debian's libzydis-dev)";
+inline constexpr const char* accesses = "`./dev run` builds them in (Zydis, Debian's libzydis-dev)";
 inline constexpr const char* bags = "install the package waitpoint-bags, or `./dev add bags` (rosbag_storage)";
 inline constexpr const char* bullet = "`./dev add bullet` builds it in (Debian's libbullet-dev)";
 inline constexpr const char* meshes = "`./dev add meshes` builds them in (Assimp, Debian's libassimp-dev)";

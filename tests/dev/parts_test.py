@@ -42,11 +42,11 @@ class Parts(unittest.TestCase):
     def test_an_unknown_part_is_one_line(self):
         done = subprocess.run([ROOT / "dev", "add", "bulet"], capture_output=True, text=True)
         self.assertEqual(done.returncode, 2)
-        self.assertEqual(done.stderr, "dev: add: expected parts of accesses bags bullet meshes ranks tcl programs, found 'bulet'\n")
+        self.assertEqual(done.stderr, "dev: add: expected parts of bags bullet meshes ranks tcl programs, found 'bulet'\n")
 
     def test_a_run_needs_the_packages_of_none(self):
         of_run = set(table("debian", "run"))
-        for part in ("accesses", "bags", "bullet", "meshes", "ranks", "tcl"):
+        for part in ("bags", "bullet", "meshes", "ranks", "tcl"):
             self.assertTrue(table("debian", part))
             self.assertEqual(of_run & set(table("debian", part)), set(), part)
 
@@ -57,9 +57,16 @@ class Parts(unittest.TestCase):
         self.assertEqual(self.appeared(["libbullet-dev"], "link -lBulletDynamics-float64"), "no")
         self.assertEqual(self.appeared(["libbullet-dev"], "no parts", "bullet = disabled\n"), "no")
 
+    def test_the_disassembler_is_no_part_and_is_looked_for_again(self):
+        self.assertIn("libzydis-dev", table("debian", "run"))
+        if os.uname().machine == "x86_64":
+            self.assertEqual(self.appeared(["libzydis-dev"], "no parts"), "yes")
+            self.assertEqual(self.appeared(["libzydis-dev"], "link libZydis.so"), "no")
+            self.assertEqual(self.appeared([], "no parts"), "no")
+
     def test_the_program_names_only_commands_that_exist(self):
         named = re.findall(r"`\./dev add (\w+)`", (ROOT / "core/missing_part.hpp").read_text())
-        self.assertEqual(sorted(named), ["accesses", "bags", "bullet", "meshes", "programs", "ranks", "tcl"])
+        self.assertEqual(sorted(named), ["bags", "bullet", "meshes", "programs", "ranks", "tcl"])
         packages = set(re.findall(r"install the package (waitpoint[\w-]*)", (ROOT / "core/missing_part.hpp").read_text()))
         self.assertEqual(packages - set(re.findall(r"(?m)^Package: (\S+)", (ROOT / "debian/control").read_text())), set())
 

@@ -18,26 +18,36 @@ configure() {
       option=${option#-D}
       if ! grep -qxF "${option%%=*} = ${option#*=}" "$build/meson-private/cmd_line.txt"; then
         # `meson configure` only knows the options that existed when build/ was set up.
-        meson setup --reconfigure "$build" "$root" "$@" >&2
+        set_up_again "$@"
         return
       fi
     done
     # Meson looks for libraries only at set-up.
     part_appeared || return 0
-    meson setup --reconfigure "$build" "$root" >&2
+    set_up_again
   fi
 }
 
-# True if the packages of a part that build/ lacks have been installed since it was set up.
+# Sets up build/ anew with what has been installed since: Meson keeps what it has found, and what it has not.
+set_up_again() {
+  meson configure --clearcache "$build" >/dev/null
+  meson setup --reconfigure "$build" "$root" "$@" >&2
+}
+
+# True if packages that build/ lacks have been installed since it was set up: those of a part, or the disassembler.
 part_appeared() {
   command -v dpkg-query >/dev/null || return
   local part
   for part in "${parts[@]}"; do
-    grep -qF "${trace_of_part[$part]}" "$build/build.ninja" && continue
-    grep -qxF "${option_of_part[$part]} = disabled" "$build/meson-private/cmd_line.txt" && continue
-    [[ $(missing_packages $(needed debian "$part")) ]] || return 0
+    has_appeared "${trace_of_part[$part]}" "${option_of_part[$part]}" $(needed debian "$part") && return
   done
-  return 1
+  [[ $(uname -m) == x86_64 ]] && has_appeared libZydis disassembler libzydis-dev
+}
+
+has_appeared() {
+  local trace=$1 option=$2
+  ! grep -qF "$trace" "$build/build.ninja" && ! grep -qxF "$option = disabled" "$build/meson-private/cmd_line.txt" &&
+    [[ ! $(missing_packages "${@:3}") ]]
 }
 
 # Finds peers of the benchmarks installed since build/ was set up: Meson looks for libraries only at set-up.
@@ -46,7 +56,7 @@ look_for_peers() {
   for peer in kernel-boost-fiber: kernel-simgrid: kernel-systemc: world.p/world_of_embree world.p/world_of_box2d \
     world.p/world_of_bullet world.p/world_of_ode libworld-of-cgal; do
     if ! grep -qF "tests/bench/$peer" "$build/build.ninja"; then
-      meson setup --reconfigure "$build" "$root" >&2
+      set_up_again
       return
     fi
   done

@@ -5,8 +5,8 @@
 # Debian's names, and the upstream names of the same software.
 declare -A debian=(
   [run]='meson ninja-build g++ pkg-config python3 libboost-context-dev libfcl-dev libyaml-cpp-dev libcli11-dev libfmt-dev
-         nlohmann-json3-dev libpng-dev libtinyxml2-dev zlib1g-dev libbz2-dev liblz4-dev libzstd-dev'
-  [accesses]='libzydis-dev'
+         nlohmann-json3-dev libpng-dev libtinyxml2-dev zlib1g-dev libbz2-dev liblz4-dev libzstd-dev
+         libzydis-dev'
   [bags]='librosbag-storage-dev'
   [bullet]='libbullet-dev'
   [meshes]='libassimp-dev'
@@ -35,8 +35,7 @@ declare -A debian=(
 declare -A upstream=(
   [run]='Meson 1.0, Ninja, a C++20 compiler, pkg-config, Python 3; Boost.Context 1.74, FCL 0.7 with libccd and Eigen 3.4,
          yaml-cpp, CLI11, fmt, nlohmann_json, libpng, TinyXML-2, zlib; for compressed
-         logs, if wanted, bzip2, lz4, zstd'
-  [accesses]='for accesses as switch points of explored programs: Zydis 4'
+         logs, if wanted, bzip2, lz4, zstd; on x86-64 Zydis 4'
   [bags]='for recordings as ROS bags: rosbag_storage'
   [bullet]='for the dynamic world: Bullet 3.24 in double precision'
   [meshes]='for meshes of other kinds than STL and OBJ: Assimp 5.2'
@@ -61,7 +60,7 @@ declare -A upstream=(
 )
 # Required for every build; all libraries except Google Benchmark and its peers come from subprojects/ if missing.
 declare -A tools=(
-  [accesses]='' [bags]='' [bullet]='' [meshes]='' [ranks]='' [tcl]=''
+  [bags]='' [bullet]='' [meshes]='' [ranks]='' [tcl]=''
   [run]='meson ninja c++ pkg-config python3' [test]='' [ros]='rosmaster' [ros2]='idlc' [view]='chromium node npm'
   [builds]='clang++ apt-get' [wraps]='apt-get' [valgrind]='valgrind'
   [arm64]='aarch64-linux-gnu-g++ qemu-aarch64 mmdebstrap ccache'
@@ -69,10 +68,10 @@ declare -A tools=(
 )
 
 # Parts of the program that need a library of their own, and the option and the trace of each in the build.
-parts=(accesses bags bullet meshes ranks tcl)
-declare -A option_of_part=([accesses]=disassembler [bags]=rosbag [bullet]=bullet [meshes]=assimp [ranks]=ranks [tcl]=tcl)
+parts=(bags bullet meshes ranks tcl)
+declare -A option_of_part=([bags]=rosbag [bullet]=bullet [meshes]=assimp [ranks]=ranks [tcl]=tcl)
 declare -A trace_of_part=(
-  [accesses]=libZydis [bags]=libwaitpoint-bags.so [bullet]=BulletDynamics [meshes]=libassimp [ranks]=libwaitpoint-mpi.so
+  [bags]=libwaitpoint-bags.so [bullet]=BulletDynamics [meshes]=libassimp [ranks]=libwaitpoint-mpi.so
   [tcl]=libwaitpoint-tcl.so
 )
 
