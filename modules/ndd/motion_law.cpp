@@ -8,9 +8,7 @@ namespace waitpoint::ndd {
 namespace {
 
 constexpr double least_slowing = 0.3;  // by proximity alone; SpeedLimiter slows further if necessary
-constexpr int speed_steps = 12;
 constexpr int path_samples = 3;
-constexpr int turn_steps = 4;
 constexpr double decision_s = 0.1;  // time until the next decision, for the possible loss of speed
 
 // The point after `s_m` on the arc of the given curvature that starts at the origin, ahead.

@@ -35,6 +35,9 @@ double stopping_distance_m(const Parameters& parameters, double v_m_s);
 /// The point after `part` of an arc of this length (negative: backwards) and turn, which starts at the origin, ahead.
 Point along_arc(double length_m, double turn_rad, double part);
 
+/// Speeds that the limiters try, of the wanted ones down to 0.
+inline constexpr int speed_steps = 12, turn_steps = 4;
+
 /// Lowers forward speeds until the stopping path is safe from obstacle points in the robot's frame.
 class SpeedLimiter {
  public:

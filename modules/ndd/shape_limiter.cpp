@@ -7,7 +7,7 @@
 namespace waitpoint::ndd {
 namespace {
 
-constexpr int speed_steps = 12, turn_steps = 4, poses_max = 12;
+constexpr int poses_max = 12;
 constexpr double pose_step_m = 0.08, pose_step_rad = 0.12;
 constexpr double tolerance_m = 1e-3;  // of an obstacle within the emergency distance: noise, not an approach
 

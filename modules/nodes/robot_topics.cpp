@@ -10,7 +10,6 @@ namespace waitpoint::nodes {
 namespace {
 
 constexpr std::uint32_t queue = 10;
-constexpr bool latched = true;
 constexpr Duration odometry_period = std::chrono::milliseconds(50);
 constexpr const char* map_frame = "map";
 

@@ -7,6 +7,9 @@
 
 namespace waitpoint::nodes {
 
+/// Its last message reaches later subscribers.
+inline constexpr bool latched = true;
+
 template <messages::Message M>
 class TypedTopic {
  public:

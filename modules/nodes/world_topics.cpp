@@ -7,13 +7,13 @@
 #include "modules/messages/nav_msgs.hpp"
 #include "modules/messages/readings.hpp"
 #include "modules/messages/rosgraph_msgs.hpp"
+#include "modules/nodes/typed_topic.hpp"
 #include "modules/ros1/launch.hpp"
 
 namespace waitpoint::nodes {
 namespace {
 
-constexpr std::uint32_t queue = 100;
-constexpr bool latched = true;
+constexpr std::uint32_t world_queue = 100;
 
 std::vector<TopicBound> bounds_of(const scenario::Expectation& expect) {
   std::vector<TopicBound> bounds;
@@ -48,9 +48,9 @@ NodeSideSetup node_side_setup(const scenario::Scenario& scenario) {
 WorldTopics::WorldTopics(const scenario::Scenario& scenario, const OccupancyGrid& map, std::unique_ptr<NodeSide> nodes)
     : nodes_(std::move(nodes)), begin_(nodes_->begin()) {
   using messages::Wire;
-  if (scenario.ros.publishes_clock) clock_.emplace(*nodes_, "/clock", queue);
-  tf_.emplace(*nodes_, "/tf", queue);
-  const TypedTopic<messages::tf2_msgs::TFMessage> fixed(*nodes_, "/tf_static", queue, latched);
+  if (scenario.ros.publishes_clock) clock_.emplace(*nodes_, "/clock", world_queue);
+  tf_.emplace(*nodes_, "/tf", world_queue);
+  const TypedTopic<messages::tf2_msgs::TFMessage> fixed(*nodes_, "/tf_static", world_queue, latched);
   const TypedTopic<messages::nav_msgs::OccupancyGrid> map_topic(*nodes_, "/map", 1, latched);
   const messages::nav_msgs::OccupancyGrid known = messages::message_of(map, begin_, "map");
   map_topic.publish(known);

@@ -9,7 +9,6 @@
 namespace waitpoint::plan {
 namespace {
 
-constexpr Duration unbounded = Duration::max();
 constexpr std::size_t no_link = static_cast<std::size_t>(-1);
 
 // In normal form: a link's start is followed, after its least duration, by a point of its own, and the rest of it is

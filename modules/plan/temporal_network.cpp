@@ -4,9 +4,6 @@
 #include <algorithm>
 
 namespace waitpoint::plan {
-namespace {
-constexpr Duration unbounded = Duration::max();
-}
 
 TemporalNetwork::TemporalNetwork(std::size_t points) : points_(points), distances_(points * points, unbounded) {
   WAITPOINT_CHECK(points <= points_max, "a temporal network has too many points");

@@ -27,6 +27,9 @@ inline constexpr PointId origin = 0;
 inline constexpr Duration bound_max = std::chrono::seconds(1'000'000);
 inline constexpr std::size_t points_max = 1024;
 
+/// The distance of points that no path of constraints joins.
+inline constexpr Duration unbounded = Duration::max();
+
 /// `to - from <= most`; a negative `most` is a least distance in the other direction. `label` names it in conflicts.
 struct Edge {
   PointId from, to;

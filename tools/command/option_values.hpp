@@ -54,6 +54,7 @@ OptionValue whole(Number& into, Number low, Number high, const char* placeholder
 template <class Meaning, class Into>
 OptionValue word(Into& into, std::vector<std::pair<std::string, Meaning>> meanings) {
   std::vector<std::string> words;
+  words.reserve(meanings.size());
   for (const auto& [name, meaning] : meanings) words.push_back(name);
   return one_of(std::move(words),
                 [&into, meanings = std::move(meanings)](std::size_t index) { into = meanings[index].second; });

@@ -5,7 +5,7 @@
 
 namespace waitpoint::tools {
 
-SwitchAt switch_points_of(const Plan& plan, const ExploreOptions& options) {
+SwitchAt switch_points_of(const exploration::Plan& plan, const ExploreOptions& options) {
   if (options.switch_at != SwitchAt::automatic) return options.switch_at;
   if (options.snapshots > 0 || !plan.drawn || options.strategy == "fifo" ||
       exploration::make_strategy(options.strategy)->is_exhaustive())
