@@ -20,7 +20,7 @@ class Summary:
     """The summary line of a run."""
 
     def __init__(self, text):
-        found = re.search(r"waitpoint: (\S+|\d+ programs): (?:\d+ processes, )?(\d+) threads?, (\d+) at once, (\d+) events?, (\d+) switches, "
+        found = re.search(r"waitpoint: (\S+|\d+ programs): (?:\d+ processes, )?(\d+) threads?, (\d+) at once, (\d+) events?, (\d+) switch(?:es)?, "
                           r"([0-9.]+) s of virtual time, digest (wp1:[0-9a-f]{16})", text)
         if not found:
             raise AssertionError(f"no line about the run in: {text}")
