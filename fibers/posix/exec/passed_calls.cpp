@@ -4,6 +4,8 @@
 // replaces declare theirs where they are defined, by before_call().
 //
 // A row is the function itself, which takes any arguments: it passes its event, then goes on in the C library.
+#include "fibers/posix/exec/passed_calls.hpp"
+
 #include <dlfcn.h>
 #include <fcntl.h>
 
@@ -57,15 +59,24 @@ EventFootprint at_stream(FILE* stream) {
   return stream == stdout || stream == stderr || is_locked(stream) ? EventFootprint() : changing_stream(stream);
 }
 
+void look_up(PassedCall& call) {
+  const ErrorNumberKept kept;
+  call.of_library = dlsym(RTLD_NEXT, call.function.label);
+  WAITPOINT_CHECK(call.of_library != nullptr, "the C library lacks a function that the layer passes through");
+}
+
 }  // namespace
+
+// The rows, which the linker puts side by side.
+extern "C" [[gnu::visibility("hidden")]] PassedCall __start_passed_calls[], __stop_passed_calls[];
+
+void look_up_passed_calls() {
+  for (PassedCall* call = __start_passed_calls; call != __stop_passed_calls; ++call) look_up(*call);
+}
 
 // The C library's function, to which the call goes on.
 extern "C" [[gnu::visibility("hidden"), gnu::used]] void* waitpoint_pass_call(PassedCall& call, const long* words) {
-  if (call.of_library == nullptr) {
-    const ErrorNumberKept kept;
-    call.of_library = dlsym(RTLD_NEXT, call.function.label);
-    WAITPOINT_CHECK(call.of_library != nullptr, "the C library lacks a function that the layer passes through");
-  }
+  if (call.of_library == nullptr) look_up(call);
   const PassedWords of{words};
   if (!are_calls_events() || is_of_layer(of.returns_to())) return call.of_library;
   if (const EventFootprint first = call.footprint(of); first != EventFootprint())
@@ -139,25 +150,25 @@ waitpoint_passed_call:
 )");
 
 /// A row: the function's name, and its footprint as an expression of the words `of` the call.
-#define WAITPOINT_PASSED(name, ...)                                                          \
-  namespace waitpoint::posix {                                                               \
-  extern "C" {                                                                               \
-  [[gnu::visibility("hidden"), gnu::used]] constinit PassedCall waitpoint_row_##name{        \
-      kernel::Object("function", #name),                                                     \
-      [](const PassedWords& of [[maybe_unused]]) -> EventFootprint { return __VA_ARGS__; }}; \
-  }                                                                                          \
-  }                                                                                          \
-  asm("  .text\n"                                                                            \
-      "  .globl " #name                                                                      \
-      "\n"                                                                                   \
-      "  .type " #name ", @function\n" #name                                                 \
-      ":\n"                                                                                  \
-      "  .cfi_startproc\n"                                                                   \
-      "  endbr64\n"                                                                          \
-      "  leaq waitpoint_row_" #name                                                          \
-      "(%rip), %r11\n"                                                                       \
-      "  jmp waitpoint_passed_call\n"                                                        \
-      "  .cfi_endproc\n"                                                                     \
+#define WAITPOINT_PASSED(name, ...)                                                                                 \
+  namespace waitpoint::posix {                                                                                      \
+  extern "C" {                                                                                                      \
+  [[gnu::visibility("hidden"), gnu::used, gnu::section("passed_calls")]] constinit PassedCall waitpoint_row_##name{ \
+      kernel::Object("function", #name),                                                                            \
+      [](const PassedWords& of [[maybe_unused]]) -> EventFootprint { return __VA_ARGS__; }};                        \
+  }                                                                                                                 \
+  }                                                                                                                 \
+  asm("  .text\n"                                                                                                   \
+      "  .globl " #name                                                                                             \
+      "\n"                                                                                                          \
+      "  .type " #name ", @function\n" #name                                                                        \
+      ":\n"                                                                                                         \
+      "  .cfi_startproc\n"                                                                                          \
+      "  endbr64\n"                                                                                                 \
+      "  leaq waitpoint_row_" #name                                                                                 \
+      "(%rip), %r11\n"                                                                                              \
+      "  jmp waitpoint_passed_call\n"                                                                               \
+      "  .cfi_endproc\n"                                                                                            \
       "  .size " #name ", .-" #name "\n")
 
 // Names of files.

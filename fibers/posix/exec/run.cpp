@@ -26,6 +26,7 @@
 #include "fibers/posix/exec/family_run.hpp"
 #include "fibers/posix/exec/idle_watch.hpp"
 #include "fibers/posix/exec/own_machine.hpp"
+#include "fibers/posix/exec/passed_calls.hpp"
 #include "fibers/posix/exec/run_memory.hpp"
 #include "fibers/posix/family/turn.hpp"
 #include "fibers/posix/links/air.hpp"
@@ -94,6 +95,7 @@ void take_own_clock() {
 [[gnu::constructor(101)]] void begin() {
   if (record != nullptr) return;
   bind_imports();
+  look_up_passed_calls();
   const char* const descriptor = WAITPOINT_NEXT(getenv)(record_variable);
   if (descriptor == nullptr) refuse("this library is for programs that `waitpoint exec` starts");
   const int joined = map_run(descriptor);
