@@ -134,16 +134,23 @@ std::string folder_of(const Words& words) {
 }
 
 // A folder's entries come in the order of its file system, and a symbolic link in a pattern may lead out.
-void sort_own(Tcl_Interp* tcl, const ScriptFiles& files, const std::string& folder) {
+int keep_own(Tcl_Interp* tcl, const ScriptFiles& files, const Words& words) {
+  const std::string folder = folder_of(words);
   int count = 0;
   Tcl_Obj** names = nullptr;
-  if (Tcl_ListObjGetElements(tcl, Tcl_GetObjResult(tcl), &count, &names) != TCL_OK) return;
+  if (Tcl_ListObjGetElements(tcl, Tcl_GetObjResult(tcl), &count, &names) != TCL_OK) return TCL_ERROR;
   std::vector<Tcl_Obj*> own;
   std::copy_if(names, names + count, std::back_inserter(own), [&](Tcl_Obj* name) {
     return files.find((std::filesystem::path(folder) / text(name)).string(), FileUse::read).has_value();
   });
+  const auto is_nocomplain = [](Tcl_Obj* word) { return text(word).starts_with("-n"); };
+  if (own.empty() && count > 0 && std::none_of(words.begin() + 1, words.end(), is_nocomplain)) {
+    Tcl_SetObjResult(tcl, Tcl_NewStringObj(no_file, -1));
+    return TCL_ERROR;
+  }
   std::sort(own.begin(), own.end(), [](Tcl_Obj* a, Tcl_Obj* b) { return text(a) < text(b); });
   Tcl_SetObjResult(tcl, Tcl_NewListObj(static_cast<int>(own.size()), own.data()));
+  return TCL_OK;
 }
 
 int call_guarded(ClientData data, Tcl_Interp* tcl, int count, Tcl_Obj* const* given) {
@@ -161,8 +168,7 @@ int call_guarded(ClientData data, Tcl_Interp* tcl, int count, Tcl_Obj* const* gi
   } else {
     Tcl_SetObjResult(tcl, Tcl_NewStringObj(guarded.name.refusal, -1));
   }
-  if (result == TCL_OK && is_allowed && guarded.name.guard == stay_below)
-    sort_own(tcl, *guarded.files, folder_of(words));
+  if (result == TCL_OK && is_allowed && guarded.name.guard == stay_below) result = keep_own(tcl, *guarded.files, words);
   for (Tcl_Obj* word : words) Tcl_DecrRefCount(word);
   return result;
 }

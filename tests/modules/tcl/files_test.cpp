@@ -2,11 +2,11 @@
 // The files that a script reads and writes: those of its folders.
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
 
-#include "tests/modules/scenario/scenario_text.hpp"
 #include "tests/modules/tcl/scripted_robot.hpp"
 
 namespace waitpoint::tcl {
@@ -17,15 +17,19 @@ namespace fs = std::filesystem;
 class ScriptFilesTest : public testing::Test {
  protected:
   ScriptFilesTest() {
-    fs::create_directories(root_.path() / "own/below");
-    fs::create_directories(root_.path() / "other");
-    std::ofstream(root_.path() / "own/a.txt") << "of a";
-    std::ofstream(root_.path() / "other/b.txt") << "of b";
-    fs::create_symlink(root_.path() / "other", root_.path() / "own/link");
-    robot_.folders = {(root_.path() / "own").string()};
+    std::string pattern = testing::TempDir() + "waitpoint-XXXXXX";
+    root_ = mkdtemp(pattern.data());
+    fs::create_directories(root_ / "own/below");
+    fs::create_directories(root_ / "other");
+    std::ofstream(root_ / "own/a.txt") << "of a";
+    std::ofstream(root_ / "other/b.txt") << "of b";
+    fs::create_symlink(root_ / "other", root_ / "own/link");
+    robot_.folders = {(root_ / "own").string()};
   }
 
-  std::string other(const std::string& name) const { return (root_.path() / "other" / name).string(); }
+  ~ScriptFilesTest() override { fs::remove_all(root_); }
+
+  std::string other(const std::string& name) const { return (root_ / "other" / name).string(); }
   bool fails(const std::string& script) { return !robot_.run(script).ok; }
   static std::string contents(const fs::path& file) {
     std::ostringstream text;
@@ -33,7 +37,7 @@ class ScriptFilesTest : public testing::Test {
     return text.str();
   }
 
-  scenario::TemporaryFolder root_;
+  fs::path root_;
   ScriptedRobot robot_;
 };
 
@@ -42,10 +46,10 @@ TEST_F(ScriptFilesTest, RelativeNamesAreInItsFirstFolder) {
   EXPECT_EQ(robot_.run("list [file exists a.txt] [file size a.txt] [file isdirectory below] [glob *.txt]").text,
             "1 4 1 a.txt");
   EXPECT_TRUE(robot_.run("file mkdir new; set f [open new/c.txt w]; puts $f hello; close $f").ok);
-  EXPECT_EQ(contents(root_.path() / "own/new/c.txt"), "hello\n");
+  EXPECT_EQ(contents(root_ / "own/new/c.txt"), "hello\n");
   EXPECT_TRUE(robot_.run("file copy a.txt d.txt; file rename d.txt e.txt; file delete a.txt").ok);
-  EXPECT_EQ(contents(root_.path() / "own/e.txt"), "of a");
-  EXPECT_FALSE(fs::exists(root_.path() / "own/a.txt"));
+  EXPECT_EQ(contents(root_ / "own/e.txt"), "of a");
+  EXPECT_FALSE(fs::exists(root_ / "own/a.txt"));
 }
 
 TEST_F(ScriptFilesTest, NoFileElsewhereIsReadWrittenOrListed) {
@@ -65,11 +69,11 @@ TEST_F(ScriptFilesTest, NoFileElsewhereIsReadWrittenOrListed) {
   EXPECT_TRUE(fails("glob -directory below ../../other/*"));
   EXPECT_TRUE(fails("open {|ls}"));
   EXPECT_EQ(contents(other("b.txt")), "of b");
-  EXPECT_EQ(contents(root_.path() / "own/a.txt"), "of a");
+  EXPECT_EQ(contents(root_ / "own/a.txt"), "of a");
 }
 
 TEST_F(ScriptFilesTest, FurtherFoldersMayBeAllowed) {
-  robot_.folders.push_back((root_.path() / "other").string());
+  robot_.folders.push_back((root_ / "other").string());
   EXPECT_EQ(robot_.run("set f [open " + other("b.txt") + "]; read $f").text, "of b");
 }
 
