@@ -121,9 +121,11 @@ int replay_program(const ExploreOptions& asked) {
   std::optional<OutputFile> trace;
   if (asked.trace) trace.emplace(*asked.trace);
   Replay replay(asked);
-  auto& [options, record, prepared, wanted, run_memory] = replay;
-  ReplayedProgram& replayed = *prepared;
-  RunMemory& memory = *run_memory;
+  const ExploreOptions& options = replay.options;
+  const ReplayRecord& record = replay.record;
+  const WantedEvidence& wanted = replay.wanted;
+  ReplayedProgram& replayed = *replay.replayed;
+  RunMemory& memory = *replay.memory;
   const double limit_s = options.schedule_limit_s.value_or(ExploreOptions::usual_schedule_limit_s);
   // Shown while the program writes it; it would be in the way of a document.
   const auto show = [&] {

@@ -135,7 +135,7 @@ void declare_search(Command& command, ExploreOptions& options) {
   command.add("--time-limit",
               number(options.time_limit_s, std::numeric_limits<double>::min(), std::numeric_limits<double>::max(), "S",
                      "a positive number of seconds (omit the option for no limit)"),
-              "end the search, and its report, after this wall clock time",
+              "the most wall clock time, with the report",
               {.usual = "unlimited", .environment = "WAITPOINT_TIME_LIMIT"});
   command.add("--schedule-limit", schedule_limit_value(options.schedule_limit_s),
               "fail a schedule that takes longer, by the wall clock; 0: unlimited",
@@ -267,8 +267,7 @@ void declare(Command& command, ExploreOptions& options) {
   command.former_flags = {"--exec"};
   command.notes =
       "Failures of a program: a nonzero exit status, a signal, a deadlock, a lack of progress.\n"
-      "Exit status: 0 no failure found, 1 failure found, 2 bad input, 3 no schedule has ended, 130 stopped by a "
-      "signal.";
+      "Exit status: 0 no failure, 1 failure, 2 bad input, 3 no schedule ended, 130 stopped by a signal.";
   declare_scenario(command, options, ScenarioArgument::optional);
   declare_search(command, options);
   const auto until = std::make_shared<std::optional<Duration>>();

@@ -113,7 +113,8 @@ TEST(MemoryAccesses, FirstOnesAreNoSwitchPointsInExhaustiveSearch) {
   EXPECT_TRUE(report.passed) << report;
   EXPECT_FALSE(report.complete);
   EXPECT_EQ(report.scope,
-            "all schedules, except switches at first accesses to memory that the default order does not share");
+            "all schedules up to the order of independent events, if there are no data races, except switches at first "
+            "accesses to memory that the default order does not share");
 }
 
 TEST(MemoryAccesses, DependOnNoAddress) {
