@@ -23,6 +23,17 @@ bool is_same_file(const struct stat& one, const struct stat& other) {
   return one.st_dev == other.st_dev && one.st_ino == other.st_ino && one.st_rdev == other.st_rdev;
 }
 
+/// A descriptor of the stream's file, from which it can be restored. One for each stream serves for the life of the
+/// process: to close a duplicate may fail with the error of an output, as to close the stream.
+int duplicate_of(int stream, const struct stat& file) {
+  static constinit int duplicates[] = {-1, -1, -1};
+  int& duplicate = duplicates[stream];
+  struct stat of_duplicate {};
+  if (duplicate >= 0 && fstat(duplicate, &of_duplicate) == 0 && is_same_file(of_duplicate, file)) return duplicate;
+  if (duplicate >= 0) close(duplicate);
+  return duplicate = fcntl(stream, F_DUPFD_CLOEXEC, first_free);
+}
+
 // The system has no call that only reads it.
 mode_t present_permissions() {
   const mode_t mask = umask(0);
@@ -40,9 +51,8 @@ ProcessState::ProcessState()
   pthread_sigmask(SIG_SETMASK, nullptr, &signals_);
   for (int i = 0; i < streams_count; ++i) {
     Stream& stream = descriptors_[static_cast<std::size_t>(i)];
-    stream.kept = fcntl(i, F_DUPFD_CLOEXEC, first_free);
+    if (fstat(i, &stream.file) == 0) stream.duplicate = duplicate_of(i, stream.file);
     stream.flags = fcntl(i, F_GETFL);
-    fstat(i, &stream.file);
     formats_[static_cast<std::size_t>(i)].copyfmt(*streams()[static_cast<std::size_t>(i)]);
     buffers_[static_cast<std::size_t>(i)] = streams()[static_cast<std::size_t>(i)]->rdbuf();
   }
@@ -50,8 +60,6 @@ ProcessState::ProcessState()
 }
 
 ProcessState::~ProcessState() {
-  for (const Stream& stream : descriptors_)
-    if (stream.kept >= 0) close(stream.kept);
   if (folder_ >= 0) close(folder_);
 }
 
@@ -93,11 +101,11 @@ bool ProcessState::restore_descriptors() const {
     const Stream& before = descriptors_[static_cast<std::size_t>(i)];
     struct stat now {};
     const bool is_open = fstat(i, &now) == 0;
-    if (is_open == (before.kept >= 0) && (!is_open || is_same_file(now, before.file))) {
+    if (is_open == (before.duplicate >= 0) && (!is_open || is_same_file(now, before.file))) {
       if (!is_open || fcntl(i, F_GETFL) == before.flags) continue;
       fcntl(i, F_SETFL, before.flags);
-    } else if (before.kept >= 0) {
-      dup2(before.kept, i);
+    } else if (before.duplicate >= 0) {
+      dup2(before.duplicate, i);
     } else {
       close(i);
     }

@@ -39,7 +39,7 @@ class ProcessState {
 
  private:
   struct Stream {
-    int kept = -1;  // a duplicate; -1: the stream is closed
+    int duplicate = -1;  // -1: the stream is closed
     int flags = 0;
     struct stat file {};
   };
