@@ -223,7 +223,7 @@ class Refusals(unittest.TestCase):
 
     def test_bad_options_are_one_line(self):
         self.assert_refused("expected a whole number from 1 to 4096, found '0'", ranks=0)
-        self.assert_refused(r"office-programs.yaml:26: expected no program that is a shared object", scenario="office-programs.yaml")
+        self.assert_refused(r"office-programs.yaml:27: expected no program that is a shared object", scenario="office-programs.yaml")
         self.assert_refused(r"office-measured.yaml:26: expected a clock that is not measured", scenario="office-measured.yaml")
         self.assert_refused("cannot be read: No such file", scenario="nowhere.yaml")
         self.assert_refused("unknown module type 'none'", "--set", "robots.9.modules=[{name: x, type: none}]")

@@ -31,7 +31,7 @@ KINDS = ["scenario", "robot", "plan", "floor"]
 ONLY_READERS = re.compile("|".join(line for line in (pathlib.Path(__file__).parent / "only_readers.txt").read_text().splitlines()
                                    if line and not line.startswith("#")) or "(?!)")
 # Their robots have modules of the programs' own.
-OWN_MODULES = {"tests/programs/blinker", "tests/programs/deaths", "tests/programs/late_pom", "tests/programs/mast",
+OWN_MODULES = {"tests/programs/blinker", "tests/programs/deaths", "tests/programs/late_pom", "tests/programs/mast", "tests/programs/meddling",
                "tests/programs/mixed", "tests/programs/two_robots", "tests/programs/unrepeatable", "examples/lookout",
                "tests/faults"}
 

@@ -20,7 +20,7 @@ namespace waitpoint::tools {
 namespace {
 
 template <class T>
-bool read(std::ifstream& file, std::uint64_t offset, T& value) {
+bool read_at(std::ifstream& file, std::uint64_t offset, T& value) {
   file.seekg(static_cast<std::streamoff>(offset));
   return static_cast<bool>(file.read(reinterpret_cast<char*>(&value), sizeof value));
 }
@@ -48,10 +48,10 @@ std::string contents_of(std::ifstream& file, const Elf64_Shdr& section) {
 template <class IsWanted>
 bool has_dynamic_symbol(std::ifstream& file, IsWanted is_wanted) {
   Elf64_Ehdr header;
-  if (!read(file, 0, header) || std::memcmp(header.e_ident, ELFMAG, SELFMAG) != 0) return false;
+  if (!read_at(file, 0, header) || std::memcmp(header.e_ident, ELFMAG, SELFMAG) != 0) return false;
   std::vector<Elf64_Shdr> sections(header.e_shnum);
   for (std::size_t i = 0; i < sections.size(); ++i)
-    if (!read(file, header.e_shoff + i * sizeof(Elf64_Shdr), sections[i])) return false;
+    if (!read_at(file, header.e_shoff + i * sizeof(Elf64_Shdr), sections[i])) return false;
   for (const Elf64_Shdr& section : sections) {
     if (section.sh_type != SHT_DYNSYM || section.sh_link >= sections.size()) continue;
     const std::string symbols = contents_of(file, section), names = contents_of(file, sections[section.sh_link]);
