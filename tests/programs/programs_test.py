@@ -35,11 +35,13 @@ BEFORE_THE_C_LIBRARY = {
         """pthread_create thrd_create system popen posix_spawn posix_spawnp fork vfork nanosleep clock_nanosleep usleep sleep
         poll ppoll select pselect epoll_wait accept wait waitpid pthread_join pthread_exit pthread_barrier_wait pthread_cond_wait
         pthread_cond_timedwait pthread_cond_clockwait sem_wait sem_timedwait sem_clockwait pthread_mutex_lock
-        pthread_mutex_timedlock pthread_mutex_clocklock pthread_rwlock_rdlock pthread_rwlock_wrlock syscall""".split()
+        pthread_mutex_timedlock pthread_mutex_clocklock pthread_rwlock_rdlock pthread_rwlock_wrlock syscall
+        pthread_cancel thrd_exit""".split()
     ),
     "libwaitpoint-robots": set(
         """_exit _Exit daemon execl execle execlp execv execve execveat execvp execvpe fexecve
-        sigaction signal sigprocmask pthread_sigmask""".split()
+        sigaction signal sigprocmask pthread_sigmask sigaltstack exit raise kill killpg tgkill sigqueue pthread_kill
+        pthread_sigqueue""".split()
     ),
 }
 
