@@ -26,7 +26,9 @@ bool is_same_file(const struct stat& one, const struct stat& other) {
 /// A descriptor of the stream's file, from which it can be restored. One for each stream serves for the life of the
 /// process: to close a duplicate may fail with the error of an output, as to close the stream.
 int duplicate_of(int stream, const struct stat& file) {
+  static SpinLock lock;
   static constinit int duplicates[] = {-1, -1, -1};
+  const std::lock_guard guard(lock);
   int& duplicate = duplicates[stream];
   struct stat of_duplicate {};
   if (duplicate >= 0 && fstat(duplicate, &of_duplicate) == 0 && is_same_file(of_duplicate, file)) return duplicate;

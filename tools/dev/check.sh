@@ -65,8 +65,9 @@ symbols() {
 
 # What threads share, in the libraries of this build.
 state() {
-  compile libwaitpoint.a tools/libwaitpoint-robots.a
-  python3 tools/dev/check/state.py "$build/libwaitpoint.a" "$build/tools/libwaitpoint-robots.a"
+  local libraries=(libwaitpoint.a tools/libwaitpoint-robots.a tools/libaround-runs.a)
+  compile "${libraries[@]}"
+  python3 tools/dev/check/state.py "${libraries[@]/#/$build/}"
 }
 
 cycles() { python3 tools/dev/check/cycles.py "$root"; }
