@@ -11,11 +11,16 @@ BodyRuns::BodyRuns(Body& body, const ExploreOptions& options, const Profile& pro
       options_(options),
       profile_(profile),
       supervisor_(supervisor),
-      drawing_(make_strategy(options.strategy)) {}
+      drawing_(make_strategy(options.strategy)),
+      sampled_(options.strategy) {}
 
 void BodyRuns::start(const Batch& batch) {
   supervisor_.begin(batch.number);
+  const bool is_sampled = sampled_.contain(batch.number);
+  if (is_sampled) body_.explorer().record(&relation_);
   run(*drawing_, options_.strategy, batch.place, batch.number);
+  body_.explorer().record(nullptr);
+  ended_.pairs = is_sampled ? std::span<const ReadsFrom>(relation_.pairs()) : std::span<const ReadsFrom>();
   (void)drawing_->end();
 }
 

@@ -8,6 +8,7 @@
 
 #include "fibers/explore/body.hpp"
 #include "fibers/explore/races/distinct_races.hpp"
+#include "fibers/explore/search/pair_sample.hpp"
 #include "fibers/explore/search/runner.hpp"
 #include "fibers/explore/supervisor.hpp"
 #include "fibers/explore/target/explore_options.hpp"
@@ -38,6 +39,8 @@ class BodyRuns final : public Runner {
   const Profile& profile_;
   Supervisor& supervisor_;
   std::unique_ptr<Strategy> drawing_;
+  const SampledSchedules sampled_;
+  ReadsFromRelation relation_;  // of a sampled schedule, the last one
   races::DistinctRaces new_races_;
   EndedSchedule ended_ = {};  // the last one
   bool has_ended_ = false;

@@ -60,8 +60,9 @@ Campaign::Campaign(ExternalChecks* checks, std::function<void()> body, const Exp
       runs_(body_, options_, profile_, supervisor_),
       discoveries_(target_, options_, nullptr, call),
       time_limit_(options.time_limit_s),
-      search_(options_, {.iterations = options.iterations, .may_be_exhausted = options.strategy != "fifo"}, time_limit_,
-              runs_, discoveries_, nullptr) {
+      search_(options_,
+              {.iterations = options.iterations, .may_be_exhausted = options.strategy != "fifo", .has_sample = true},
+              time_limit_, runs_, discoveries_, nullptr) {
   if (options.races == Races::ignore) body_.ignore_races();
 }
 
@@ -77,6 +78,7 @@ ExploreReport Campaign::run() {
   report_.passed = report_.text.empty();
   report_.schedules = search_.schedules();
   report_.distinct = search_.distinct();
+  if (report_.passed && report_.scope.empty()) report_.chance_of_news = search_.chance_of_news();
   report_.seconds = std::chrono::duration<double>(Clock::now() - start).count();
   return report_;
 }

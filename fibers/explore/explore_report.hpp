@@ -5,9 +5,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <iosfwd>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "fibers/explore/search/new_pair_chance.hpp"
 #include "fibers/explore/strategies/schedule.hpp"
 
 namespace waitpoint {
@@ -16,9 +18,12 @@ struct ExploreReport {
   bool passed = false;
   std::string text;  ///< of a failure: its description, location, explanation and replay line; else empty
   std::uint64_t schedules = 0;
-  std::uint64_t distinct = 0;    ///< that differ in more than the order of independent events
-  bool complete = false;         ///< an exhaustive strategy has tried all schedules, except spurious wake-ups
-  std::string scope = {};        ///< after an exhaustive search: the space searched, as text
+  std::uint64_t distinct = 0;  ///< that differ in more than the order of independent events
+  bool complete = false;       ///< an exhaustive strategy has tried all schedules, except spurious wake-ups
+  std::string scope = {};      ///< after an exhaustive search: the space searched, as text
+  /// Where not all schedules were tried: how likely another one shows something new; nothing if too few were drawn
+  /// independently.
+  std::optional<exploration::NewPairChance> chance_of_news = {};
   std::size_t leaked_bytes = 0;  ///< heap bytes leaked by each default schedule
   double seconds = 0;
   std::uint64_t failed_at = 0;     ///< number of the failing schedule

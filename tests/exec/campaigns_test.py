@@ -2,6 +2,7 @@
 """Schedules of `waitpoint explore -- PROGRAM` that depend on earlier ones: feedback, and the enumeration that follows draws
 which bring nothing new: campaigns_test.py BUILD."""
 
+import json
 import re
 import unittest
 
@@ -65,7 +66,33 @@ class Exhausted(ExecCase):
     def test_is_not_said_before(self):
         for iterations in (199, 210):
             done = explore("--iterations", str(iterations), "--", self.alternating(3, 0))
-            self.assertRegex(done.stdout, rf": {iterations} schedules, \d+ distinct, 0 failed, .* a second\)\n$")
+            self.assertRegex(done.stdout, rf": {iterations} schedules, \d+ distinct, 0 failed, .* a second\)\n"
+                                          r"\d+ pairs of events in \d+ schedules of random( with switches at accesses)?, a new one in the next ")
+
+    def test_tells_how_much_was_seen(self):
+        program = self.alternating(6, 0)
+        lines = set()
+        for options in ((), ("--jobs", "3"), ("--fork-each",)):
+            done = explore("--iterations", "480", "--switch-at", "calls", *options, "--", program)
+            lines.add(done.stdout.splitlines()[1])
+            self.assertRegex(done.stdout.splitlines()[1], r"^\d+ pairs of events in 40 schedules of random, a new one in the next with a chance of "
+                                                          r"\S+ % \(95 % confidence: \S+ % to \S+ %\)$")
+        self.assertEqual(len(lines), 1, lines)
+        done = explore("--iterations", "480", "--switch-at", "calls", "--json", "--", program)
+        seen = json.loads(done.stdout)["result"]["search"]["seen"]
+        self.assertIn(f"{seen['pairs']} pairs of events in {seen['schedules']} schedules of {seen['strategy']},", lines.pop())
+        self.assertLessEqual(seen["lower_bound"], seen["new_pair_chance"])
+        self.assertLess(seen["new_pair_chance"], seen["upper_bound"])
+
+    def test_calls_on_shared_state_are_in_pairs(self):
+        source = self.folder / "environment.c"
+        source.write_text("#include <pthread.h>\n#include <stdlib.h>\nstatic void* set(void* none) {\n"
+                          "  for (int i = 0; i < 40; ++i) setenv(\"NAME\", i % 2 ? \"1\" : \"2\", 1), getenv(\"NAME\");\n  return none;\n}\n"
+                          "int main(void) {\n  pthread_t one, two;\n  pthread_create(&one, NULL, set, NULL), pthread_create(&two, NULL, set, NULL);\n"
+                          "  return pthread_join(one, NULL) + pthread_join(two, NULL);\n}\n")
+        done = explore("--iterations", "120", "--switch-at", "calls", "--", self.compile(str(source)))
+        # Of each thread two events, each of which reads from the other's change or from its own.
+        self.assertGreaterEqual(int(re.search(r"(\d+) pairs of events in 10 schedules of random", done.stdout)[1]), 8, done.stdout)
 
     def test_finds_failures_that_random_draws_miss(self):
         program = self.alternating(5, 1)

@@ -124,10 +124,12 @@ std::string sum(const ProcessTarget& target, const Search& search, double second
   const std::string raced = search.raced() > 0 ? fmt::format(" ({} by a data race alone)", search.raced()) : "";
   const std::string obstacle = words_of(search.obstacle());
   const std::string at_calls = obstacle.empty() ? "" : "; switches at calls only: " + obstacle;
-  return fmt::format("{}: {}, {} distinct, {} failed{}, in {:.1f} s ({:.1f} a second){}{}{}\n", target.name(),
+  const auto chance = search.failures() == 0 && !search.scope() ? search.chance_of_news() : std::nullopt;
+  const std::string seen = chance ? exploration::to_text(*chance) + "\n" : "";
+  return fmt::format("{}: {}, {} distinct, {} failed{}, in {:.1f} s ({:.1f} a second){}{}{}\n{}", target.name(),
                      counted(search.schedules(), "schedule"), search.distinct(), search.failures(), raced, seconds,
                      seconds > 0 ? static_cast<double>(search.schedules()) / seconds : 0,
-                     is_interrupted ? "; stopped by a signal" : "", scope, at_calls);
+                     is_interrupted ? "; stopped by a signal" : "", scope, at_calls, seen);
 }
 
 // Failures of a graver kind than a data race are analysed without regard to races, which may be in each run.
@@ -188,6 +190,7 @@ exploration::SearchExtent extent_of(const ProcessTarget& target, ResultsFile* re
       .iterations = is_one ? std::min<std::uint64_t>(options.iterations, 1) : options.iterations,
       .may_be_exhausted = is_program && options.strategy != "fifo" && options.shard.count == 1 && results == nullptr,
       .learns = is_program,
+      .has_sample = is_program,
       .decided_after = decision_interval};
   if (results != nullptr)
     extent.each = [results](std::uint64_t number, const Finding& finding) { results->take(number, finding); };

@@ -12,6 +12,13 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+Json json_of(const exploration::NewPairChance& chance) {
+  return {{"strategy", chance.strategy},        {"switch_at_accesses", chance.is_at_accesses},
+          {"schedules", chance.schedules},      {"pairs", chance.pairs},
+          {"new_pair_chance", chance.estimate}, {"lower_bound", chance.lower_bound},
+          {"upper_bound", chance.upper_bound}};
+}
+
 Json json_of(const exploration::Search& search, double seconds) {
   Json json{{"schedules", search.schedules()},
             {"distinct", search.distinct()},
@@ -21,6 +28,7 @@ Json json_of(const exploration::Search& search, double seconds) {
             {"exhausted", search.scope().has_value()}};
   if (const auto& scope = search.scope(); scope && !scope->empty()) json["scope"] = *scope;
   if (const std::string obstacle = words_of(search.obstacle()); !obstacle.empty()) json["calls_only"] = obstacle;
+  if (const auto chance = search.scope() ? std::nullopt : search.chance_of_news()) json["seen"] = json_of(*chance);
   return json;
 }
 

@@ -49,6 +49,7 @@ void Explorer::begin(Strategy& strategy, const Played& played) {
   schedule_.switches.clear();
   schedule_.cuts_polls_short = false;
   trace_.clear();
+  if (relation_ != nullptr) relation_->clear();
   habits_.clear();
   stopped_before_.clear();
   last_ = poller_ = nullptr;
@@ -242,6 +243,7 @@ std::uintptr_t accessed_by(const Task& task) {
 
 inline void Explorer::note(const Task& task) {
   trace_.add(task, instant_);
+  if (__builtin_expect(relation_ != nullptr, 0)) relation_->note(task);
   if (__builtin_expect(task.number >= habits_.size(), 0)) habits_.resize(task.number + 1);
   RecentAccesses& habit = habits_[task.number];
   if (habit.instant != instants_) habit = {.at = {}, .instant = instants_};

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "fibers/explore/schedules/trace_hash.hpp"
+#include "fibers/explore/strategies/reads_from.hpp"
 #include "fibers/explore/strategies/schedule.hpp"
 #include "fibers/explore/strategies/strategy.hpp"
 #include "fibers/kernel/task.hpp"
@@ -48,6 +49,8 @@ class Explorer final : public kernel::Decisions {
 
   /// Starts the next schedule: first `played`, then `strategy`, which must have begun this schedule.
   void begin(Strategy& strategy, const Played& played = {});
+  /// Records the relation of the following schedules, of each by itself; null: no more.
+  void record(ReadsFromRelation* relation) { relation_ = relation; }
 
   /// Continues the schedule with `played`, as far as it is about decisions to come, and then this strategy, which must
   /// have begun.
@@ -125,6 +128,7 @@ class Explorer final : public kernel::Decisions {
   std::vector<std::pair<Switch, std::size_t>> switches_;  // those to play, with their places; sorted, to be searched
   Schedule schedule_;
   TraceHash trace_;
+  ReadsFromRelation* relation_ = nullptr;
   std::vector<RecentAccesses> habits_;
   std::vector<Task*> offered_;  // the ready tasks that do not spin, and their indices
   std::vector<std::uint32_t> places_;

@@ -10,8 +10,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "fibers/explore/schedules/object_table.hpp"
 #include "fibers/explore/strategies/dependence.hpp"
+#include "fibers/explore/strategies/object_table.hpp"
 #include "fibers/kernel/decisions.hpp"
 
 namespace waitpoint::exploration {

@@ -25,6 +25,7 @@ struct EndedSchedule {
   RunVerdict verdict;
   std::unique_ptr<Finding> finding = {};   ///< null: it passed in this process
   std::span<const Decision> choices = {};  ///< of an enumerated one; valid until another is started
+  std::span<const ReadsFrom> pairs = {};   ///< of a sampled one; the same, or as long as its finding
 };
 
 class Runner {

@@ -29,6 +29,7 @@ Search::Search(const ExploreOptions& options, SearchExtent extent, const TimeLim
     enumeration_.emplace(options.strategy);
   else if (extent_.learns)
     feedback_.emplace(options.strategy, options.seed);
+  if (extent_.has_sample && !is_exhaustive_) sample_.emplace(options.strategy);
 }
 
 void Search::count_default(const RunVerdict& verdict) {
@@ -160,6 +161,8 @@ void Search::count(Open& open, EndedSchedule& ended) {
     exhaustion_.take_enumerated(verdict.order);
   else if (verdict.kind != RunVerdict::Kind::killed)
     exhaustion_.take_drawn(verdict.order, verdict.is_beyond_enumeration);
+  if (sample_ && !open.is_enumerated && verdict.kind != RunVerdict::Kind::killed && sample_->contains(open.number))
+    sample_->take(ended.pairs, verdict.switch_at);
   has_races_ |= verdict.has_raced;
   if (obstacle_ == AccessObstacle::none) obstacle_ = verdict.obstacle;
   failures_ += !verdict.passed();

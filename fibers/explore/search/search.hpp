@@ -19,6 +19,7 @@
 #include "fibers/explore/search/discoveries.hpp"
 #include "fibers/explore/search/enumeration.hpp"
 #include "fibers/explore/search/feedback.hpp"
+#include "fibers/explore/search/pair_sample.hpp"
 #include "fibers/explore/search/runner.hpp"
 #include "fibers/explore/target/progress_listener.hpp"
 #include "fibers/explore/target/time_limit.hpp"
@@ -31,6 +32,7 @@ struct SearchExtent {
   std::uint64_t iterations = 0;       ///< all numbers are below
   bool may_be_exhausted = true;       ///< an enumeration may follow draws
   bool learns = false;                ///< feedback is kept here, not by the strategy that draws
+  bool has_sample = false;            ///< the pairs of its sampled schedules come with them
   std::uint64_t decided_after = 0;    ///< see Search::next_origin()
   /// Called with each result; then failures do not end the search.
   std::function<void(std::uint64_t number, const Finding& finding)> each = {};
@@ -58,6 +60,8 @@ class Search {
   const std::optional<std::string>& scope() const { return scope_; }
   /// The reason why all schedules have been tried, and there may be other orders; empty if that is not so.
   const std::string& unproved() const { return unproved_; }
+  /// How much has been seen; nothing if there is no sample.
+  std::optional<NewPairChance> chance_of_news() const { return sample_ ? sample_->chance() : std::nullopt; }
   /// The strategy of the options draws: it was an enumeration that exhausted the search.
   bool has_drawn() const { return !is_exhaustive_; }
   /// All schedules were tried, except spurious wake-ups.
@@ -104,6 +108,7 @@ class Search {
   AccessObstacle obstacle_ = AccessObstacle::none;
 
   std::optional<Feedback> feedback_;
+  std::optional<PairSample> sample_;
   const bool is_exhaustive_;
   Exhaustion exhaustion_;
   std::optional<std::uint64_t> begun_after_;  // so many were counted when draws brought nothing new

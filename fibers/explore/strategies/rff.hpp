@@ -8,8 +8,6 @@
 // So each schedule depends on those before it: see Strategy::first_learned().
 #pragma once
 
-#include <unordered_map>
-
 #include "fibers/explore/strategies/pos.hpp"
 #include "fibers/explore/strategies/reads_from_corpus.hpp"
 
@@ -22,13 +20,11 @@ class Rff final : public Drawn {
   std::uint64_t first_learned(std::uint64_t from) const override { return from; }
   std::uint64_t first_held(std::uint64_t from) const override { return from; }
   void hold(std::span<const Constraint> constraints) override { given_.assign(constraints.begin(), constraints.end()); }
-  const std::vector<ReadsFrom>* pairs() const override { return &seen_; }
 
  private:
   void start(const Profile& profile) override;
-  bool permits(const Task& task) const;
+  bool permits(const Task& task);
   void note(const Task& task);
-  std::uint64_t last_change(std::uint64_t object) const;
 
   static constexpr std::uint32_t times_usual = 2;  // the default order's length
 
@@ -37,8 +33,7 @@ class Rff final : public Drawn {
   EventPriorities priorities_;
   std::uint32_t held_steps_ = 0;  // the constraints hold up to there: a loop that waits for an event held would not end
   Constraints constraints_;
-  std::unordered_map<std::uint64_t, std::uint64_t> changes_;  // by object: the event that has changed it last
-  std::vector<ReadsFrom> seen_;                               // the pairs of this schedule
+  ReadsFromRelation relation_;  // of this schedule
 };
 
 }  // namespace waitpoint::exploration

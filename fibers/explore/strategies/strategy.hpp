@@ -50,12 +50,10 @@ class Strategy {
   virtual std::uint64_t first_learned(std::uint64_t from) const { return is_exhaustive() ? from : none; }
   static constexpr std::uint64_t none = ~std::uint64_t{0};
   /// The first schedule, `from` or a later one, that learns also from schedules which other processes have executed: by
-  /// hold() and pairs().
+  /// hold(), and the pairs of those.
   virtual std::uint64_t first_held(std::uint64_t) const { return none; }
   /// Before begin(), for such a schedule: what those before have led to.
   virtual void hold(std::span<const Constraint>) {}
-  /// Of such a strategy: the pairs of this schedule so far; else null.
-  virtual const std::vector<ReadsFrom>* pairs() const { return nullptr; }
   /// Ends the schedule; false if no other is left to try.
   virtual bool end() { return true; }
   /// Of an exhaustive strategy: " with at most 2 preemptions", or "" if it tries all.

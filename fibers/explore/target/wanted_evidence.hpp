@@ -27,7 +27,7 @@ struct WantedEvidence {
   bool profile = false;
   bool learn = false;    ///< for the profile: code that accesses memory shared by tasks
   bool choices = false;  ///< all choices made
-  bool pairs = false;    ///< what a strategy with feedback learns from
+  bool pairs = false;    ///< the reads-from relation, of the first process
   bool words = false;    ///< switches in words
   bool places = false;   ///< source locations of the tasks in reports
   std::optional<WantedEvents> events = {};

@@ -85,11 +85,11 @@ exploration::Course Explored::course_of(const Asked& asked) const {
 void Explored::begin_course(const Asked& asked) {
   strategy = exploration::begin_course(course_of(asked), explorer, known);
   WAITPOINT_CHECK(strategy != nullptr, "a course of exploration has no strategy");
-  pairs = strategy->deciding().pairs();
 }
 
 void Explored::continue_in_process(const Asked& asked) {
   begin_course(asked);
+  explorer.record(nullptr);
   explorer.decide_by(*strategy);
 }
 
@@ -100,6 +100,7 @@ void Explored::begin_again(const Asked& asked) {
 
 void Explored::begin(const Asked& asked) {
   begin_course(asked);
+  if (asked.pairs) explorer.record(&relation);
   explorer.begin(*strategy, {.switches = asked.switches, .deviations = asked.deviations});
 }
 

@@ -49,6 +49,7 @@ struct Asked {
 
   bool learn = false;    ///< record the code that accesses shared memory
   bool notes = false;    ///< log whether other code does
+  bool pairs = false;    ///< record the reads-from relation, of the first process
   bool profile = false;  ///< record the profile
   bool words = false;    ///< record choices in words
   bool events = false;   ///< record events, from `events_from` on
@@ -75,7 +76,7 @@ struct Explored {
   std::optional<ProcessChoices> processes;
   exploration::Profile known;
   std::unique_ptr<exploration::Strategy> strategy;
-  const std::vector<exploration::ReadsFrom>* pairs = nullptr;  ///< Strategy::pairs() of the deciding strategy
+  exploration::ReadsFromRelation relation;  ///< if it is asked for
   exploration::Profile profile;
   std::vector<exploration::DoneEvent> log;
   std::optional<HistoryRecorder> recorder;  ///< if events are asked for

@@ -144,6 +144,7 @@ void ask_for_run(RunMemory& memory, const ProgramFiles& files, const ExploreOpti
   asked.memory = options.memory;
   asked.learn = wanted.learn;
   asked.notes = wanted.choices;
+  asked.pairs = wanted.pairs;
   asked.profile = wanted.profile;
   asked.words = wanted.words;
   asked.events = wanted.events.has_value();
@@ -211,8 +212,8 @@ Finding finding_of_run(const RunMemory& memory, int status, const std::string& o
   // The dependences between events of several processes are not known: no two different runs count as one.
   finding.order = is_single(record) ? explored.explorer.trace() : finding.digest;
   finding.is_beyond_enumeration = explored.explorer.is_beyond_enumeration();
-  if (wanted.pairs && explored.pairs != nullptr) {
-    finding.lesson.pairs = *explored.pairs;
+  if (wanted.pairs) {
+    finding.lesson.pairs = explored.relation.pairs();
     std::ranges::sort(finding.lesson.pairs);
     finding.lesson.pairs.erase(std::unique(finding.lesson.pairs.begin(), finding.lesson.pairs.end()),
                                finding.lesson.pairs.end());

@@ -114,10 +114,19 @@ std::string ProcessTarget::execute(std::string_view bytes) {
   pass_fields(reader, plan, wanted, repeats);
   FieldWriter results;
   for (std::uint32_t left = repeats.count;; --left, plan.number += repeats.step) {
-    const Finding finding = run(plan, wanted);
+    WantedEvidence wanted_now = wanted;
+    wanted_now.pairs |= is_sampled(plan);
+    const Finding finding = run(plan, wanted_now);
     results(to_bytes(finding));
     if (left == 0 || !finding.passed()) return std::move(results.bytes);
   }
+}
+
+// Of a program's search.
+bool ProcessTarget::is_sampled(const Plan& plan) {
+  if (!plan.drawn || !plan.strategy.empty() || options().program.empty()) return false;
+  if (!sampled_) sampled_.emplace(options().strategy);
+  return sampled_->contain(plan.number);
 }
 
 std::vector<Finding> ProcessTarget::findings_of(const Children::Ended& ended) {

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "fibers/explore/search/pair_sample.hpp"
 #include "fibers/explore/target/target.hpp"
 #include "fibers/explore/target/time_limit.hpp"
 #include "tools/exec/watchdog.hpp"
@@ -91,12 +92,14 @@ class ProcessTarget : public exploration::Target {
 
  private:
   std::string execute(std::string_view request);
+  bool is_sampled(const Plan& plan);
 
   double limit_s_ = 0, patience_s_ = Watchdog::usual_patience_s;
   exploration::TimeLimit time_limit_{0};
   bool races_fail_ = true;
   std::optional<SwitchAt> fixed_switch_at_;
   std::optional<Children> runs_;
+  std::optional<exploration::SampledSchedules> sampled_;  // of a process that executes runs
 };
 
 /// True if the schedules that this strategy draws depend on the default order's profile.

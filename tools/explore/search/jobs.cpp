@@ -55,6 +55,7 @@ EndedSchedule* Jobs::next_ended() {
   last_ = std::move(ended_.front());
   ended_.pop_front();
   last_.choices = last_.finding->lesson.choices;
+  last_.pairs = last_.finding->lesson.pairs;
   return &last_;
 }
 
