@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Compares the exhaustive strategies with the abstract machine on many random programs: ./dev test --completeness.
+// With --estimate: compares the chance of a new pair of events as it is estimated and as it is measured.
 //
 //   completeness [N] [--from FIRST]    programs number FIRST to FIRST + N - 1 (default: 10000 from 1)
 //   completeness --program TEXT        this one
 //   ... --schedules MOST               of each program by each strategy (default: some thousand)
 //   ... --strategy NAME                dfs, bounded:1000 or dpor alone (default: all three)
 //   ... --exec                         on POSIX threads, under waitpoint explore, instead of in this process;
-//   all
-//                                      three only for small programs
+//                                      all three only for small programs
+//   ... --estimate                     by samples of 25, 100 and 400 schedules, and 20 000 further ones, in this
+//   process
 //
 // A program that differs is shrunk, and printed with the command that runs it again. Exit status: 0 no program differs,
 // 1 some do, 2 bad input.
@@ -19,6 +21,7 @@
 
 #include "core/error.hpp"
 #include "core/number_text.hpp"
+#include "tests/fibers/explore/completeness/calibration.hpp"
 #include "tests/fibers/explore/completeness/comparison.hpp"
 #include "tests/fibers/explore/completeness/random_programs.hpp"
 #include "tests/fibers/explore/completeness/recorded_runs.hpp"
@@ -78,7 +81,7 @@ class Folder {
 struct Asked {
   std::uint64_t count = 10'000, first = 1, schedules = 0;
   std::string_view program, strategy;
-  bool is_exec = false;
+  bool is_exec = false, is_estimate = false;
 };
 
 std::uint64_t number(std::string_view option, std::string_view text) {
@@ -97,6 +100,8 @@ Asked read(int count, char** arguments) {
     if (has_value && i + 1 == count) throw BadInput(std::string(argument), "expected a value");
     if (argument == "--exec")
       asked.is_exec = true;
+    else if (argument == "--estimate")
+      asked.is_estimate = true;
     else if (argument == "--from")
       asked.first = number(argument, arguments[++i]);
     else if (argument == "--schedules")
@@ -111,7 +116,44 @@ Asked read(int count, char** arguments) {
   return asked;
 }
 
+void note_progress(std::uint64_t done, std::uint64_t all) {
+  if (isatty(STDERR_FILENO) != 0)
+    std::fprintf(stderr, "\r%llu of %llu programs", static_cast<unsigned long long>(done),
+                 static_cast<unsigned long long>(all));
+}
+
+// Whether the interval that a search reports has the measured chance in it: in nine programs of ten at least.
+int calibrate_all(const Asked& asked) {
+  constexpr std::uint64_t measured = 20'000, samples[] = {25, 100, 400};
+  bool is_good = true;
+  for (const std::uint64_t sampled : samples) {
+    std::uint64_t holding = 0, unsure = 0, unsure_holding = 0;
+    double width = 0;
+    for (std::uint64_t i = 0; i < asked.count; ++i) {
+      const Calibration one = calibrate(make_program(asked.first + i), sampled, measured);
+      holding += one.holds();
+      unsure += one.share > 0;
+      unsure_holding += one.share > 0 && one.holds();
+      width += one.chance.upper_bound - one.chance.lower_bound;
+      note_progress(i + 1, asked.count);
+    }
+    const auto percent = [](std::uint64_t part, std::uint64_t all) {
+      return all == 0 ? 100.0 : 100.0 * static_cast<double>(part) / static_cast<double>(all);
+    };
+    std::printf(
+        "%llu schedules: the interval holds in %.1f %% of %llu programs; in %.1f %% of the %llu with a chance above 0; "
+        "mean width %.3f\n",
+        static_cast<unsigned long long>(sampled), percent(holding, asked.count),
+        static_cast<unsigned long long>(asked.count), percent(unsure_holding, unsure),
+        static_cast<unsigned long long>(unsure), width / static_cast<double>(asked.count));
+    std::fflush(stdout);
+    is_good = is_good && percent(holding, asked.count) >= 90;
+  }
+  return is_good ? 0 : 1;
+}
+
 int run(const Asked& asked) {
+  if (asked.is_estimate) return calibrate_all(asked);
   const std::filesystem::path build = std::filesystem::read_symlink("/proc/self/exe").parent_path().parent_path();
   const Folder folder;
   const ExecTools tools{build / "tools/waitpoint", build / "tests/completeness-program", folder.path()};
@@ -135,9 +177,7 @@ int run(const Asked& asked) {
     const Program program = is_single ? read_program(asked.program) : make_program(number, asked.is_exec);
     const Enumerated all = enumerate(program, states_max);
     for (Tally& tally : tallies) compare_one(program, all, cover_by, tally, asked.is_exec ? " --exec" : "");
-    if ((asked.is_exec || i % 100 == 99) && isatty(STDERR_FILENO) != 0)
-      std::fprintf(stderr, "\r%llu of %llu programs", static_cast<unsigned long long>(i) + 1,
-                   static_cast<unsigned long long>(asked.count));
+    if (asked.is_exec || i % 100 == 99) note_progress(i + 1, asked.count);
   }
   std::size_t different = 0;
   for (const Tally& tally : tallies) {

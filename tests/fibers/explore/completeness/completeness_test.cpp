@@ -4,6 +4,7 @@
 
 #include <map>
 
+#include "tests/fibers/explore/completeness/calibration.hpp"
 #include "tests/fibers/explore/completeness/comparison.hpp"
 #include "tests/fibers/explore/completeness/random_programs.hpp"
 
@@ -65,6 +66,21 @@ INSTANTIATE_TEST_SUITE_P(
         "00|c10 t00 c20 u00 r00|q00|q00 t00", "00|c20 b10 c10 n10|l00 w00 u00|b00 l10 w10 u10",
         // The end of the run by one thread prevents the other's event.
         "00|c10 k00|k00", "00|c10 l00|u00"));
+
+// Of a sample of 25 schedules; ./dev test --completeness --estimate has more.
+TEST(ChanceOfNews, IsWithinItsInterval) {
+  constexpr std::uint64_t measured = 2'000;
+  std::size_t holding = 0, positive = 0, positive_holding = 0;
+  for (std::uint64_t number = 1; number <= programs; ++number) {
+    const Calibration one = calibrate(make_program(number), 25, measured);
+    holding += one.holds();
+    positive += one.share > 0;
+    positive_holding += one.share > 0 && one.holds();
+  }
+  EXPECT_GE(holding, programs * 9 / 10);
+  EXPECT_GE(positive, programs / 4);
+  EXPECT_GE(positive_holding, positive * 85 / 100);
+}
 
 TEST(RandomPrograms, HaveOutcomesOfEveryKind) {
   std::size_t with_several = 0;

@@ -205,4 +205,20 @@ Covered cover(const Program& program, const std::string& strategy, std::uint64_t
   return covered;
 }
 
+void draw(const Program& program, std::uint64_t schedules,
+          const std::function<void(std::span<const exploration::ReadsFrom> pairs)>& take) {
+  std::unique_ptr<Run> run;
+  exploration::Body body([&] { run->execute(0); }, nullptr, Time::max(), 100'000);
+  const std::string strategy = "random";
+  const auto chosen = exploration::make_strategy(strategy);
+  exploration::ReadsFromRelation relation;
+  body.explorer().record(&relation);
+  for (std::uint64_t number = 0; number < schedules; ++number) {
+    run = std::make_unique<Run>(program);
+    chosen->begin(number, exploration::Draws(1, strategy, number), {});
+    (void)body.run(*chosen);
+    take(relation.pairs());
+  }
+}
+
 }  // namespace waitpoint::completeness

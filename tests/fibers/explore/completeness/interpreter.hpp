@@ -3,8 +3,11 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <span>
 #include <string>
 
+#include "fibers/explore/strategies/reads_from.hpp"
 #include "tests/fibers/explore/completeness/machine.hpp"
 
 namespace waitpoint::completeness {
@@ -18,5 +21,9 @@ struct Covered {
 
 /// The outcomes of `program` under all schedules of `strategy`, or the first `schedules_max`.
 Covered cover(const Program& program, const std::string& strategy, std::uint64_t schedules_max);
+
+/// Calls `take` with the reads-from pairs of each of so many schedules of `random`.
+void draw(const Program& program, std::uint64_t schedules,
+          const std::function<void(std::span<const exploration::ReadsFrom> pairs)>& take);
 
 }  // namespace waitpoint::completeness
