@@ -8,6 +8,7 @@
 
 #include "core/confinement.hpp"
 #include "core/error.hpp"
+#include "core/file_list.hpp"
 
 namespace waitpoint {
 namespace {
@@ -38,6 +39,7 @@ std::string file_contents(const std::string& file, std::string_view expected, st
   if (fs::exists(file, error) && !fs::is_regular_file(file, error)) {
     throw BadInput(file, "expected " + std::string(expected) + ", found no regular file");
   }
+  FileList::add(file, FileRole::read);
   std::ifstream in(file, std::ios::binary);
   std::string contents = read_bytes(in, bytes_max);
   if (contents.empty()) throw BadInput(file, "expected " + std::string(expected) + ", found no file or an empty one");
@@ -49,6 +51,7 @@ std::string file_contents(const std::string& file, std::string_view expected, st
 std::string given_file_contents(const fs::path& file, std::size_t bytes_max) {
   std::error_code error;
   if (fs::is_directory(file, error)) throw BadInput(file.string(), "is a folder, expected a file");
+  FileList::add(file, FileRole::read);
   errno = 0;
   std::ifstream in(file, std::ios::binary);
   std::string contents = read_bytes(in, bytes_max);

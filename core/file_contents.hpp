@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads a whole file, up to a limit of its size.
+// Reads a whole file, up to a limit of its size, and notes it (core/file_list.hpp).
 #pragma once
 
 #include <cstddef>

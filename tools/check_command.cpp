@@ -7,12 +7,15 @@
 #include <string>
 #include <vector>
 
+#include "core/file_list.hpp"
 #include "core/number_text.hpp"
 #include "core/printable_line.hpp"
 #include "modules/playback/playback.hpp"
 #include "modules/run/experiment.hpp"
 #include "modules/scenario/scenario_reader.hpp"
+#include "tools/command/option_values.hpp"
 #include "tools/command/program_layer.hpp"
+#include "tools/nodes/node_commands.hpp"
 #include "tools/output/json_document.hpp"
 #include "tools/replay/log_source.hpp"
 #include "tools/run/run_watchdog.hpp"
@@ -22,9 +25,27 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-int tell_good(bool is_json, const std::string& text, const Json& json) {
-  write_text(text, is_json);
-  return is_json ? end_with_json("check", 0, json.dump(-1, ' ', false, Json::error_handler_t::replace)) : 0;
+void add_files(std::string& text, Json& json) {
+  json["files"] = Json::array();
+  for (const ListedFile& file : FileList::files()) {
+    text += fmt::format("  {:<9} {}\n", to_string(file.use), printable_line(file.name));
+    json["files"].push_back({{"use", to_string(file.use)}, {"name", file.name}});
+  }
+}
+
+int tell_good(const CheckOptions& options, std::string text, Json json) {
+  if (options.files) add_files(text, json);
+  write_text(text, options.json);
+  return options.json ? end_with_json("check", 0, json.dump(-1, ' ', false, Json::error_handler_t::replace)) : 0;
+}
+
+/// Looks for the programs of nodes, which are started by a run alone. A warning for one that is not there.
+void list_programs_of_nodes(const scenario::Scenario& scenario, std::vector<std::string>& warnings) {
+  try {
+    (void)node_commands(scenario);
+  } catch (const BadInput& missing) {
+    warnings.emplace_back(missing.what());
+  }
 }
 
 int check_log(const CheckOptions& options, const scenario::Scenario& scenario,
@@ -35,7 +56,7 @@ int check_log(const CheckOptions& options, const scenario::Scenario& scenario,
   const std::string text =
       fmt::format("{}: good: {}, {} of {}\n", printable_line(scenario.file), counted(playback.modules(), "module"),
                   counted(log.scans.size(), "scan"), printable_line(log.file));
-  return tell_good(options.json, text,
+  return tell_good(options, text,
                    {{"scenario", scenario.file},
                     {"modules", playback.modules()},
                     {"log", log.file},
@@ -50,6 +71,7 @@ void declare(Command& command, CheckOptions& options) {
   command.examples = {"office --set world.step_ms=5"};
   declare_scenario(command, options);
   command.section("Results");
+  command.add("--files", flag(options.files), "list the files that it reads, executes or writes (docs/trust.md)");
   command.json(options.json);
 }
 
@@ -72,9 +94,10 @@ int check(const CheckOptions& options, std::span<const genom::ModuleType> types)
   for (const auto& robot : experiment.robots())
     if (const std::string plan = robot->plan_text(); !plan.empty()) plans.push_back(plan);
   for (const std::string& plan : plans) text += plan + "\n";
-  const std::vector<std::string> warnings = experiment.result().warnings;
+  std::vector<std::string> warnings = experiment.result().warnings;
+  if (options.files) list_programs_of_nodes(scenario, warnings);
   for (const std::string& warning : warnings) text += "warning: " + warning + "\n";
-  return tell_good(options.json, text,
+  return tell_good(options, text,
                    {{"scenario", options.scenario.string()},
                     {"robots", scenario.robots.size()},
                     {"modules", modules},

@@ -10,7 +10,8 @@
 namespace waitpoint::tools {
 
 struct CheckOptions : ScenarioOptions {
-  bool json = false;  ///< the result as JSON to standard output
+  bool json = false;   ///< the result as JSON to standard output
+  bool files = false;  ///< list what the scenario names
 };
 
 /// The command with its options.

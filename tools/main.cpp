@@ -8,6 +8,7 @@
 
 #include "core/confinement.hpp"
 #include "core/exception_text.hpp"
+#include "core/file_list.hpp"
 #include "core/printable_line.hpp"
 #include "core/process_state.hpp"
 #include "fibers/kernel/fault_reports.hpp"
@@ -47,6 +48,7 @@ int carry_out(int argc, const char* const* argv, std::vector<genom::ModuleType> 
   kernel::set_call_stack_writer(sync::write_call_stack);
   tools::prefer_errors_to_signals();
   tools::find_tcl();
+  const FileList files;
   try {
     const tools::Options options = tools::read_options(argc, argv, tools::version_text());
     std::optional<Confinement> confinement;

@@ -94,7 +94,8 @@ void Settings::derive(const std::string& key, double value, const std::string& f
   constexpr double tolerance = 1e-6;
   const auto at = std::find_if(settings_.begin(), settings_.end(), [&](const Setting& s) { return s.key == key; });
   if (at == settings_.end()) {
-    settings_.push_back({key, waitpoint::number_text(value), "", 0});
+    // A computed 0 may come out as a number that no setting may have.
+    settings_.push_back({key, waitpoint::number_text(std::fabs(value) < least_nonzero ? 0 : value), "", 0});
     used_.push_back(true);
     return;
   }

@@ -8,6 +8,8 @@
 #include <deque>
 #include <utility>
 
+#include "core/file_list.hpp"
+
 namespace waitpoint::ros1 {
 namespace {
 
@@ -40,6 +42,7 @@ std::optional<std::string> name_in_manifest(const fs::path& manifest) {
   std::error_code failed;
   const std::uintmax_t bytes = fs::file_size(manifest, failed);
   tinyxml2::XMLDocument document;
+  FileList::add(manifest, FileRole::read);
   if (failed || bytes > manifest_bytes_max || document.LoadFile(manifest.c_str()) != tinyxml2::XML_SUCCESS)
     return std::nullopt;
   const tinyxml2::XMLElement* const package = document.FirstChildElement("package");

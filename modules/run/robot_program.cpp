@@ -7,6 +7,8 @@
 #include <filesystem>
 #include <utility>
 
+#include "core/file_list.hpp"
+#include "core/program_path.hpp"
 #include "fibers/kernel/common_order.hpp"
 #include "fibers/kernel/run.hpp"
 #include "fibers/kernel/timers.hpp"
@@ -42,6 +44,9 @@ std::filesystem::path library_of_processes(const scenario::ProgramScenario& prog
 }
 
 HostedProgram hosted(const scenario::ProgramScenario& program, const kernel::Robot& robot) {
+  const std::string& named = program.words.front();
+  const std::filesystem::path file = program.is_shared_object ? std::filesystem::path(named) : find_program(named);
+  if (!file.empty()) FileList::add(file, FileRole::executed);
   HostedProgram hosted{.name = program.name, .robot = robot.name, .words = program.words, .after = program.after};
   if (program.is_shared_object && program.hosting == Hosting::processes) {
     if (!std::filesystem::exists(program.words.front()))

@@ -2,6 +2,7 @@
 #include "modules/scenario/play_reader.hpp"
 
 #include "core/confinement.hpp"
+#include "core/file_list.hpp"
 #include "modules/ros1/graph_name.hpp"
 #include "modules/scenario/nodes_keys.hpp"
 
@@ -30,6 +31,7 @@ void read_bag(const YamlNode& node, PlayScenario& play) {
   play.bag = node.written.resolve(read_text(node, "bag"));
   if (!Confinement::allows(play.bag))
     throw node.written.bad("'" + play.bag.string() + "' lies outside of the folders that --confined allows");
+  FileList::add(play.bag, FileRole::read);  // by a library, when it is played
 }
 
 void read_topics_of(const YamlNode& node, PlayScenario& play) {
@@ -74,6 +76,7 @@ PlayScenario read_play(const YamlNode& node) {
   if (node.find("bag") == nullptr && node.kind == YamlNode::Kind::map)
     throw node.written.bad("expected a bag in play, or the option --play BAG, found none");
   read_object(node, "play", play_keys(), play);
+  for (const std::string& output : play.outputs) FileList::add(output, FileRole::written);
   return play;
 }
 

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "core/digest.hpp"
+#include "core/file_list.hpp"
 #include "core/printable_line.hpp"
 #include "modules/scenario/control_reader.hpp"
 #include "modules/scenario/expectation_reader.hpp"
@@ -139,6 +140,9 @@ void give_folders_to_scripts(Scenario& scenario, const std::vector<std::string>&
     if (!fs::is_directory(folder, error)) throw BadInput("--allow", "there is no folder '" + folder + "'");
     folders.push_back(fs::absolute(folder).string());
   }
+  const auto is_given = [](const RobotScenario& robot) { return robot.script.has_value(); };
+  if (std::none_of(scenario.robots.begin(), scenario.robots.end(), is_given)) return;
+  for (const std::string& folder : folders) FileList::add(folder, FileRole::folder);
   for (RobotScenario& robot : scenario.robots)
     if (robot.script) robot.script->folders = folders;
 }

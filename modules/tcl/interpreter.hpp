@@ -65,6 +65,9 @@ class RobotLink {
   virtual void sleep_until(Time time) = 0;
   /// The absolute folders whose files the script may read and write; relative names are in the first. None: no files.
   virtual std::vector<std::string> folders() const { return {}; }
+  /// The script opens a file of these folders, or names one that it writes. False: an output of the run, which it may
+  /// not use.
+  virtual bool takes_file(const std::string&, bool /*writes*/) { return true; }
   /// A line that the script writes: for people, and for the robot's digest.
   virtual void say(const std::string& line) = 0;
 
@@ -110,7 +113,7 @@ struct Procedure {
 /// The library, loaded.
 struct Library {
   static constexpr const char* file = "libwaitpoint-tcl.so";
-  static constexpr const char* symbol = "waitpoint_tcl_library_5";  ///< with the version of this file
+  static constexpr const char* symbol = "waitpoint_tcl_library_6";  ///< with the version of this file
 
   /// Makes an interpreter, in a task that destroys it again. `seed` is that of rand(), `now` the clock of the running
   /// task.

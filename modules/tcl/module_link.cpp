@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "core/file_list.hpp"
 #include "core/nearest_name.hpp"
 #include "core/printable_line.hpp"
 
@@ -25,6 +26,15 @@ ModuleLink::ModuleLink(genom::NameSpace& names, std::string robot, const std::st
       client_(names, owner),
       say_(std::move(say)),
       folders_(std::move(folders)) {}
+
+bool ModuleLink::takes_file(const std::string& file, bool writes) {
+  try {
+    FileList::add(file, writes ? FileRole::written : FileRole::read);
+  } catch (const BadInput&) {
+    return false;
+  }
+  return true;
+}
 
 std::vector<std::string> ModuleLink::modules() const {
   std::vector<std::string> all;

@@ -28,6 +28,7 @@ class ModuleLink : public RobotLink {
   Time now() const override { return threads::now(); }
   void sleep_until(Time time) override;
   std::vector<std::string> folders() const override { return folders_; }
+  bool takes_file(const std::string& file, bool writes) override;
   void say(const std::string& line) override;
 
  protected:

@@ -26,6 +26,7 @@ LONG = "--long" in sys.argv
 NEEDS = {
     "docs/laas.md": ["libwaitpoint-tcl.so"],
     "docs/laas-tcl.md": ["libwaitpoint-tcl.so"],
+    "docs/trust.md": ["libwaitpoint-tcl.so"],
     "docs/ros.md": ["libwaitpoint-nodes.so", "scenarios/nodes/driver"],
     "docs/ros-bags.md": ["libwaitpoint-nodes.so", "scenarios/nodes/driver"],
     "docs/ros-robots.md": ["libwaitpoint-nodes.so", "scenarios/nodes/driver"],

@@ -2,13 +2,10 @@
 #include "tools/finding/finding_page.hpp"
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
-#include <fstream>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "core/error.hpp"
+#include "core/file_contents.hpp"
 #include "tools/view/compressed_text.hpp"
 #include "tools/view/page.hpp"
 
@@ -27,12 +24,11 @@ bool is_schedule(const Json& schedule) {
 }  // namespace
 
 std::string read_finding(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  std::ostringstream text;
+  constexpr std::size_t bytes_max = std::size_t{1} << 30;
   const std::string expected = "expected a finding, as explore --finding writes it";
-  if (!in) throw BadInput(file.string(), std::string("cannot be read: ") + std::strerror(errno));
-  if (!(text << in.rdbuf())) throw BadInput(file.string(), expected + ", found nothing");
-  const Json json = Json::parse(text.view(), nullptr, false);
+  std::string text = given_file_contents(file, bytes_max);
+  if (text.empty()) throw BadInput(file.string(), expected + ", found nothing");
+  const Json json = Json::parse(text, nullptr, false);
   if (json.is_discarded()) throw BadInput(file.string(), expected + ", found no whole JSON");
   if (!json.is_object() || !json.contains("finding") || !json["finding"].is_object() || !json.contains("header"))
     throw BadInput(file.string(), expected + ", found other JSON");
@@ -46,7 +42,7 @@ std::string read_finding(const std::filesystem::path& file) {
   const Json others = json.value("others", Json::array());
   if (!is_schedule(json) || !others.is_array() || !std::ranges::all_of(others, is_schedule))
     throw BadInput(file.string(), expected + ", found one without events");
-  return std::move(text).str();
+  return text;
 }
 
 std::string page_of_finding(std::string_view finding) {

@@ -4,6 +4,8 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "core/file_list.hpp"
+#include "core/program_path.hpp"
 #include "fibers/clocks/clock_text.hpp"
 #include "fibers/posix/program/record.hpp"
 #include "modules/nodes/robots_air.hpp"
@@ -35,6 +37,8 @@ std::vector<std::string> words_of(const ros1::Node& node, ros1::Packages& packag
     if (!executable) throw node.written.bad(missing(node, packages));
     words.push_back(executable->string());
   }
+  if (const std::filesystem::path program = find_program(words.front()); !program.empty())
+    FileList::add(program, FileRole::executed);
   words.insert(words.end(), node.arguments.begin(), node.arguments.end());
   return words;
 }

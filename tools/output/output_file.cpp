@@ -15,6 +15,7 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "core/file_list.hpp"
 
 namespace waitpoint::tools {
 namespace {
@@ -133,6 +134,7 @@ OutputFile::OutputFile(const fs::path& path) : name_(path.string()), target_(pat
     target_ = fs::canonical(path, error);
     if (error) target_ = path;
   }
+  FileList::add_output(path);
   remove_leftovers(target_);
   open_temporary();
 }
@@ -179,6 +181,7 @@ void OutputFile::flush() {
 }
 
 void OutputFile::show() {
+  if (!temporary_.empty()) FileList::add_output(target_);
   flush();
   errno = error_;
   if (error_ != 0 || (!temporary_.empty() && !rename_temporary())) fail();
@@ -197,6 +200,7 @@ void OutputFile::commit() {
     temporary_.clear();
     return;
   }
+  if (!temporary_.empty()) FileList::add_output(target_);  // it may have been read since
   flush();
   errno = error_;
   if (error_ != 0) fail();

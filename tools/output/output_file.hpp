@@ -7,6 +7,8 @@
 // killed, which the next writer removes. A name of a special file (/dev/null, a pipe) is written directly; "-" is
 // standard output.
 //
+// A file that input names is refused, at the opening and, if it is read later, at the renaming (core/file_list.hpp).
+//
 // A file belongs to the process that made it. In a forked copy, such as the child of a task's fork(), nothing is
 // written, renamed or removed, unless the copy has taken the files over.
 //

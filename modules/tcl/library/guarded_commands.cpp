@@ -27,24 +27,32 @@ bool resolve(const ScriptFiles& files, Tcl_Obj*& word, FileUse use) {
   return path.has_value();
 }
 
-bool resolve_all(const ScriptFiles& files, Words& words, FileUse use) {
-  return std::all_of(words.begin() + 1, words.end(),
-                     [&](Tcl_Obj*& word) { return is_option(word) || resolve(files, word, use); });
+/// The same, of a file that is opened or written.
+bool take(const ScriptFiles& files, Tcl_Obj*& word, FileUse use) {
+  return files.take(std::string(text(word)), use) && resolve(files, word, use);
 }
 
-bool read_all(const ScriptFiles& files, Words& words) { return resolve_all(files, words, FileUse::read); }
-bool write_all(const ScriptFiles& files, Words& words) { return resolve_all(files, words, FileUse::write); }
+// Attributes of files.
+bool read_all(const ScriptFiles& files, Words& words) {
+  return std::all_of(words.begin() + 1, words.end(),
+                     [&](Tcl_Obj*& word) { return is_option(word) || resolve(files, word, FileUse::read); });
+}
+
+bool write_all(const ScriptFiles& files, Words& words) {
+  return std::all_of(words.begin() + 1, words.end(),
+                     [&](Tcl_Obj*& word) { return is_option(word) || take(files, word, FileUse::write); });
+}
 
 // open NAME ?MODE? ?PERMISSIONS?
 bool open_one(const ScriptFiles& files, Words& words) {
   if (words.size() < 2) return true;
   const bool reads = words.size() == 2 || text(words[2]) == "r" || text(words[2]) == "rb" || text(words[2]) == "RDONLY";
-  return resolve(files, words[1], reads ? FileUse::read : FileUse::write);
+  return take(files, words[1], reads ? FileUse::read : FileUse::write);
 }
 
 // source ?-encoding NAME? FILE
 bool read_last(const ScriptFiles& files, Words& words) {
-  return words.size() < 2 || resolve(files, words.back(), FileUse::read);
+  return words.size() < 2 || take(files, words.back(), FileUse::read);
 }
 
 bool leads_out(Tcl_Obj* pattern) {
@@ -92,7 +100,8 @@ struct GuardedName {
 };
 
 constexpr const char* no_file =
-    "a script reads and writes regular files below its scenario's folder, and below those of --allow";
+    "a script reads and writes regular files below its scenario's folder, and below those of --allow, and no output of "
+    "its run";
 constexpr GuardedName guarded_names[] = {
     {"::open", open_one, no_file},
     {"::source", read_last, no_file},
@@ -196,10 +205,12 @@ constexpr const char* deletions = R"(
 
 }  // namespace
 
-void guard_commands(Tcl_Interp* tcl, const std::vector<std::string>& folders) {
+void guard_commands(Tcl_Interp* tcl, RobotLink& link) {
   const char* const library = Tcl_GetVar(tcl, "tcl_library", TCL_GLOBAL_ONLY);
   const std::string own_library = library == nullptr ? "" : library;
-  const auto files = std::make_shared<const ScriptFiles>(folders, own_library);
+  const auto files = std::make_shared<const ScriptFiles>(
+      link.folders(), own_library,
+      [&link](const std::string& file, FileUse use) { return link.takes_file(file, use == FileUse::write); });
   std::vector<std::unique_ptr<Guarded>> all;
   all.reserve(std::size(guarded_names));
   for (const GuardedName& name : guarded_names) {

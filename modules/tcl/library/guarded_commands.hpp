@@ -6,12 +6,11 @@
 
 #include <tcl.h>
 
-#include <string>
-#include <vector>
+#include "modules/tcl/interpreter.hpp"
 
 namespace waitpoint::tcl {
 
-/// In a new interpreter, after Tcl_Init(). `folders` as of ScriptFiles.
-void guard_commands(Tcl_Interp* tcl, const std::vector<std::string>& folders);
+/// In a new interpreter, after Tcl_Init(). The link must outlive it.
+void guard_commands(Tcl_Interp* tcl, RobotLink& link);
 
 }  // namespace waitpoint::tcl

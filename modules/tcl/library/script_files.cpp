@@ -2,6 +2,7 @@
 #include "modules/tcl/library/script_files.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace waitpoint::tcl {
 namespace {
@@ -32,8 +33,8 @@ fs::path canonical(const fs::path& folder) {
 
 }  // namespace
 
-ScriptFiles::ScriptFiles(const std::vector<std::string>& folders, const std::string& library)
-    : library_(canonical(library)) {
+ScriptFiles::ScriptFiles(const std::vector<std::string>& folders, const std::string& library, Take take)
+    : library_(canonical(library)), take_(std::move(take)) {
   own_.reserve(folders.size());
   for (const std::string& folder : folders) own_.push_back(canonical(folder));
   if (!own_.empty()) folder_ = own_.front();
@@ -46,6 +47,12 @@ std::optional<std::string> ScriptFiles::find(const std::string& name, FileUse us
   const bool is_own = std::any_of(own_.begin(), own_.end(), [&](const fs::path& own) { return is_below(own, file); });
   if (!is_own && (use == FileUse::write || !is_below(library_, file))) return std::nullopt;
   return file.string();
+}
+
+std::optional<std::string> ScriptFiles::take(const std::string& name, FileUse use) const {
+  std::optional<std::string> file = find(name, use);
+  if (file && !take_(*file, use)) file.reset();
+  return file;
 }
 
 }  // namespace waitpoint::tcl

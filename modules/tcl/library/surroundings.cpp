@@ -103,10 +103,10 @@ void set_up_process(Time (*now)()) {
   Tcl_FindExecutable(nullptr);
 }
 
-void set_up_interpreter(Tcl_Interp* tcl, std::uint32_t seed, const std::vector<std::string>& folders) {
+void set_up_interpreter(Tcl_Interp* tcl, std::uint32_t seed, RobotLink& link) {
   Tcl_CreateNamespace(tcl, "::waitpoint", nullptr, nullptr);
   Tcl_Eval(tcl, process_script);
-  guard_commands(tcl, folders);
+  guard_commands(tcl, link);
   Tcl_Eval(tcl, script);
   for (const Function& function : functions)
     Tcl_CreateObjCommand(tcl, (std::string("::tcl::mathfunc::") + function.name).c_str(), call_function,

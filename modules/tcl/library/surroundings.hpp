@@ -7,17 +7,15 @@
 #include <tcl.h>
 
 #include <cstdint>
-#include <string>
-#include <vector>
-
 #include "core/time.hpp"
+#include "modules/tcl/interpreter.hpp"
 
 namespace waitpoint::tcl {
 
 /// Before the first interpreter: a notifier without events and threads, and a clock that calls `now`.
 void set_up_process(Time (*now)());
-/// In a new interpreter. `folders` as of ScriptFiles.
-void set_up_interpreter(Tcl_Interp* tcl, std::uint32_t seed, const std::vector<std::string>& folders);
+/// In a new interpreter. The link must outlive it.
+void set_up_interpreter(Tcl_Interp* tcl, std::uint32_t seed, RobotLink& link);
 /// The seed of rand(), from now on.
 void set_seed(Tcl_Interp* tcl, std::uint32_t seed);
 

@@ -34,7 +34,7 @@ bool is_complete(const std::string& text) { return Tcl_CommandComplete(text.c_st
 TaskInterpreter::TaskInterpreter(RobotLink& link, std::uint32_t seed) : link_(link), tcl_(Tcl_CreateInterp()) {
   Tcl_Init(tcl_);
   Tcl_SetRecursionLimit(tcl_, levels_max);
-  set_up_interpreter(tcl_, seed, link_.folders());
+  set_up_interpreter(tcl_, seed, link_);
   add("connect", &TaskInterpreter::connect);
   add("lm", &TaskInterpreter::load_module);
   add("wait", &TaskInterpreter::wait);
@@ -150,6 +150,6 @@ ScriptEnd TaskInterpreter::outcome(int result) {
 
 }  // namespace waitpoint::tcl
 
-extern "C" [[gnu::visibility("default")]] const waitpoint::tcl::Library waitpoint_tcl_library_5 = {
+extern "C" [[gnu::visibility("default")]] const waitpoint::tcl::Library waitpoint_tcl_library_6 = {
     waitpoint::tcl::make, waitpoint::tcl::check, waitpoint::tcl::procedures_of, waitpoint::tcl::check_call,
     waitpoint::tcl::is_complete};

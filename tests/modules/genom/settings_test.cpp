@@ -158,6 +158,15 @@ TEST(Settings, KeysMayHaveAPrefix) {
   settings.check_all_used();
 }
 
+// A corner of a convex outline that was computed, such as -5.6e-17.
+TEST(Settings, DerivedNumbersNextToZeroAreZero) {
+  Settings settings(std::vector<Setting>{});
+  settings.derive("gain", -5.551115123125783e-17, "the shape");
+  Parameters parameters;
+  settings.read(parameters);
+  EXPECT_EQ(parameters.gain, 0);
+}
+
 TEST(Settings, DescribingOnesCollectWhatIsRead) {
   Settings settings = Settings::describing();
   Parameters parameters;
