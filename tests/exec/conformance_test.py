@@ -90,6 +90,8 @@ NOT_MISSED = (
         "__assert_fail": "as the C library's, but among several programs ends its own alone (robots_programs_test.py)",
         "__pthread_once": "only what was linked with an older C library can call it so",
         "clock_settime": "natively it would set the machine's date (command_test.py, Options)",
+        "mmap": "counts the memory that becomes code (library_accesses_test.py)",
+        "mmap64": "as mmap",
         "settimeofday": "natively it would set the machine's date",
         "socket": "says whose it is, among several programs (robots_programs_test.py)",
         "bind": "the same, but on a machine of its own (own_machine_test.py)",

@@ -129,7 +129,7 @@ bool is_repeated(const ZydisDecodedInstruction& instruction) {
 // Without what executes it and where: a copy of it is executed elsewhere.
 AccessInstruction coded(const ZydisDecodedInstruction& instruction, std::uint64_t address, const char* code) {
   AccessInstruction access{};
-  access.offset = address;
+  access.place = address;
   access.base = access.index = access.bit = AccessInstruction::none;
   access.length = instruction.length;
   std::memcpy(access.code, code, instruction.length);
@@ -211,16 +211,17 @@ void add_accesses(const ZydisDecoder& decoder, const Piece& piece, std::span<con
 
 bool has_disassembler() { return true; }
 
-std::vector<AccessInstruction> access_instructions(const std::filesystem::path& program) {
-  std::ifstream file(program, std::ios::binary);
-  const Code code(std::string(std::istreambuf_iterator<char>(file), {}));
+std::vector<AccessInstruction> access_instructions(const std::filesystem::path& file, std::size_t module) {
+  std::ifstream bytes(file, std::ios::binary);
+  const Code code(std::string(std::istreambuf_iterator<char>(bytes), {}));
   ZydisDecoder decoder;
   ZydisDecoderInit(&decoder, ZYDIS_MACHINE_MODE_LONG_64, ZYDIS_STACK_WIDTH_64);
   std::vector<AccessInstruction> found;
   for (const Piece& piece : code.pieces()) add_accesses(decoder, piece, code.bytes(piece), found);
-  std::ranges::sort(found, {}, &AccessInstruction::offset);
-  const auto is_same = [](const AccessInstruction& a, const AccessInstruction& b) { return a.offset == b.offset; };
+  std::ranges::sort(found, {}, &AccessInstruction::place);
+  const auto is_same = [](const AccessInstruction& a, const AccessInstruction& b) { return a.place == b.place; };
   found.erase(std::unique(found.begin(), found.end(), is_same), found.end());
+  for (AccessInstruction& one : found) one.place |= std::uint64_t{module} << AccessInstruction::module_shift;
   return found;
 }
 

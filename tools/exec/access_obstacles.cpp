@@ -6,9 +6,22 @@
 
 namespace waitpoint::tools {
 
+namespace {
+
+const posix::RaceLog* log_of(const posix::Record& record) {
+  return static_cast<const posix::RaceLog*>(common_of(record, posix::family::Part::races));
+}
+
+}  // namespace
+
 AccessObstacle obstacle_of(const posix::Record& record) {
-  const auto* const log = static_cast<const posix::RaceLog*>(common_of(record, posix::family::Part::races));
+  const posix::RaceLog* const log = log_of(record);
   return log != nullptr ? log->obstacle : AccessObstacle::none;
+}
+
+std::uint64_t watched_libraries_of(const posix::Record& record) {
+  const posix::RaceLog* const log = log_of(record);
+  return log != nullptr ? log->libraries : 0;
 }
 
 std::string words_of(AccessObstacle obstacle) {

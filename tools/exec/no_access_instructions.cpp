@@ -9,7 +9,7 @@ namespace waitpoint::tools {
 
 bool has_disassembler() { return false; }
 
-std::vector<posix::AccessInstruction> access_instructions(const std::filesystem::path&) {
+std::vector<posix::AccessInstruction> access_instructions(const std::filesystem::path&, std::size_t) {
   throw BadInput("--switch-at", std::string("accesses cannot be found by this program: ") + missing_part::accesses);
 }
 

@@ -6,9 +6,12 @@
 #include <sys/xattr.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <climits>
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
+#include <iterator>
 #include <sstream>
 #include <string_view>
 #include <vector>
@@ -129,6 +132,62 @@ bool counts_blocks(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
   return has_dynamic_symbol(file, [](const Elf64_Sym& symbol, std::string_view name) {
     return symbol.st_shndx == SHN_UNDEF && name.starts_with("__sanitizer_cov_trace_pc");
+  });
+}
+
+std::string interpreter_of(const std::filesystem::path& program) {
+  std::ifstream file(program, std::ios::binary);
+  Elf64_Phdr part;
+  if (!elf_of(file).find_part(part, [](const Elf64_Phdr& one) { return one.p_type == PT_INTERP; })) return "";
+  std::string name(std::min<std::uint64_t>(part.p_filesz, PATH_MAX), '\0');
+  file.clear();
+  file.seekg(static_cast<std::streamoff>(part.p_offset));
+  return file.read(name.data(), static_cast<std::streamsize>(name.size())) ? name.c_str() : "";
+}
+
+bool needs_library(const std::filesystem::path& path, std::string_view beginning) {
+  std::ifstream file(path, std::ios::binary);
+  return elf_of(file).needs_library(beginning);
+}
+
+// By the number of the call, loaded as the first argument of syscall(), or just before the instruction of that name.
+bool waits_by_futexes(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  bool calls_by_number = false;
+  if (has_dynamic_symbol(file, [&](const Elf64_Sym& symbol, std::string_view name) {
+        calls_by_number = calls_by_number || (symbol.st_shndx == SHN_UNDEF && name == "syscall");
+        return symbol.st_shndx == SHN_UNDEF && name.starts_with("_ZNSt28__atomic_futex_unsigned_base");
+      }))
+    return true;
+  file.clear();
+  file.seekg(0);
+  const std::string bytes(std::istreambuf_iterator<char>(file), {});
+  constexpr std::string_view argument("\xBF\xCA\0\0\0", 5);  // mov $SYS_futex, %edi
+  if (calls_by_number && bytes.find(argument) != std::string::npos) return true;
+  constexpr std::string_view number("\xB8\xCA\0\0\0", 5), call("\x0F\x05", 2);  // mov $SYS_futex, %eax; syscall
+  constexpr std::size_t nearby = 48;
+  for (std::size_t at = bytes.find(number); at != std::string::npos; at = bytes.find(number, at + 1))
+    if (std::string_view(bytes).substr(at, nearby).find(call) != std::string_view::npos) return true;
+  return false;
+}
+
+bool waits_by_calls(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  constexpr std::string_view beginnings[] = {"pthread_mutex_", "pthread_rwlock_",
+                                             "pthread_cond_",  "pthread_barrier_",
+                                             "pthread_spin_",  "sem_",
+                                             "mtx_",           "cnd_"};
+  return has_dynamic_symbol(file, [&](const Elf64_Sym& symbol, std::string_view name) {
+    const auto begins_name = [name](std::string_view beginning) { return name.starts_with(beginning); };
+    return symbol.st_shndx == SHN_UNDEF && std::ranges::any_of(beginnings, begins_name);
+  });
+}
+
+bool makes_threads(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return has_dynamic_symbol(file, [](const Elf64_Sym& symbol, std::string_view name) {
+    return symbol.st_shndx == SHN_UNDEF &&
+           (name == "pthread_create" || name == "thrd_create" || name.starts_with("_ZNSt6thread15_M_start_thread"));
   });
 }
 

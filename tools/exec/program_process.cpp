@@ -3,6 +3,7 @@
 
 #include <sys/personality.h>
 #include <sys/prctl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -13,9 +14,11 @@
 
 #include "core/error.hpp"
 #include "core/program_path.hpp"
+#include "fibers/posix/traps/watched_code.hpp"
 #include "tools/command/installed_part.hpp"
 #include "tools/command/own_command_line.hpp"
 #include "tools/exec/access_instructions.hpp"
+#include "tools/exec/linked_libraries.hpp"
 #include "tools/exec/program_file.hpp"
 
 namespace waitpoint::tools {
@@ -54,7 +57,8 @@ std::filesystem::path checked_program(const std::string& name) {
 
 }  // namespace
 
-ProgramFiles::ProgramFiles(const std::vector<std::string>& given, bool quiet, SwitchAt at)
+ProgramFiles::ProgramFiles(const std::vector<std::string>& given, bool quiet, SwitchAt at,
+                           const std::vector<std::string>& named)
     : programs(given), library(find_part("libwaitpoint-exec.so")) {
   const std::filesystem::path loader = find_part("waitpoint-load");
   for (const ProgramList::Program& one : programs.programs())
@@ -72,8 +76,25 @@ ProgramFiles::ProgramFiles(const std::vector<std::string>& given, bool quiet, Sw
   }
   instrumented = is_instrumented(program);
   if (instrumented) (void)find_part("libtsan.so.2");  // the program would not start without it
-  if (!instrumented && at == SwitchAt::accesses && program != loader) accesses = access_instructions(program);
+  if (!instrumented && at == SwitchAt::accesses && program != loader) {
+    accesses = access_instructions(program);
+    add_libraries(named);
+  }
   if (watches_accesses()) library = find_part("libwaitpoint-exec-races.so");
+}
+
+void ProgramFiles::add_libraries(const std::vector<std::string>& named) {
+  const std::vector<LinkedLibrary> watched = watched_libraries(program, library, named);
+  if (watched.size() >= posix::WatchedCode::modules_max)
+    throw BadInput("--switch-at", "expected at most " + std::to_string(posix::WatchedCode::modules_max - 1) +
+                                      " libraries, found " + std::to_string(watched.size()));
+  for (const LinkedLibrary& one : watched) {
+    struct stat of {};
+    if (stat(one.file.c_str(), &of) != 0) throw BadInput("--switch-at", one.file.string() + " cannot be read");
+    libraries.push_back({of.st_dev, of.st_ino});
+    const std::vector<posix::AccessInstruction> found = access_instructions(one.file, libraries.size());
+    accesses.insert(accesses.end(), found.begin(), found.end());
+  }
 }
 
 std::vector<std::string> ProgramFiles::named() const {

@@ -18,7 +18,9 @@ namespace waitpoint::tools {
 /// The programs' files and the library. BadInput if they are missing, or a program is linked statically.
 struct ProgramFiles {
   /// `quiet`: a session prints no line about its programs' ends, unless one has failed.
-  explicit ProgramFiles(const std::vector<std::string>& words, bool quiet = false, SwitchAt at = SwitchAt::calls);
+  /// `named`: libraries, as for watched_libraries().
+  explicit ProgramFiles(const std::vector<std::string>& words, bool quiet = false, SwitchAt at = SwitchAt::calls,
+                        const std::vector<std::string>& named = {});
 
   /// The files of the programs.
   std::vector<std::string> named() const;
@@ -27,11 +29,16 @@ struct ProgramFiles {
   std::filesystem::path program, library;  ///< of the first process
   std::vector<std::string> words;          ///< its arguments, from its name on
   bool instrumented = false;               ///< with -fsanitize=thread
-  /// Of the first process's program, if it is not instrumented and accesses are to be switch points.
+  /// Of the first process's program and its watched libraries, if it is not instrumented and accesses are to be switch
+  /// points.
   std::vector<posix::AccessInstruction> accesses;
+  std::vector<posix::AccessLibrary> libraries;
 
   /// True if accesses are switch points; the library then includes the runtime of a race detector.
   bool watches_accesses() const { return instrumented || !accesses.empty(); }
+
+ private:
+  void add_libraries(const std::vector<std::string>& named);
 };
 
 /// Additions to the environment of the process: "NAME=VALUE". The record's descriptor is inherited.

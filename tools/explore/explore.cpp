@@ -115,21 +115,35 @@ int end_at_once(ProcessTarget& target, SearchProgress& progress, const Finding& 
   return end_search(target, 1, nullptr, 0, &failure);
 }
 
+// Code whose accesses are no switch points, and are asked for or cannot be.
+std::string unexplored_code(const ProcessTarget& target, const Search& search) {
+  std::string text;
+  if (search.generated_code() > 0)
+    text = fmt::format("; not explored: {} of code generated at run time", counted(search.generated_code(), "byte"));
+  if (search.schedules() == 0 || !words_of(search.obstacle()).empty()) return text;
+  const std::vector<std::string>& asked = target.options().libraries;
+  for (std::size_t i = 0; i < asked.size(); ++i)
+    if ((search.libraries() >> i & 1) == 0)
+      text += "; not explored: " + asked[i] + ", which the program has not loaded before it made a thread";
+  return text;
+}
+
 std::string sum(const ProcessTarget& target, const Search& search, double seconds, bool is_interrupted) {
   const std::string all = search.has_drawn() ? "; exhausted, no other ordering exists" : "; exhaustive";
   const char* const natives = target.options().conditions.children ? "" : "; native children in one timing each";
   const std::string unproved =
       search.unproved().empty() ? "" : "; all schedules, but perhaps not all orders: " + search.unproved();
   const std::string scope = search.scope() ? all + *search.scope() + natives : unproved;
+  const std::string unexplored = unexplored_code(target, search);
   const std::string raced = search.raced() > 0 ? fmt::format(" ({} by a data race alone)", search.raced()) : "";
   const std::string obstacle = words_of(search.obstacle());
   const std::string at_calls = obstacle.empty() ? "" : "; switches at calls only: " + obstacle;
   const auto chance = search.failures() == 0 && !search.scope() ? search.chance_of_news() : std::nullopt;
   const std::string seen = chance ? exploration::to_text(*chance) + "\n" : "";
-  return fmt::format("{}: {}, {} distinct, {} failed{}, in {:.1f} s ({:.1f} a second){}{}{}\n{}", target.name(),
+  return fmt::format("{}: {}, {} distinct, {} failed{}, in {:.1f} s ({:.1f} a second){}{}{}{}\n{}", target.name(),
                      counted(search.schedules(), "schedule"), search.distinct(), search.failures(), raced, seconds,
                      seconds > 0 ? static_cast<double>(search.schedules()) / seconds : 0,
-                     is_interrupted ? "; stopped by a signal" : "", scope, at_calls, seen);
+                     is_interrupted ? "; stopped by a signal" : "", scope, at_calls, unexplored, seen);
 }
 
 // Failures of a graver kind than a data race are analysed without regard to races, which may be in each run.

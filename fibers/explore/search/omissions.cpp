@@ -14,6 +14,7 @@ void Omissions::take(const RunVerdict& verdict, std::span<const Decision> choice
   is_at_calls_ |= verdict.switch_at == SwitchAt::calls;
   has_futexes_ |= verdict.uses_futexes && verdict.switch_at == SwitchAt::calls;
   is_outside_ |= verdict.meets_outside;
+  has_generated_code_ |= verdict.generated_code > 0;
   for (const Decision& decision : choices) {
     turns_ |= decision.spinning != 0;
     costs_ |= decision.choice == Choice::computing && decision.count > 2;
@@ -23,6 +24,7 @@ void Omissions::take(const RunVerdict& verdict, std::span<const Decision> choice
 
 std::string Omissions::unproved() const {
   if (is_outside_) return "the program has waited for what is not simulated";
+  if (has_generated_code_) return "the program generates code, whose accesses are no switch points";
   if (has_futexes_)
     return "the program waits by futexes of its own, and the atomics beside them are switch points with --switch-at "
            "accesses only";

@@ -33,6 +33,7 @@ class Omissions {
   bool is_at_calls_ = false;
   bool has_futexes_ = false;  // of the program's own locks, without switches at their accesses
   bool is_outside_ = false;
+  bool has_generated_code_ = false;
 };
 
 }  // namespace waitpoint::exploration

@@ -165,6 +165,8 @@ void Search::count(Open& open, EndedSchedule& ended) {
     sample_->take(ended.pairs, verdict.switch_at);
   has_races_ |= verdict.has_raced;
   if (obstacle_ == AccessObstacle::none) obstacle_ = verdict.obstacle;
+  generated_code_ = std::max(generated_code_, verdict.generated_code);
+  libraries_ |= verdict.libraries;
   failures_ += !verdict.passed();
   raced_ += verdict.kind == RunVerdict::Kind::race && reports_races_;
   if (ended.finding == nullptr) return;

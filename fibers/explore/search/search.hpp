@@ -56,6 +56,10 @@ class Search {
   std::uint64_t raced() const { return raced_; }
   /// The first one to accesses as switch points, in the order of the schedules.
   AccessObstacle obstacle() const { return obstacle_; }
+  /// The most code that a schedule has made at run time, in bytes.
+  std::uint64_t generated_code() const { return generated_code_; }
+  /// The watched libraries that were loaded in a schedule: a bit for each.
+  std::uint64_t libraries() const { return libraries_; }
   /// The scope of an exhausted search; nothing if it was not.
   const std::optional<std::string>& scope() const { return scope_; }
   /// The reason why all schedules have been tried, and there may be other orders; empty if that is not so.
@@ -106,6 +110,7 @@ class Search {
   std::uint64_t schedules_ = 0, failures_ = 0, raced_ = 0;
   std::optional<std::uint64_t> failure_place_;  // of the failure that ends the search
   AccessObstacle obstacle_ = AccessObstacle::none;
+  std::uint64_t generated_code_ = 0, libraries_ = 0;
 
   std::optional<Feedback> feedback_;
   std::optional<PairSample> sample_;

@@ -38,6 +38,8 @@ struct RunVerdict {
   std::uint64_t order = 0;  ///< equal for runs that differ in nothing but the order of independent events
   Time end = {};            ///< when the run ended, or its failure was certain
   std::uint64_t events = 0, decisions = 0;
+  std::uint64_t generated_code = 0;  ///< bytes of code made at run time, whose accesses are no switch points
+  std::uint64_t libraries = 0;       ///< with accesses as switch points: a bit for each that is watched
 
   bool passed() const { return kind == Kind::passed; }
 };

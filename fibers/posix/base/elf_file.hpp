@@ -31,6 +31,17 @@ class ElfFile {
     return find_part(part, [type](const Elf64_Phdr& one) { return one.p_type == type; });
   }
 
+  /// False if it has no such part; `is_wanted` is a function: bool (const Elf64_Phdr& part).
+  template <class IsWanted>
+  bool find_part(Elf64_Phdr& part, IsWanted is_wanted) const {
+    if (!is_known_) return false;
+    for (std::uint64_t i = 0; i < head_.e_phnum; ++i) {
+      if (!get(head_.e_phoff + i * head_.e_phentsize, part)) return false;
+      if (is_wanted(part)) return true;
+    }
+    return false;
+  }
+
   /// What the dynamic section says; 0 if it says nothing.
   std::uint64_t value(std::int64_t tag) const {
     std::uint64_t value = 0;
@@ -63,16 +74,6 @@ class ElfFile {
   template <class T>
   bool get(std::uint64_t from, T& value) const {
     return read_(&value, sizeof value, from);
-  }
-
-  template <class IsWanted>
-  bool find_part(Elf64_Phdr& part, IsWanted is_wanted) const {
-    if (!is_known_) return false;
-    for (std::uint64_t i = 0; i < head_.e_phnum; ++i) {
-      if (!get(head_.e_phoff + i * head_.e_phentsize, part)) return false;
-      if (is_wanted(part)) return true;
-    }
-    return false;
   }
 
   template <class IsWanted>

@@ -237,7 +237,7 @@ bool look_or_wait(bool may_wait, family::Changes changes) {
   if (wake_ready(true, changes) || came) return true;
   if (!may_wait) return false;
   if (!anybody_waits_outside()) return false;
-  record->meets_outside = true;
+  family::note_outside();
   wait_really(Duration::max());
   take_in_signals_from_outside();
   wake_ready(true, family::of_anything);

@@ -44,6 +44,7 @@ struct Asked {
   std::span<const std::uint64_t> shared = {};
   std::span<const std::uint64_t> code = {};
   std::span<const AccessInstruction> accesses = {};  ///< instructions with breakpoints: begin_access_log()
+  std::span<const AccessLibrary> libraries = {};     ///< the files of those that are not the program's
 
   Memory memory = Memory::sc;  ///< of instrumented code
 

@@ -47,6 +47,7 @@
 #include "fibers/posix/threads/deadlock.hpp"
 #include "fibers/posix/threads/thread.hpp"
 #include "fibers/posix/time/clocks.hpp"
+#include "fibers/posix/traps/generated_code.hpp"
 #include "fibers/posix/traps/library_calls.hpp"
 #include "fibers/posix/traps/processor_counter.hpp"
 #include "fibers/posix/traps/processor_features.hpp"
@@ -159,13 +160,14 @@ kernel::Scheduler& begin_run() {
   reserve_waitables();
   if (record->began) begin_anew();
   if (!family::is_joined()) family::begin();
+  count_generated_code(family::family->generated_code);
   note_caught_signals();
   const Asked* const asked = record->settings.asked;
   if (has_race_runtime()) {
     if (asked == nullptr)
       begin_race_log(false, false, Memory::sc, {});
     else if (!asked->accesses.empty())
-      begin_access_log(asked->learn, asked->notes, asked->accesses, asked->code);
+      begin_access_log(asked->learn, asked->notes, asked->accesses, asked->libraries, asked->code);
     else
       begin_race_log(asked->learn, asked->notes, asked->memory, asked->code);
   }

@@ -160,7 +160,7 @@ struct Pace {
 };
 
 struct alignas(Arena::alignment) Family {
-  static constexpr std::uint64_t mark_of_version = 0x777066616D303033;  // "wpfam003"
+  static constexpr std::uint64_t mark_of_version = 0x777066616D303034;  // "wpfam004"
   std::uint64_t mark = mark_of_version;
   Settings settings;
   RunFile file;
@@ -179,6 +179,9 @@ struct alignas(Arena::alignment) Family {
   bool is_cut_off = false;  ///< or those left over after the end of the first end without a report
   bool is_idle = false;     ///< or the idle limit was reached: each reports its threads
   bool is_reported = false;
+  bool uses_futexes = false;         ///< a process, by itself: then its atomics order threads, and they are no events
+  bool meets_outside = false;        ///< a process has waited for what is not simulated
+  std::uint64_t generated_code = 0;  ///< see traps/generated_code.hpp; in bytes, of all processes
   std::atomic<std::uint32_t> holder = 0;  ///< the index of the process that has the turn
   std::atomic<pid_t> leaving = 0;  ///< the system's number of a process that has ended, as far as its own code goes
   std::uint64_t digest_of_ended = 0;
@@ -204,6 +207,14 @@ inline std::span<const Process> entries_of(const Family& all) {
   return {static_cast<const Process*>(all.processes), std::min<std::size_t>(all.entries, processes_max)};
 }
 inline std::span<Process> entries() { return entries_of(*family); }
+
+/// Notes that a process waits by futexes of its own, or has waited for what is not simulated.
+inline void note_own_futexes() {
+  if (family != nullptr) family->uses_futexes = true;
+}
+inline void note_outside() {
+  if (family != nullptr) family->meets_outside = true;
+}
 
 /// The shared state of a part, zeroed at the first call with a size; before that null.
 void* common(Part part, std::size_t bytes);

@@ -258,12 +258,20 @@ std::optional<long> call_about_sockets(long number, const CallWords& words) {
   }
 }
 
+// By which memory becomes code.
+std::optional<long> call_about_memory(long number, const CallWords& words) {
+  switch (number) {
+    case SYS_mmap: return words.call(mmap);
+    case SYS_mprotect: return words.call(mprotect);
+    default: return std::nullopt;
+  }
+}
+
 // Of the process's memory, which no event is about, of the thread's own state, or of what does not change.
 bool has_no_footprint(long number) {
   constexpr long numbers[] = {
-      SYS_mmap,  SYS_munmap,  SYS_mremap,   SYS_mprotect,        SYS_madvise,         SYS_brk,
-      SYS_mlock, SYS_munlock, SYS_rseq,     SYS_set_robust_list, SYS_get_robust_list, SYS_arch_prctl,
-      SYS_uname, SYS_fsync,   SYS_fdatasync};
+      SYS_munmap,          SYS_mremap,          SYS_madvise,    SYS_brk,   SYS_mlock, SYS_munlock,  SYS_rseq,
+      SYS_set_robust_list, SYS_get_robust_list, SYS_arch_prctl, SYS_uname, SYS_fsync, SYS_fdatasync};
   return std::find(std::begin(numbers), std::end(numbers), number) != std::end(numbers);
 }
 
@@ -272,8 +280,9 @@ bool has_no_footprint(long number) {
 // What a call that goes to the system does is not known here: in an exploration it depends on every other event.
 long simulated_call(long number, const CallWords& words) {
   const CancellationDisabled disabled;
-  for (const auto about : {call_about_threads, call_about_scheduling, call_about_time, call_about_ipc,
-                           call_about_processes, call_about_descriptors, call_about_sockets, call_about_files})
+  for (const auto about :
+       {call_about_threads, call_about_scheduling, call_about_time, call_about_ipc, call_about_processes,
+        call_about_descriptors, call_about_sockets, call_about_files, call_about_memory})
     if (const std::optional<long> result = about(number, words)) return *result;
   if (number == SYS_io_uring_setup) note_unrepeatable("io_uring_setup()");
   if (number == SYS_perf_event_open) note_unrepeatable("perf_event_open()");

@@ -101,8 +101,6 @@ struct alignas(64) Record {
   // Written by the program.
   bool began = false;  ///< the scheduler exists
   Ending ending = Ending::own;
-  bool uses_futexes = false;   ///< the program, by itself: then its atomics order threads, and they are no events
-  bool meets_outside = false;  ///< it has waited for what is not simulated
   Explored* explored = nullptr;
   HistoryRecorder* recorder = nullptr;  ///< if events are asked for
   Arena arena;                          ///< the rest of the file, behind this record

@@ -109,8 +109,8 @@ struct Thread {
 /// True if `thread` was cancelled, has cancellation enabled, and is not exiting already.
 inline bool is_to_leave(const Thread& thread) { return thread.cancelled && !thread.cancel_disabled && !thread.exiting; }
 
-/// Called, unless null, before the process makes its first thread besides that of main().
-extern void (*before_first_thread)();
+/// Called, unless null, before the process makes a thread.
+extern void (*before_thread)();
 
 /// The entry of a thread's task: calls its body.
 void run_thread(void* thread);

@@ -63,16 +63,18 @@ void begin_race_log(bool learn, bool notes, Memory memory, std::span<const std::
 }
 
 void begin_access_log(bool learn, bool notes, std::span<const AccessInstruction> instructions,
-                      std::span<const std::uint64_t> code) {
+                      std::span<const AccessLibrary> libraries, std::span<const std::uint64_t> code) {
   static constexpr races::Listener without_races = {[](const races::FoundRace&) {}, listener.learned,
                                                     listener.unlearned, listener.left_out_value};
   begin_log(learn, notes, without_races);
   const races::Runtime& runtime = *waitpoint_races_runtime();
   runtime.set_weak(false);
-  for (const std::uint64_t offset : code) runtime.know(offset);
+  for (const std::uint64_t place : code) runtime.know(place);
   // By time: a breakpoint takes some microseconds.
   constexpr std::uint32_t of_one_max = 1'000, learning_max = 20'000, exploring_max = 6'000, spins_max = 20'000;
   trap_accesses({.instructions = instructions,
+                 .libraries = libraries,
+                 .loaded = [](std::uint64_t loaded) { log().libraries = loaded; },
                  .report = runtime.accessed,
                  .let_others_run = kernel::yield_after_computing,
                  .missed = [] { log().has_other_code = log().has_lost_breakpoints = true; },

@@ -31,6 +31,7 @@ struct RaceLog {
   bool has_left_out_values = false;   ///< in weak memory, a load was not offered a value that it may have returned
   bool has_lost_breakpoints = false;  ///< some were removed, as there were too many hits
   AccessObstacle obstacle = AccessObstacle::none;  ///< to breakpoints
+  std::uint64_t libraries = 0;                     ///< with breakpoints: a bit for each that was asked for
 };
 
 /// True if this library is the one with the runtime, which instrumented programs load.
@@ -40,8 +41,8 @@ bool has_race_runtime();
 /// `code` comes from an earlier run.
 void begin_race_log(bool learn, bool notes, Memory memory, std::span<const std::uint64_t> code);
 /// The same for a program that is not instrumented, by breakpoints at these instructions: atomic operations that are
-/// plain instructions cannot be told from others, so that no races are logged. `code` are offsets.
+/// plain instructions cannot be told from others, so that no races are logged. `code` are places.
 void begin_access_log(bool learn, bool notes, std::span<const AccessInstruction> instructions,
-                      std::span<const std::uint64_t> code);
+                      std::span<const AccessLibrary> libraries, std::span<const std::uint64_t> code);
 
 }  // namespace waitpoint::posix

@@ -10,6 +10,7 @@
 #include "fibers/posix/base/error_number.hpp"
 #include "fibers/posix/base/interposed.hpp"
 #include "fibers/posix/descriptors/descriptors.hpp"
+#include "fibers/posix/family/family.hpp"
 #include "fibers/posix/program/program.hpp"
 #include "fibers/posix/program/waiting.hpp"
 #include "fibers/posix/program/word.hpp"
@@ -40,7 +41,7 @@ Wait wait_at(Word& word, Time deadline) {
 long wait(std::uint32_t* address, std::uint32_t expected, Time deadline, std::uint32_t mask, Of of) {
   if (mask == 0) return fail(EINVAL);
   if (!is_simulated()) refuse("a thread waits before main() begins");
-  record->uses_futexes = true;
+  family::note_own_futexes();
   Word& word = word_at(address);
   pass(kernel::Operation::wait, &word.object);
   for (;;) {
@@ -77,7 +78,7 @@ std::uint32_t count_waiters(const Word& word) {
 long wake(std::uint32_t* address, std::uint32_t most, std::uint32_t mask, Of of) {
   if (mask == 0) return fail(EINVAL);
   if (!is_simulated()) return 0;
-  record->uses_futexes = true;
+  family::note_own_futexes();
   Word& word = word_at(address);
   pass(kernel::Operation::notify_one, &word.object);
   const std::uint32_t own = of == Of::family ? count_waiters(word) : 0;

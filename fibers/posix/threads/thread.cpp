@@ -45,7 +45,7 @@ void __pthread_register_cancel(__pthread_unwind_buf_t* buffer);
 
 namespace waitpoint::posix {
 
-void (*before_first_thread)() = nullptr;
+void (*before_thread)() = nullptr;
 
 namespace {
 
@@ -231,7 +231,7 @@ void end_other_threads(const Program& program, kernel::Scheduler& scheduler) {
 int create(pthread_t* id, const pthread_attr_t* attributes, StartRoutine start, bool is_c11, void* argument) {
   if (!is_simulated()) refuse("a thread is made before main() begins");
   trap_open_mp();
-  if (before_first_thread != nullptr) before_first_thread();
+  if (before_thread != nullptr) before_thread();
   Thread* const thread = make_thread(this_program());
   if (thread == nullptr) return EAGAIN;
   thread->start = start;

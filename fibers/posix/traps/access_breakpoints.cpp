@@ -17,11 +17,12 @@
 #include "fibers/posix/program/program.hpp"
 #include "fibers/posix/program/thread.hpp"
 #include "fibers/posix/signals/signals.hpp"
-#include "fibers/posix/traps/instruction_copies.hpp"
+#include "fibers/posix/traps/library_range.hpp"
 #include "fibers/posix/traps/memory_peek.hpp"
 #include "fibers/posix/traps/report_stacks.hpp"
 #include "fibers/posix/traps/signal_frame.hpp"
 #include "fibers/posix/traps/spinning.hpp"
+#include "fibers/posix/traps/watched_code.hpp"
 
 namespace waitpoint::posix {
 namespace {
@@ -42,45 +43,31 @@ struct Tables {
 };
 
 Breakpoints asked{};
+WatchedCode code;
 Tables* tables = nullptr;
 std::size_t table_bytes = 0;
-InstructionCopies copies;
 ReportStacks stacks;
-std::uint64_t loaded_at = 0;
 std::uint32_t hits = 0, spins = 0;
 bool is_trapped = false, is_prevented = false;
-
-std::uint8_t* code_at(const AccessInstruction& instruction) {
-  return reinterpret_cast<std::uint8_t*>(loaded_at + instruction.offset);
-}
-
-// Notes where the program, which is the first, was loaded; 2 if some of its code is writable.
-int look_at_program(dl_phdr_info* program, std::size_t, void*) {
-  loaded_at = program->dlpi_addr;
-  for (int i = 0; i < program->dlpi_phnum; ++i)
-    if (constexpr unsigned both = PF_W | PF_X;
-        program->dlpi_phdr[i].p_type == PT_LOAD && (program->dlpi_phdr[i].p_flags & both) == both)
-      return 2;
-  return 1;
-}
+unsigned long long loaded_before = 0;
 
 // Its own, not a jump to another's, by which it may know the address, too.
 bool defines_allocator() {
-  Dl_info of_allocator{}, of_program{};
+  Dl_info of_allocator{};
   const ElfW(Sym)* symbol = nullptr;
   if (dladdr1(dlsym(RTLD_DEFAULT, "malloc"), &of_allocator, const_cast<void**>(reinterpret_cast<const void**>(&symbol)),
-              RTLD_DL_SYMENT) == 0 ||
-      dladdr(code_at(asked.instructions.front()), &of_program) == 0)
+              RTLD_DL_SYMENT) == 0)
     return false;
-  return of_allocator.dli_fbase == of_program.dli_fbase && symbol != nullptr && symbol->st_shndx != SHN_UNDEF;
+  return code.is_base(of_allocator.dli_fbase) && symbol != nullptr && symbol->st_shndx != SHN_UNDEF;
 }
 
-AccessObstacle obstacle_before() {
-  if (program_now().signals.is_handled(SIGTRAP)) return AccessObstacle::trap_handler;
-  if (dl_iterate_phdr(look_at_program, nullptr) == 2) return AccessObstacle::changed_code;
-  for (const AccessInstruction& one : asked.instructions)
-    if (std::memcmp(code_at(one), one.code, one.length) != 0) return AccessObstacle::changed_code;
-  if (defines_allocator()) return AccessObstacle::allocator;
+// Of modules that were not loaded before.
+AccessObstacle obstacle_in_code() {
+  switch (code.find_loaded()) {
+    case WatchedCode::Found::good: return defines_allocator() ? AccessObstacle::allocator : AccessObstacle::none;
+    case WatchedCode::Found::changed: return AccessObstacle::changed_code;
+    case WatchedCode::Found::no_memory: return AccessObstacle::no_memory;
+  }
   return AccessObstacle::none;
 }
 
@@ -89,36 +76,25 @@ void set_access_to_code_at(std::uint64_t page, int access) {
                   "the protection of the program's code cannot be changed");
 }
 
-// Changes the first bytes of these instructions; page by page.
-template <class Change>
-void change_code(std::size_t from, std::size_t to, Change change) {
+// Changes the first bytes of those of these instructions that are to be `set`, or not; page by page.
+void place_breakpoints(std::size_t from, std::size_t to, bool set) {
   std::uint64_t writable = 0;
   for (std::size_t i = from; i < to; ++i) {
-    const std::uint64_t page = reinterpret_cast<std::uint64_t>(code_at(asked.instructions[i])) & ~(page_bytes - 1);
+    if (tables->placed[i].is_set == set || !code.is_loaded(i)) continue;
+    const std::uint64_t page = code.address_of(i) & ~(page_bytes - 1);
     if (page != writable && writable != 0) set_access_to_code_at(writable, PROT_READ | PROT_EXEC);
     if (page != writable) set_access_to_code_at(page, PROT_READ | PROT_WRITE | PROT_EXEC);
     writable = page;
-    change(i);
+    tables->placed[i].is_set = set;
+    *code.at(i) = set ? breakpoint : code[i].code[0];
   }
   if (writable != 0) set_access_to_code_at(writable, PROT_READ | PROT_EXEC);
 }
 
-void set_breakpoints() {
-  change_code(0, asked.instructions.size(), [](std::size_t i) {
-    tables->placed[i].is_set = true;
-    *code_at(asked.instructions[i]) = breakpoint;
-  });
-}
-
-void remove_breakpoints(std::size_t from, std::size_t to) {
-  change_code(from, to, [](std::size_t i) {
-    if (tables->placed[i].is_set) *code_at(asked.instructions[i]) = asked.instructions[i].code[0];
-    tables->placed[i].is_set = false;
-  });
-}
+void remove_breakpoints(std::size_t from, std::size_t to) { place_breakpoints(from, to, false); }
 
 bool make_tables() {
-  table_bytes = sizeof(Tables) + asked.instructions.size() * sizeof(Breakpoint);
+  table_bytes = sizeof(Tables) + code.size() * sizeof(Breakpoint);
   const long memory = call_directly(SYS_mmap, 0, static_cast<long>(table_bytes), PROT_READ | PROT_WRITE,
                                     MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
   if (memory < 0 && memory > -4096) return false;
@@ -126,37 +102,41 @@ bool make_tables() {
   return true;
 }
 
-void set_all() {
-  before_first_thread = nullptr;
-  AccessObstacle obstacle = obstacle_before();
-  if (obstacle == AccessObstacle::none &&
-      !(make_tables() && stacks.make() && copies.make(asked.instructions, loaded_at)))
-    obstacle = AccessObstacle::no_memory;
-  if (obstacle != AccessObstacle::none) {
-    is_prevented = true;
-    return asked.prevented(obstacle);
+bool begin_traps() {
+  if (program_now().signals.is_handled(SIGTRAP)) {
+    asked.prevented(AccessObstacle::trap_handler);
+    return false;
+  }
+  if (!make_tables() || !stacks.make()) {
+    asked.prevented(AccessObstacle::no_memory);
+    return false;
   }
   is_trapped = true;
   install(SIGTRAP);
-  set_breakpoints();
+  return true;
 }
 
-// The number of the first instruction at or behind this address; that of all if there is none.
-std::size_t instruction_from(std::uint64_t address) {
-  const auto all = asked.instructions;
-  const auto found = std::lower_bound(
-      all.begin(), all.end(), address - loaded_at,
-      [](const AccessInstruction& instruction, std::uint64_t offset) { return instruction.offset < offset; });
-  return static_cast<std::size_t>(found - all.begin());
+// Libraries may be loaded later, before a further thread is made.
+void set_breakpoints() {
+  if (is_prevented || (!is_trapped && !begin_traps())) {
+    is_prevented = true;
+    before_thread = nullptr;
+    return;
+  }
+  const unsigned long long loaded = libraries_loaded();
+  if (loaded == loaded_before) return;
+  loaded_before = loaded;
+  if (const AccessObstacle obstacle = obstacle_in_code(); obstacle != AccessObstacle::none) {
+    before_thread = nullptr;
+    return prevent_breakpoints(obstacle);
+  }
+  place_breakpoints(0, code.size(), true);
+  asked.loaded(code.loaded());
+  if (code.are_all_loaded()) before_thread = nullptr;
 }
 
-bool is_code(std::uint64_t address, std::uint64_t bytes) {
-  if (address < loaded_at) return false;
-  const std::size_t i = instruction_from(address);
-  return i < asked.instructions.size() && loaded_at + asked.instructions[i].offset - address < bytes;
-}
-
-std::uint64_t address_of(const AccessInstruction& instruction, const greg_t* registers) {
+std::uint64_t operand_of(std::size_t i, const greg_t* registers) {
+  const AccessInstruction& instruction = code[i];
   auto address = static_cast<std::uint64_t>(instruction.displacement);
   if (instruction.base != AccessInstruction::none) address += static_cast<std::uint64_t>(registers[instruction.base]);
   if (instruction.index != AccessInstruction::none)
@@ -168,7 +148,7 @@ std::uint64_t address_of(const AccessInstruction& instruction, const greg_t* reg
     const std::int64_t word = bit >> (instruction.bytes == 8 ? 6 : instruction.bytes == 4 ? 5 : 4);
     address += static_cast<std::uint64_t>(word * instruction.bytes);
   }
-  return instruction.is_absolute ? address + loaded_at : address;
+  return instruction.is_absolute ? address + code.loaded_at(i) : address;
 }
 
 Spinning& spinning_of(const Thread& thread) {
@@ -181,7 +161,7 @@ bool count_hit(std::size_t i) {
   const bool is_last_of_one = ++tables->placed[i].hits >= asked.hits_of_one_max;
   if (!is_last && !is_last_of_one) return true;
   asked.missed();
-  remove_breakpoints(is_last ? 0 : i, is_last ? asked.instructions.size() : i + 1);
+  remove_breakpoints(is_last ? 0 : i, is_last ? code.size() : i + 1);
   return false;
 }
 
@@ -189,9 +169,9 @@ bool count_hit(std::size_t i) {
 // as on several processors.
 void report_both(const AccessInstruction& instruction, std::uint64_t address) {
   std::uint8_t before[64], now[64];
-  asked.report(address, instruction.bytes, false, false, instruction.offset);
+  asked.report(address, instruction.bytes, false, false, instruction.place);
   const bool is_readable = peek(address, before, instruction.bytes);
-  asked.report(address, instruction.bytes, true, false, instruction.offset);
+  asked.report(address, instruction.bytes, true, false, instruction.place);
   if (is_readable && peek(address, now, instruction.bytes) && std::memcmp(now, before, instruction.bytes) != 0)
     (void)poke(address, before, instruction.bytes);
 }
@@ -206,39 +186,39 @@ std::uint64_t bytes_of(const AccessInstruction& instruction, const greg_t* regis
 }
 
 void report(std::size_t i, const greg_t* registers) {
-  const AccessInstruction& instruction = asked.instructions[i];
-  const std::uint64_t address = address_of(instruction, registers), bytes = bytes_of(instruction, registers);
+  const AccessInstruction& instruction = code[i];
+  const std::uint64_t address = operand_of(i, registers), bytes = bytes_of(instruction, registers);
   const auto source = static_cast<std::uint64_t>(registers[REG_RSI]);
-  if (is_code(address, bytes) || (instruction.copies && is_code(source, bytes)))
+  if (code.has_within(address, bytes) || (instruction.copies && code.has_within(source, bytes)))
     return prevent_breakpoints(AccessObstacle::own_code);
   Thread& thread = this_thread();
   const bool spins_here =
       instruction.reads && !instruction.is_repeated &&
-      spinning_of(thread).reads(thread.id, thread.task->sequence, instruction.offset, address, bytes);
+      spinning_of(thread).reads(thread.id, thread.task->sequence, instruction.place, address, bytes);
   if (spins_here) {
     ++spins;
     --hits;
     --tables->placed[i].hits;
     asked.let_others_run();
   } else if (bytes != 0) {
-    if (instruction.copies) asked.report(source, static_cast<std::uint32_t>(bytes), false, false, instruction.offset);
+    if (instruction.copies) asked.report(source, static_cast<std::uint32_t>(bytes), false, false, instruction.place);
     if (instruction.reads && instruction.writes && !instruction.is_locked)
       report_both(instruction, address);
     else
       asked.report(address, static_cast<std::uint32_t>(bytes), instruction.writes, instruction.is_locked,
-                   instruction.offset);
+                   instruction.place);
   }
   if (!is_prevented) spinning_of(thread).passed(thread.task->sequence);
 }
 
 // The number of the instruction before which the context is.
 std::size_t instruction_of(const ucontext_t* context) {
-  return instruction_from(static_cast<std::uint64_t>(context->uc_mcontext.gregs[REG_RIP]));
+  return code.number_at(static_cast<std::uint64_t>(context->uc_mcontext.gregs[REG_RIP]));
 }
 
 void go_on_in_copy(ucontext_t* context) {
   if (is_prevented) return;
-  context->uc_mcontext.gregs[REG_RIP] = static_cast<greg_t>(copies.of(instruction_of(context)));
+  context->uc_mcontext.gregs[REG_RIP] = static_cast<greg_t>(code.copy_of(instruction_of(context)));
 }
 
 // Stacks are unwound from here if the thread is cancelled: the context is that of the program's own code until then.
@@ -272,7 +252,9 @@ void report_and_return(siginfo_t* information, ucontext_t* context) {
 void trap_accesses(const Breakpoints& breakpoints) {
   if (breakpoints.instructions.empty()) return;
   asked = breakpoints;
-  before_first_thread = set_all;
+  code.watch(asked.instructions, asked.libraries);
+  loaded_before = 0;
+  before_thread = set_breakpoints;
 }
 
 bool are_accesses_trapped() { return is_trapped; }
@@ -281,18 +263,18 @@ void prevent_breakpoints(AccessObstacle obstacle) {
   if (!is_trapped || is_prevented) return;
   is_prevented = true;
   asked.prevented(obstacle);
-  remove_breakpoints(0, asked.instructions.size());
+  remove_breakpoints(0, code.size());
 }
 
 void prevent_breakpoints_in(const void* begin, std::size_t bytes) {
-  if (is_trapped && is_code(reinterpret_cast<std::uint64_t>(begin), bytes))
+  if (is_trapped && code.has_within(reinterpret_cast<std::uint64_t>(begin), bytes))
     prevent_breakpoints(AccessObstacle::changed_code);
 }
 
 void restore_code() {
   if (!is_trapped) return;
-  if (!is_prevented) remove_breakpoints(0, asked.instructions.size());
-  copies.remove();
+  if (!is_prevented) remove_breakpoints(0, code.size());
+  code.leave();
   stacks.remove();
   call_directly(SYS_munmap, reinterpret_cast<long>(tables), static_cast<long>(table_bytes));
   is_trapped = false;
@@ -302,10 +284,10 @@ bool answer_access(siginfo_t* information, ucontext_t* context) {
   if (!is_trapped || information->si_code <= 0) return false;
   greg_t* const registers = context->uc_mcontext.gregs;
   const std::uint64_t at = static_cast<std::uint64_t>(registers[REG_RIP]) - 1;
-  const std::size_t i = instruction_from(at);
-  if (i == asked.instructions.size() || loaded_at + asked.instructions[i].offset != at) return false;
-  if (*code_at(asked.instructions[i]) == breakpoint && !tables->placed[i].is_set) return false;  // the program's own
-  registers[REG_RIP] = static_cast<greg_t>(tables->placed[i].is_set ? copies.of(i) : at);
+  const std::size_t i = code.number_at(at);
+  if (i == code.size()) return false;
+  if (*code.at(i) == breakpoint && !tables->placed[i].is_set) return false;  // the program's own
+  registers[REG_RIP] = static_cast<greg_t>(tables->placed[i].is_set ? code.copy_of(i) : at);
   if (!is_simulated() || !tables->placed[i].is_set || !count_hit(i)) return true;
   void* const stack = stacks.take();
   if (stack == nullptr) return true;
@@ -315,7 +297,7 @@ bool answer_access(siginfo_t* information, ucontext_t* context) {
 
 void leave_copies(ucontext_t* context) {
   greg_t& place = context->uc_mcontext.gregs[REG_RIP];
-  if (is_trapped) place = static_cast<greg_t>(copies.original_of(static_cast<std::uint64_t>(place)));
+  if (is_trapped) place = static_cast<greg_t>(code.original_of(static_cast<std::uint64_t>(place)));
 }
 
 bool is_on_stack_of_traps(const ucontext_t* context) { return is_trapped && stacks.is_of_system(context); }

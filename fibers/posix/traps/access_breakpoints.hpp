@@ -8,7 +8,8 @@
 //        +------------------------- ... the program's code <-- jump <--------------------------+
 //
 // The program's own stacks are not used meanwhile, as they may be small; its handlers of signals are run after the
-// report, where the system would. They are set when the program makes its first thread: before, nothing is shared.
+// report, where the system would. They are set when the program makes its first thread: before, nothing is shared; in
+// libraries that are loaded later, when it makes the next one.
 #pragma once
 
 #include <signal.h>
@@ -22,16 +23,19 @@
 
 namespace waitpoint::posix {
 
-/// Reports the access of `bytes` at `address` by the instruction with the offset `place`; other threads may run.
+/// Reports the access of `bytes` at `address` by the instruction with this `place`; other threads may run.
 using ReportAccess = void (*)(std::uint64_t address, std::uint32_t bytes, bool writes, bool is_atomic,
                               std::uint64_t place);
 
-/// The breakpoints to set; the memory of `instructions`, in the order of their offsets, must stay. Where a thread spins
+/// The breakpoints to set; the memory of `instructions`, in the order of their places, and of `libraries` must stay.
+/// `loaded` is called with a bit for each library that has breakpoints, the lowest for the first. Where a thread spins
 /// (spinning.hpp) `let_others_run` is called. After `hits_of_one_max` hits of one it is removed, after `hits_max` of
 /// all they all are, and `missed` is called: a long loop must end. Threads that spin have as many hits for themselves.
 /// If there is an obstacle, it is told, and there are no breakpoints from then on.
 struct Breakpoints {
   std::span<const AccessInstruction> instructions;
+  std::span<const AccessLibrary> libraries;
+  void (*loaded)(std::uint64_t libraries);
   ReportAccess report;
   void (*let_others_run)();
   void (*missed)();

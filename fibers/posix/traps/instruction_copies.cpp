@@ -46,7 +46,7 @@ bool InstructionCopies::make(std::span<const AccessInstruction> instructions, st
   const std::uint64_t bytes = (instructions.size() * copy_bytes + page_bytes - 1) / page_bytes * page_bytes;
   instructions_ = instructions;
   loaded_at_ = loaded_at;
-  begin_ = memory_near((loaded_at + instructions.front().offset) & ~(page_bytes - 1), bytes);
+  begin_ = memory_near((loaded_at + instructions.front().offset()) & ~(page_bytes - 1), bytes);
   end_ = begin_ + bytes;
   if (begin_ == 0) return false;
   for (std::size_t i = 0; i < instructions.size(); ++i) {
@@ -56,7 +56,7 @@ bool InstructionCopies::make(std::span<const AccessInstruction> instructions, st
     if (one.is_absolute)
       put_distance(copy + one.displacement_at, behind, loaded_at + static_cast<std::uint64_t>(one.displacement));
     put(behind, &jump, sizeof jump);
-    put_distance(behind + sizeof jump, behind + jump_bytes, loaded_at + one.offset + one.length);
+    put_distance(behind + sizeof jump, behind + jump_bytes, loaded_at + one.offset() + one.length);
   }
   return call_directly(SYS_mprotect, static_cast<long>(begin_), static_cast<long>(bytes), PROT_READ | PROT_EXEC) == 0;
 }
@@ -71,7 +71,7 @@ std::uint64_t InstructionCopies::original_of(std::uint64_t place) const {
   const std::uint64_t i = (place - begin_) / copy_bytes;
   if (i >= instructions_.size()) return place;
   const AccessInstruction& one = instructions_[i];
-  return loaded_at_ + one.offset + (place == of(i) ? 0 : one.length);
+  return loaded_at_ + one.offset() + (place == of(i) ? 0 : one.length);
 }
 
 }  // namespace waitpoint::posix

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Copies of a program's instructions, each followed by a jump back to behind the original: where that is replaced by a
+// Copies of a module's instructions, each followed by a jump back to behind the original: where that is replaced by a
 // breakpoint, the copy is executed.
 #pragma once
 
@@ -12,13 +12,13 @@ namespace waitpoint::posix {
 
 class InstructionCopies {
  public:
-  /// Of a program that is loaded at this address; false without memory that its code can reach.
+  /// Of a module that is loaded at this address; false without memory that its code can reach.
   bool make(std::span<const AccessInstruction> instructions, std::uint64_t loaded_at);
   void remove();
 
   /// The address of the copy of an instruction, by its number.
   std::uint64_t of(std::size_t instruction) const { return begin_ + instruction * copy_bytes; }
-  /// For a place within the copies, that in the program's code where execution is; any other remains.
+  /// For a place within the copies, that in the module's code where execution is; any other remains.
   std::uint64_t original_of(std::uint64_t place) const;
 
  private:

@@ -6,6 +6,7 @@
 #include <elf.h>
 #include <sys/auxv.h>
 #include <sys/mman.h>
+#include <sys/syscall.h>
 #include <sys/time.h>
 
 #include <cerrno>
@@ -14,6 +15,7 @@
 #include <cstring>
 
 #include "core/error.hpp"
+#include "fibers/posix/base/direct_call.hpp"
 #include "fibers/posix/base/error_number.hpp"
 #include "fibers/posix/base/interposed.hpp"
 #include "fibers/posix/program/program.hpp"
@@ -134,7 +136,7 @@ void replace_vdso() {
   std::memcpy(copy, header, size);
   replace_functions(static_cast<char*>(copy), size);
   void* const place = const_cast<Elf64_Ehdr*>(header);
-  if (mprotect(copy, size, PROT_READ | PROT_EXEC) != 0 ||
+  if (call_directly(SYS_mprotect, reinterpret_cast<long>(copy), static_cast<long>(size), PROT_READ | PROT_EXEC) != 0 ||
       mremap(copy, size, size, MREMAP_MAYMOVE | MREMAP_FIXED, place) == MAP_FAILED)
     munmap(copy, size);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// mprotect().
+// mprotect(), mmap().
 #include "tests/exec/conformance/signals.h"
 
 #include <errno.h>
@@ -28,6 +28,10 @@ CASE(a_write_to_a_protected_page_is_a_fault_until_it_is_allowed) {
   EXPECT_IS(page[3], 2);
 }
 CASE(an_address_within_a_page_cannot_be_protected) { EXPECT_FAILS(mprotect(a_page() + 1, 1, PROT_READ), EINVAL); }
+CASE(memory_of_no_size_cannot_be_mapped) {
+  EXPECT_FAILS(mmap(NULL, 0, PROT_READ, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0) == MAP_FAILED ? -1 : 0, EINVAL);
+  EXPECT_FAILS(mmap64(NULL, 0, PROT_READ, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0) == MAP_FAILED ? -1 : 0, EINVAL);
+}
 CASE(what_is_not_mapped_cannot_be_protected) {
   char* const gone = a_page();
   munmap(gone, (size_t)sysconf(_SC_PAGESIZE));

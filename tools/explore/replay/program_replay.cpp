@@ -30,7 +30,8 @@ namespace {
 /// The program with the streams of a search, whatever this process's are; and of a scenario with nodes the folder of
 /// their logs.
 struct ReplayedProgram {
-  explicit ReplayedProgram(const ExploreOptions& options) : files(options.program, false, options.switch_at) {
+  explicit ReplayedProgram(const ExploreOptions& options)
+      : files(options.program, false, options.switch_at, options.libraries) {
     if (!options.has_nodes) return;
     around.emplace();
     logs.emplace(*around).use();

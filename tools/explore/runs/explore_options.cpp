@@ -73,6 +73,27 @@ OptionValue shard_value(Shard& into) {
   return value;
 }
 
+/// A word, behind `accesses` with the names of libraries.
+OptionValue switch_at_value(ExploreOptions& options) {
+  OptionValue value = word<SwitchAt>(
+      options.switch_at, {{"auto", SwitchAt::automatic}, {"calls", SwitchAt::calls}, {"accesses", SwitchAt::accesses}});
+  value.placeholder = "auto|calls|accesses[:LIBRARY,...]";
+  value.take = [&options, take = std::move(value.take)](const std::string& source, const std::string& text) {
+    constexpr std::string_view mark = "accesses:";
+    const bool has_names = text.starts_with(mark);
+    take(source, has_names ? "accesses" : text);
+    options.libraries.clear();
+    if (!has_names) return;
+    for (std::size_t at = mark.size(); at <= text.size();) {
+      const std::size_t end = std::min(text.size(), text.find(',', at));
+      options.libraries.push_back(text.substr(at, end - at));
+      if (options.libraries.back().empty()) refuse(source, "names of libraries, separated by commas", text);
+      at = end + 1;
+    }
+  };
+  return value;
+}
+
 constexpr std::string_view topic_mark = "topic:";
 
 /// The --set assignment for all properties of topics: a list.
@@ -175,16 +196,14 @@ void declare_program(Command& command, ExploreOptions& options) {
                .environment = "WAITPOINT_RACES",
                .more = "report: each is a failure, reported once, and the search goes on; fail: the first one ends the "
                        "search; ignore: none is a failure."});
-  command.add(
-      "--switch-at",
-      word<SwitchAt>(options.switch_at,
-                     {{"auto", SwitchAt::automatic}, {"calls", SwitchAt::calls}, {"accesses", SwitchAt::accesses}}),
-      "switch points of a program: its simulated calls, or accesses to shared memory, too",
-      {.usual = "auto",
-       .environment = "WAITPOINT_SWITCH_AT",
-       .more = "Accesses are switch points in any case with -fsanitize=thread. auto: after twenty schedules at "
-               "calls, ten of each in turn, where that is possible.",
-       .is_rare = true});
+  command.add("--switch-at", switch_at_value(options),
+              "switch points of a program: its simulated calls, or accesses to shared memory, too",
+              {.usual = "auto",
+               .environment = "WAITPOINT_SWITCH_AT",
+               .more = "Accesses are switch points in any case with -fsanitize=thread. auto: after twenty schedules at "
+                       "calls, ten of each in turn, where that is possible. accesses:LIBRARY: those of the library, "
+                       "too; it is named as by the program, with or without its version, or by a path.",
+               .is_rare = true});
   command.add("--memory", word<Memory>(options.memory, {{"sc", Memory::sc}, {"weak", Memory::weak}}),
               "memory of a program compiled with -fsanitize=thread",
               {.usual = "sc",

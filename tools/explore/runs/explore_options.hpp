@@ -47,6 +47,7 @@ struct ExploreOptions : waitpoint::ExploreOptions, ScenarioOptions {
   std::uint32_t snapshots = 0;                           ///< of a program: the most that are kept
   ProgramConditions conditions;                          ///< of a program
   SwitchAt switch_at = SwitchAt::automatic;              ///< of a program without -fsanitize=thread
+  std::vector<std::string> libraries;                    ///< of --switch-at: their accesses are switch points, too
 
   /// The failure is wanted with its events, for a page.
   bool tells_finding() const { return page || finding || serve; }

@@ -18,20 +18,21 @@ std::uint64_t learning_runs(const Finding& usual) {
 // memory: paths that the learning runs have not taken, such as that of a lock which is held.
 bool are_alike(const posix::AccessInstruction& one, const posix::AccessInstruction& other) {
   constexpr std::uint64_t nearby = 256;
-  const std::uint64_t distance = std::max(one.offset, other.offset) - std::min(one.offset, other.offset);
-  return one.displacement == other.displacement && one.is_absolute == other.is_absolute && one.base == other.base &&
-         one.index == other.index && one.scale == other.scale && (one.is_absolute || distance < nearby);
+  const std::uint64_t distance = std::max(one.place, other.place) - std::min(one.place, other.place);
+  return one.module() == other.module() && one.displacement == other.displacement &&
+         one.is_absolute == other.is_absolute && one.base == other.base && one.index == other.index &&
+         one.scale == other.scale && (one.is_absolute || distance < nearby);
 }
 
 void add_alike(const std::vector<posix::AccessInstruction>& all, std::vector<std::uint64_t>& known) {
   std::ranges::sort(known);
   std::vector<posix::AccessInstruction> learned;
   std::ranges::copy_if(all, std::back_inserter(learned), [&](const posix::AccessInstruction& one) {
-    return std::ranges::binary_search(known, one.offset);
+    return std::ranges::binary_search(known, one.place);
   });
   for (const posix::AccessInstruction& one : all)
     if (std::ranges::any_of(learned, [&](const posix::AccessInstruction& other) { return are_alike(one, other); }))
-      known.push_back(one.offset);
+      known.push_back(one.place);
 }
 
 }  // namespace

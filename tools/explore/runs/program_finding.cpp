@@ -51,14 +51,14 @@ void tell_profile(posix::Arena& arena, const exploration::Profile& profile, Aske
   asked.shared = copied(arena, profile.shared);
 }
 
-/// The instructions at these offsets.
+/// The instructions at these places.
 std::vector<posix::AccessInstruction> learned(const std::vector<posix::AccessInstruction>& all,
                                               const std::vector<std::uint64_t>& code) {
   std::vector<posix::AccessInstruction> found;
-  std::vector<std::uint64_t> offsets = code;
-  std::ranges::sort(offsets);
+  std::vector<std::uint64_t> places = code;
+  std::ranges::sort(places);
   std::ranges::copy_if(all, std::back_inserter(found), [&](const posix::AccessInstruction& one) {
-    return std::ranges::binary_search(offsets, one.offset);
+    return std::ranges::binary_search(places, one.place);
   });
   return found;
 }
@@ -141,6 +141,7 @@ void ask_for_run(RunMemory& memory, const ProgramFiles& files, const ExploreOpti
   asked.code = copied(record.arena, profile.code);
   if (!files.instrumented)
     asked.accesses = copied(record.arena, wanted.learn ? files.accesses : learned(files.accesses, profile.code));
+  asked.libraries = copied(record.arena, files.libraries);
   asked.memory = options.memory;
   asked.learn = wanted.learn;
   asked.notes = wanted.choices;
@@ -187,6 +188,7 @@ Finding finding_of_run(const RunMemory& memory, int status, const std::string& o
   if (!finding.passed() && !output.empty()) finding.words += "\n" + output;
   const posix::Record& record = memory.record();
   finding.obstacle = obstacle_of(record);
+  finding.libraries = watched_libraries_of(record);
   finding.racing = racing_code(record);
   finding.has_raced = !finding.racing.empty();
   if (wanted.places) tell_races(record, finding);
@@ -224,8 +226,10 @@ Finding finding_of_run(const RunMemory& memory, int status, const std::string& o
     finding.lesson.progress = static_cast<const exploration::Dpor&>(*explored.strategy).progress();
   finding.has_unlearned_code = has_unlearned_code(record);
   finding.has_left_out_values = has_left_out_values(record);
-  finding.uses_futexes = record.uses_futexes;
-  finding.meets_outside = record.meets_outside;
+  const posix::family::Family& family = family_of(record);
+  finding.uses_futexes = family.uses_futexes;
+  finding.meets_outside = family.meets_outside;
+  finding.generated_code = family.generated_code;
   if (wanted.profile) {
     finding.lesson.profile = explored.profile;
     finding.lesson.profile.finish(explored.explorer.steps());

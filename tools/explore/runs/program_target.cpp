@@ -34,6 +34,7 @@ std::uint64_t fingerprint_of(const ProgramFiles& files, const ExploreOptions& op
       digest.add(std::string_view(bytes, static_cast<std::size_t>(file.gcount())));
   }
   for (const std::string& word : options.program) digest.add(std::string_view(word));
+  for (const std::string& library : options.libraries) digest.add(std::string_view(library));
   digest.add(options.seed);
   if (options.has_until()) digest.add(static_cast<std::uint64_t>(options.until.since_start().ns()));
   digest.add(std::string_view(options.conditions.words()));
@@ -56,16 +57,37 @@ void check_snapshots(const ExploreOptions& options, const ProgramFiles& files) {
                                                      : "cannot be used together with --switch-at accesses");
 }
 
+/// Of several programs, how one of them waits; they begin at calls.
+Waits waits_of_all(const ProgramFiles& files) {
+  if (files.instrumented) return {};
+  if (!files.programs.is_session()) return waits_of(files.program, files.library);
+  Waits all;
+  for (const std::string& program : files.named())
+    all.by_futexes = all.by_futexes || waits_of(program, files.library).by_futexes;
+  return all;
+}
+
+void check_libraries(const ExploreOptions& options, const ProgramFiles& files) {
+  if (options.libraries.empty()) return;
+  const bool is_one = !files.instrumented && files.programs.programs().size() == 1 && !files.programs.is_session();
+  if (!is_one)
+    throw BadInput("--switch-at", "expected a single program without -fsanitize=thread with the libraries, found '" +
+                                      files.programs.title() + "'");
+  (void)watched_libraries(files.program, files.library, options.libraries);
+}
+
 }  // namespace
 
 ProgramTarget::ProgramTarget(const ExploreOptions& options)
     : options_(options),
       calls_(ProgramFiles(options.program)),
       fingerprint_(fingerprint_of(calls_.files, options)),
+      waits_(waits_of_all(calls_.files)),
       snapshots_(options.snapshots, options.strategy) {
   options.conditions.check(calls_.files.named());
   check_snapshots(options, calls_.files);
   check_memory(options, calls_.files);
+  check_libraries(options, calls_.files);
   if (options.races == Races::ignore) ignore_races();
   if (options.has_nodes) logs_.emplace();
 }
@@ -87,7 +109,7 @@ void ProgramTarget::prepare() {
 }
 
 Finding ProgramTarget::run(const Plan& plan, const WantedEvidence& wanted) {
-  const SwitchAt at = fixed_switch_at().value_or(switch_points_of(plan, options_));
+  const SwitchAt at = fixed_switch_at().value_or(switch_points_of(plan, options_, waits_.are_at_accesses()));
   return at == SwitchAt::calls || calls_.files.instrumented ? run_at_calls(plan, wanted)
                                                             : run_at_accesses(plan, wanted);
 }
@@ -104,6 +126,7 @@ Finding ProgramTarget::run_at_calls(const Plan& plan, const WantedEvidence& want
   Finding finding = run_once(calls_, plan, wanted, learns ? learned : profile_of_calls());
   if (wanted.profile) finding.lesson.profile.code = learned.code;
   if (!calls_.files.instrumented) finding.switch_at = SwitchAt::calls;
+  finding.uses_futexes = finding.uses_futexes || waits_.by_futexes;
   return finding;
 }
 
@@ -124,6 +147,7 @@ Finding ProgramTarget::run_at_accesses(const Plan& plan, const WantedEvidence& w
   }
   Finding finding = run_at_calls(plan, wanted);
   finding.obstacle = obstacle;
+  finding.libraries = libraries_;
   return finding;
 }
 
@@ -147,7 +171,7 @@ AccessObstacle ProgramTarget::prepare_accesses() {
 
 AccessObstacle ProgramTarget::learn_accesses() {
   if (!has_disassembler()) return AccessObstacle::no_disassembler;
-  accesses_.emplace(ProgramFiles(options_.program, false, SwitchAt::accesses));
+  accesses_.emplace(ProgramFiles(options_.program, false, SwitchAt::accesses, options_.libraries));
   if (accesses_->files.accesses.empty()) return AccessObstacle::several_programs;
   exploration::Profile& profile = accesses_->profile.emplace();
   if (fixed_switch_at().value_or(options_.switch_at) == SwitchAt::accesses && !profile_.code.empty()) {
@@ -159,6 +183,7 @@ AccessObstacle ProgramTarget::learn_accesses() {
   profile.code = learn_code(accesses_->files, [&](const Plan& learning, const std::vector<std::uint64_t>& code) {
     profile.code = code;
     Finding finding = run_once(*accesses_, learning, {.learn = true}, profile);
+    libraries_ |= finding.libraries;
     obstacle = finding.obstacle;
     has_failed = has_failed || !finding.passed();
     return finding;

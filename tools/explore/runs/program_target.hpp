@@ -9,6 +9,7 @@
 #include <set>
 
 #include "tools/exec/fork_server.hpp"
+#include "tools/exec/linked_libraries.hpp"
 #include "tools/explore/runs/run_streams.hpp"
 #include "tools/explore/runs/snapshot_tree.hpp"
 #include "tools/explore/runs/target.hpp"
@@ -63,7 +64,9 @@ class ProgramTarget final : public ProcessTarget {
   Runs calls_;                    // with accesses, too, if the program is instrumented
   std::optional<Runs> accesses_;  // with breakpoints
   std::optional<AccessObstacle> obstacle_ = {};
+  std::uint64_t libraries_ = 0;  // that were loaded in runs at accesses: a bit for each
   std::uint64_t fingerprint_;
+  Waits waits_;
   std::set<exploration::RacingCode> told_;         // the races of this process's findings so far
   std::optional<LogFolder> logs_, own_logs_ = {};  // of all processes that make runs, and of this one; for nodes
   SnapshotTree snapshots_;                         // of runs at calls; they end before their server

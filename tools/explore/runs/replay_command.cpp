@@ -8,6 +8,12 @@
 namespace waitpoint::tools {
 namespace {
 
+std::string accesses_of(const std::vector<std::string>& libraries) {
+  std::string words = "accesses";
+  for (const std::string& library : libraries) words += (&library == &libraries.front() ? ":" : ",") + library;
+  return words;
+}
+
 /// Without the program's name.
 std::string explore_words(const ExploreOptions& options, const std::string& replayed) {
   std::string line = "explore";
@@ -17,7 +23,8 @@ std::string explore_words(const ExploreOptions& options, const std::string& repl
   if (options.has_until()) line += " --until " + to_string(options.until);
   if (is_program) line += options.conditions.words();
   if (options.races != Races::report) line += options.races == Races::fail ? " --races fail" : " --races ignore";
-  if (is_program && options.switch_at == SwitchAt::accesses) line += " --switch-at accesses";
+  if (is_program && options.switch_at == SwitchAt::accesses)
+    line += " --switch-at " + quoted(accesses_of(options.libraries));
   if (options.memory == Memory::weak) line += " --memory weak";
   if (options.from) line += " --from " + to_string(Time() + *options.from);
   for (std::size_t i = 0; i < options.sets; ++i) line += " --set " + quoted(options.assignments[i]);

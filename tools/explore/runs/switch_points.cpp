@@ -5,14 +5,14 @@
 
 namespace waitpoint::tools {
 
-SwitchAt switch_points_of(const exploration::Plan& plan, const ExploreOptions& options) {
+SwitchAt switch_points_of(const exploration::Plan& plan, const ExploreOptions& options, bool at_accesses) {
   if (options.switch_at != SwitchAt::automatic) return options.switch_at;
   if (options.snapshots > 0 || !plan.drawn || options.strategy == "fifo" ||
       exploration::make_strategy(options.strategy)->is_exhaustive())
     return SwitchAt::calls;
   constexpr std::uint64_t in_turn = 10;
   const std::uint64_t turn = plan.number / in_turn;
-  return turn >= 2 && turn % 2 == 0 ? SwitchAt::accesses : SwitchAt::calls;
+  return (turn >= 2 || at_accesses) && turn % 2 == 0 ? SwitchAt::accesses : SwitchAt::calls;
 }
 
 ExploreOptions with_switches_at(SwitchAt at, const ExploreOptions& options) {
