@@ -14,7 +14,7 @@ declare -A debian=(
   [tcl]='tcl8.6-dev'
   [test]='libgtest-dev liboctomap-dev clang gdb libz3-dev python3-rosbag zstd xz-utils pigz pbzip2 perl libtbb-dev
          libuv1-dev cmake catch2 doctest-dev python3-jsonschema jq zsh fish cyclonedds-dev cyclonedds-tools libnav-msgs-dev
-         libros-rosgraph-msgs-dev libsensor-msgs-dev libtf2-msgs-dev libvisualization-msgs-dev'
+         libros-rosgraph-msgs-dev libsensor-msgs-dev libtf2-msgs-dev libvisualization-msgs-dev libglib2.0-dev libabsl-dev'
   [ros]='python3-rosmaster libroscpp-dev libstd-msgs-dev libnav-msgs-dev libsensor-msgs-dev libtf2-ros-dev
         libnodeletlib-dev libnodeletlib-tools libvisualization-msgs-dev ros-robot-state-publisher python3-rospy python3-nav-msgs python3-sensor-msgs python3-tf2-ros librosbag-dev python3-rosbag'
   [ros2]='cyclonedds-dev cyclonedds-tools libfastrtps-dev libfastcdr-dev'
@@ -41,7 +41,7 @@ declare -A upstream=(
   [meshes]='for meshes of other kinds than STL and OBJ: Assimp 5.2'
   [ranks]='for runs of several processes: Open MPI 4'
   [tcl]='for scripts in Tcl: Tcl 8.6'
-  [test]='GoogleTest, OctoMap, g++ and clang++, gdb, Z3; if available: zstd, xz, pigz, pbzip2, Perl, TBB, libuv, CMake, Catch2 2.13 or 3.4, doctest 2.4, jsonschema for Python, jq, zsh, fish, Cyclone DDS 0.10 with idlc, the messages of ROS 1'
+  [test]='GoogleTest, OctoMap, g++ and clang++, gdb, Z3; if available: zstd, xz, pigz, pbzip2, Perl, TBB, libuv, CMake, Catch2 2.13 or 3.4, doctest 2.4, jsonschema for Python, jq, zsh, fish, Cyclone DDS 0.10 with idlc, the messages of ROS 1, GLib 2.74, Abseil 20220623, rustc, cargo with Debian'"'"'s crates parking_lot and crossbeam'
   [ros]='of ROS 1: roscpp, rospy, tf2_ros, nodelet, rosbag, robot_state_publisher, rosmaster'
   [ros2]='Cyclone DDS 0.10 with idlc, Fast DDS 2.9'
   [view]='Chromium, Node.js 18, npm'

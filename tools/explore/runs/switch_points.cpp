@@ -12,7 +12,8 @@ SwitchAt switch_points_of(const exploration::Plan& plan, const ExploreOptions& o
     return SwitchAt::calls;
   constexpr std::uint64_t in_turn = 10;
   const std::uint64_t turn = plan.number / in_turn;
-  return (turn >= 2 || at_accesses) && turn % 2 == 0 ? SwitchAt::accesses : SwitchAt::calls;
+  const bool is_at_accesses = at_accesses ? turn % 4 != 1 : turn >= 2 && turn % 2 == 0;
+  return is_at_accesses ? SwitchAt::accesses : SwitchAt::calls;
 }
 
 ExploreOptions with_switches_at(SwitchAt at, const ExploreOptions& options) {

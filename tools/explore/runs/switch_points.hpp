@@ -8,8 +8,9 @@
 namespace waitpoint::tools {
 
 /// Never automatic. By default the first twenty schedules switch at calls, which is faster, then ten at accesses and
-/// ten at calls in turn; of a program whose threads wait `at_accesses`, the first ten, too, switch at accesses.
-/// Exhaustive strategies, the default order and schedules that begin in snapshots do at calls.
+/// ten at calls in turn; of a program whose threads wait `at_accesses`, ten at accesses, ten at calls, then thirty at
+/// accesses and ten at calls in turn. Exhaustive strategies, the default order and schedules that begin in snapshots do
+/// at calls.
 SwitchAt switch_points_of(const exploration::Plan& plan, const ExploreOptions& options, bool at_accesses);
 
 /// The options by which a run with these switch points is repeated.
