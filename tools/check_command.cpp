@@ -81,6 +81,7 @@ int check(const CheckOptions& options, std::span<const genom::ModuleType> types)
   const RunWatchdog watchdog(RunWatchdog::usual_limit_s);
   if (scenario.log) return check_log(options, scenario, types);
   const run::Experiment experiment(scenario, types, {});
+  confine_to_listed_files();
   std::size_t modules = 0, goals = 0;
   for (const scenario::RobotScenario& robot : scenario.robots) {
     goals += robot.goals.size();

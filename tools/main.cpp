@@ -52,9 +52,14 @@ int carry_out(int argc, const char* const* argv, std::vector<genom::ModuleType> 
   try {
     const tools::Options options = tools::read_options(argc, argv, tools::version_text());
     std::optional<Confinement> confinement;
+    const auto* const as_run = std::get_if<tools::RunOptions>(&options);
+    const bool has_ranks = tools::is_rank() || (as_run != nullptr && as_run->ranks > 1);
     const auto confine = [&](const auto& given) {
       if constexpr (requires { given.confined_to; })
         if (!given.confined_to.empty()) confinement.emplace(given.confined_to);
+      // Ranks need the network and files of their own.
+      if constexpr (requires { given.system; })
+        if (given.is_confined && !has_ranks) tools::confine_by_system(given.system);
     };
     std::visit(confine, options);
     if (const auto* run = std::get_if<tools::RunOptions>(&options))

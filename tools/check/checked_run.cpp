@@ -6,6 +6,7 @@
 
 #include "modules/playback/playback.hpp"
 #include "modules/run/experiment.hpp"
+#include "tools/command/system_confinement.hpp"
 #include "tools/run/duration_files.hpp"
 #include "tools/run/log_run.hpp"
 
@@ -16,7 +17,9 @@ class RunInWorld final : public CheckedRun {
  public:
   RunInWorld(const RunOptions& options, const scenario::Scenario& scenario, std::span<const genom::ModuleType> types,
              const std::string& replay)
-      : experiment_(scenario, types, {options.seed, options.order, replay}), given_(options, scenario, experiment_) {}
+      : experiment_(scenario, types, {options.seed, options.order, replay}), given_(options, scenario, experiment_) {
+    confine_to_listed_files();
+  }
 
   Simulation& simulation() override { return experiment_.simulation(); }
   RunEnd run_before(Time until) override { return experiment_.run_before(until); }
@@ -30,7 +33,9 @@ class RunInWorld final : public CheckedRun {
 class RunOfLog final : public CheckedRun {
  public:
   RunOfLog(const LogSource& source, const PlayOptions& options, std::span<const genom::ModuleType> types)
-      : log_(source.read()), playback_(log_, source.robot, types, options.simulation()) {}
+      : log_(source.read()), playback_(log_, source.robot, types, options.simulation()) {
+    confine_to_listed_files();
+  }
 
   Simulation& simulation() override { return playback_.simulation(); }
   RunEnd run_before(Time until) override { return playback_.run_before(until); }

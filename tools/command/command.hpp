@@ -72,6 +72,11 @@ class Command {
   bool is_given(const std::string& option) const;
   /// The last text of an option that is given.
   const std::string& text(const std::string& option) const { return given_.at(option).back(); }
+  /// All texts of an option; none if it is not given.
+  std::vector<std::string> texts(const std::string& option) const {
+    const auto found = given_.find(option);
+    return found == given_.end() ? std::vector<std::string>() : found->second;
+  }
   /// Given, or its environment variable is.
   bool has_value(const std::string& option) const;
   std::vector<std::string> given_options() const;

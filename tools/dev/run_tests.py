@@ -89,6 +89,7 @@ OWN_CASES = {
     "frameworks": [sys.executable, str(ROOT / "tests/programs/frameworks_test.py"), BUILD],
     "ranks": [sys.executable, str(ROOT / "tests/programs/ranks_test.py"), BUILD],
     "files of scenarios": [sys.executable, str(ROOT / "tests/programs/named_files_test.py"), BUILD],
+    "strangers' scenarios": [sys.executable, str(ROOT / "tests/programs/trust_test.py"), BUILD],
     "command line": [sys.executable, str(ROOT / "tests/programs/command_line_test.py"), BUILD],
     "pocolibs in C": [sys.executable, str(ROOT / "tests/programs/laas_test.py"), BUILD],
     "links of documents": [sys.executable, str(ROOT / "tests/docs/links_test.py")],

@@ -16,6 +16,7 @@
 #include "modules/scenario/scenario_reader.hpp"
 #include "tools/command/interruption.hpp"
 #include "tools/command/program_layer.hpp"
+#include "tools/command/system_confinement.hpp"
 #include "tools/exec/access_obstacles.hpp"
 #include "tools/explore/replay/program_replay.hpp"
 #include "tools/explore/replay/replay.hpp"
@@ -303,6 +304,7 @@ int explore(const ExploreOptions& options, std::span<const genom::ModuleType> ty
     sync::tell_threads_outside();
     Files files(options, viewers);
     Scene scene(scenario, types, options, "");  // a failure is reported with its token
+    confine_to_listed_files();
     return search(scene, files);
   });
 }

@@ -17,6 +17,7 @@
 #include "fibers/kernel/unfinished_run.hpp"
 #include "modules/playback/playback.hpp"
 #include "tools/command/interruption.hpp"
+#include "tools/command/system_confinement.hpp"
 #include "tools/output/json_document.hpp"
 #include "tools/output/output_file.hpp"
 #include "tools/output/progress.hpp"
@@ -136,6 +137,7 @@ int play_log(const LogSource& source, const PlayOptions& options, std::span<cons
   playback::Playback playback(log, source.robot, types, options.simulation());
   static_cast<void>(source_of(options, playback));  // bad input is told before the run
   Files files(options);
+  confine_to_listed_files();
   if (files.events) files.events->watch(playback.simulation());
 
   const double start_s = wall_clock_s();

@@ -20,6 +20,7 @@
 #include "modules/scenario/scenario_reader.hpp"
 #include "tools/command/interruption.hpp"
 #include "tools/command/program_layer.hpp"
+#include "tools/command/system_confinement.hpp"
 #include "tools/nodes/bag_play.hpp"
 #include "tools/nodes/seed_with_nodes.hpp"
 #include "tools/nodes/simulated_nodes.hpp"
@@ -130,6 +131,7 @@ void tell_of_difference(const run::Journal& journal) {
 bridge::RunResult run_seed(const RunOptions& options, const scenario::Scenario& scenario,
                            std::span<const genom::ModuleType> types, std::uint64_t seed, const std::string& replay) {
   run::Experiment experiment(scenario, types, {seed, options.order, replay});
+  confine_to_listed_files();
   RunOptions single = options;
   single.summary.reset();
   Outputs none(single, scenario, experiment);
@@ -156,6 +158,7 @@ int run_once(const RunOptions& options, const scenario::Scenario& scenario, run:
   }
   sync::tell_threads_outside();
   outputs.emplace(options, scenario, experiment);
+  confine_to_listed_files();
   outputs->show(shown_topics);
   if (outputs->journal() != nullptr) outputs->journal()->write(lines);
   std::optional<view::LiveRun> live;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "tools/command/command.hpp"
+#include "tools/command/system_confinement.hpp"
 
 namespace waitpoint::tools {
 
@@ -16,6 +17,7 @@ struct ScenarioOptions {
   std::vector<std::filesystem::path> confined_to;  ///< the only folders to read from; empty: all
   bool is_confined = false;
   std::vector<std::string> allowed;  ///< of --allow
+  SystemConfinement system;          ///< with --confined
 };
 
 enum class ScenarioArgument { required, optional };

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "core/error.hpp"
+#include "tools/command/system_confinement.hpp"
 #include "tools/explore/replay/replay_json.hpp"
 #include "tools/explore/replay/replay_record.hpp"
 #include "tools/explore/runs/replay_command.hpp"
@@ -22,6 +23,7 @@ int replay(const ExploreOptions& asked, const scenario::Scenario& scenario, std:
   if (options.trace) trace.emplace(*options.trace);
   const std::string command = replay_command(options, options.replay);
   Scene scene(scenario, types, options, command);
+  confine_to_listed_files();
   if (record.plan.drawn && needs_profile(options.strategy)) {
     Scene usual(scenario, types, options, command);
     usual.prepare();
