@@ -63,7 +63,8 @@ class Accesses(ExecCase):
         self.assertEqual(mixed[20:30] + mixed[40:50], at["accesses"][20:30] + at["accesses"][40:50])
 
     def test_exhaustive_strategies_say_that_they_switch_at_calls(self):
-        self.assertRegex(self.passes("signals", "--strategy", "bounded:0", schedules="1000"), "; exhaustive with at most 0 preemptions, switching at calls")
+        self.assertRegex(self.passes("signals", "--strategy", "bounded:0", "--observe", "0", schedules="1000"),
+                         "; exhaustive with at most 0 preemptions, switching at calls")
 
 
 if __name__ == "__main__":

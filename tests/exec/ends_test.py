@@ -54,7 +54,7 @@ class Ends(ExecCase):
     def test_are_exhausted(self):
         done = explore("--strategy", "dfs", "--", self.compile("beside_exit.cpp"), "nothing")
         self.assertEqual(done.returncode, 0, done.stdout)
-        self.assertTrue(done.stdout.splitlines()[0].endswith("; exhaustive, switching at calls"), done.stdout)
+        self.assertIn("; exhaustive, switching at calls, ", done.stdout.splitlines()[0])
 
 
 class Hangs(ExecCase):

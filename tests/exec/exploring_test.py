@@ -109,10 +109,10 @@ class Exhaustive(ExecCase):
         without_one = {status + "5"} | passed
         found, line = self.outcomes("--strategy", "bounded:1")
         self.assertLess(without_one, found)
-        self.assertTrue(line.endswith("; exhaustive with at most 1 preemption, switching at calls"), line)
+        self.assertIn("; exhaustive with at most 1 preemption, switching at calls, ", line)
         found, line = self.outcomes("--strategy", "bounded:3")
         self.assertEqual({status + str(order) for order in range(1, 6)} | passed, found)
-        self.assertTrue(line.endswith("; exhaustive with at most 3 preemptions, switching at calls"), line)
+        self.assertIn("; exhaustive with at most 3 preemptions, switching at calls, ", line)
 
     def test_search_by_partial_orders_tries_all_results_in_fewer_schedules(self):
         program = self.compile("lost_update.c")
@@ -139,7 +139,7 @@ class Exhaustive(ExecCase):
                           "  pthread_create(&poster, NULL, post, NULL);\n  sleep(1);\n"
                           "  for (int i = 0; i < 30; ++i) sem_trywait(&posted);\n  return pthread_join(poster, NULL);\n}\n")
         line = explore("--strategy", "bounded:0", "--", self.compile(str(source))).stdout.splitlines()[0]
-        self.assertTrue(line.endswith("exhaustive with at most 0 preemptions, switching at calls, except turns of spinning tasks"), line)
+        self.assertIn("exhaustive with at most 0 preemptions, switching at calls, except turns of spinning tasks, ", line)
 
     def test_findings_are_replayed(self):
         program = self.compile("lost_update.c")

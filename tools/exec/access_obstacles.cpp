@@ -36,6 +36,8 @@ std::string words_of(AccessObstacle obstacle) {
     case AccessObstacle::endless: return "a schedule with breakpoints at accesses did not end";
     case AccessObstacle::unlearned: return "runs that learn its accesses failed";
     case AccessObstacle::several_programs: return "no file of a single program to disassemble";
+    case AccessObstacle::several_processes: return "the program has several processes";
+    case AccessObstacle::long_loops: return "there are too many";
     case AccessObstacle::no_disassembler: return "built without Zydis";
   }
   return "";

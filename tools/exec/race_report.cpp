@@ -55,6 +55,11 @@ bool has_left_out_values(const posix::Record& record) {
   return log != nullptr && log->has_left_out_values;
 }
 
+bool has_lost_breakpoints(const posix::Record& record) {
+  const posix::RaceLog* const log = log_of(record);
+  return log != nullptr && log->has_lost_breakpoints;
+}
+
 std::vector<races::LocatedRace> located_races(const posix::Record& record) {
   std::vector<races::LocatedRace> all;
   if (has_races(record))

@@ -28,6 +28,8 @@ bool has_races(const posix::Record& record);
 bool has_unlearned_code(const posix::Record& record);
 /// True if, in weak memory, a load was not offered a value that it may have returned.
 bool has_left_out_values(const posix::Record& record);
+/// Some accesses were not seen, as there were too many.
+bool has_lost_breakpoints(const posix::Record& record);
 /// All races as they were found, without the names of source lines.
 std::vector<races::LocatedRace> located_races(const posix::Record& record);
 /// The code that accesses shared memory, if the run recorded it.

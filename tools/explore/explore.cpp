@@ -25,6 +25,7 @@
 #include "tools/explore/runs/run_with_nodes.hpp"
 #include "tools/explore/runs/scene.hpp"
 #include "tools/explore/search/jobs.hpp"
+#include "tools/explore/search/observed_accesses.hpp"
 #include "tools/explore/search/results_file.hpp"
 #include "tools/explore/search_json.hpp"
 #include "tools/explore/shown_search.hpp"
@@ -232,6 +233,19 @@ void begin_report(ProcessTarget& target) {
     target.set_time_limit(exploration::TimeLimit(std::max(target.time_limit().left_s(), least_s)));
 }
 
+// All schedules at calls are all orders if threads share memory by calls alone.
+void check_accesses(ProcessTarget& target, Search& search) {
+  if (!search.is_exhausted_at_calls()) return;
+  const ObservedAccesses observed = observe_accesses(target, search.failures() == 0);
+  if (!observed.conflict.empty()) return search.doubt(observed.conflict);
+  if (observed.obstacle == AccessObstacle::none && observed.schedules > 0)
+    return search.assume(fmt::format(", no other sharing of memory in {} with accesses observed",
+                                     counted(observed.schedules, "schedule")));
+  const std::string why = words_of(observed.obstacle);
+  search.assume(", if threads share memory by calls alone (accesses were not observed" +
+                (why.empty() ? ")" : ": " + why + ")"));
+}
+
 int search(ProcessTarget& target, Files& files) {
   heed_signals();
   const exploration::TimeLimit time_limit(target.options().time_limit_s);
@@ -262,6 +276,7 @@ int search(ProcessTarget& target, Files& files) {
   progress.finish();
   const double seconds = progress.seconds() - start_s;
   if (usual && files.results() != nullptr) files.results()->commit();
+  check_accesses(target, search);
   const bool is_interrupted = interruption() != 0;
   const std::string words = sum(target, search, seconds, is_interrupted);
   write_text(words, target.options().json);

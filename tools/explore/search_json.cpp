@@ -27,6 +27,7 @@ Json json_of(const exploration::Search& search, double seconds) {
             {"seconds", seconds},
             {"exhausted", search.scope().has_value()}};
   if (const auto& scope = search.scope(); scope && !scope->empty()) json["scope"] = *scope;
+  if (!search.unproved().empty()) json["unproved"] = search.unproved();
   if (const std::string obstacle = words_of(search.obstacle()); !obstacle.empty()) json["calls_only"] = obstacle;
   if (search.generated_code() > 0) json["generated_code_bytes"] = search.generated_code();
   if (const auto chance = search.scope() ? std::nullopt : search.chance_of_news()) json["seen"] = json_of(*chance);

@@ -26,6 +26,8 @@ void __libc_free(void* memory);
 
 /// Of the layer under programs, where that is present.
 [[gnu::weak, gnu::visibility("hidden")]] void waitpoint_note_freed(void* memory);
+[[gnu::weak, gnu::visibility("hidden")]] bool waitpoint_begin_guard(std::uint64_t* guard);
+[[gnu::weak, gnu::visibility("hidden")]] void waitpoint_end_guard(std::uint64_t* guard, bool is_made);
 
 void __tsan_init();
 int __cxa_guard_acquire(std::uint64_t* guard);
@@ -43,11 +45,18 @@ void* given(void* memory) {
   return memory;
 }
 
+// Some code of the program is.
+bool is_instrumented = false;
+
+// In a program that is not, guards are the layer's.
+bool has_guards_of_layer() { return !is_instrumented && waitpoint_begin_guard != nullptr; }
+
 // The first byte of a guard marks the static as constructed; the second is free for use: construction in progress.
 char* made(std::uint64_t* guard) { return reinterpret_cast<char*>(guard); }
 char* under_way(std::uint64_t* guard) { return reinterpret_cast<char*>(guard) + 1; }
 
 void leave(std::uint64_t* guard, bool is_made) {
+  if (has_guards_of_layer()) return waitpoint_end_guard(guard, is_made);
   if (Detector::the().has_current()) Detector::the().atomic_store(guard, __ATOMIC_RELEASE);
   __atomic_store_n(made(guard), static_cast<char>(is_made), __ATOMIC_RELEASE);
   __atomic_store_n(under_way(guard), 0, __ATOMIC_RELEASE);
@@ -58,7 +67,10 @@ void leave(std::uint64_t* guard, bool is_made) {
 extern "C" {
 
 // Called by the constructors of each instrumented object.
-void __tsan_init() { __libc_single_threaded = 0; }
+void __tsan_init() {
+  __libc_single_threaded = 0;
+  is_instrumented = true;
+}
 
 void* malloc(std::size_t size) { return given(__libc_malloc(size)); }
 void* calloc(std::size_t count, std::size_t size) { return given(__libc_calloc(count, size)); }
@@ -82,6 +94,7 @@ void free(void* memory) {
 
 // While another task constructs the static, this one yields to it.
 int __cxa_guard_acquire(std::uint64_t* guard) {
+  if (has_guards_of_layer()) return waitpoint_begin_guard(guard) ? 1 : 0;
   for (;;) {
     if (__atomic_load_n(made(guard), __ATOMIC_ACQUIRE) != 0) {
       if (Detector::the().has_current()) Detector::the().atomic_load(guard, __ATOMIC_ACQUIRE);

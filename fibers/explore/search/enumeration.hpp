@@ -46,6 +46,8 @@ class Enumeration {
   std::optional<std::string> scope() const;
   /// The reason why all schedules are not all orders; empty if they are.
   std::string unproved() const { return omissions_.unproved(); }
+  /// The program's accesses to memory were no switch points.
+  bool is_at_calls() const { return omissions_.is_at_calls(); }
   /// All schedules were tried, except spurious wake-ups.
   bool is_complete() const { return is_over_ && !is_broken_ && strategy_->scope().empty() && omissions_.are_usual(); }
 

@@ -19,6 +19,8 @@ class Omissions {
   bool are_usual() const { return !turns_ && !costs_ && !accesses_ && !values_ && !is_at_calls_; }
   /// Turns of spinning tasks, while others could continue or time could pass.
   bool turns() const { return turns_; }
+  /// The program's accesses to memory were no switch points.
+  bool is_at_calls() const { return is_at_calls_; }
   /// The reason why all schedules are not all orders; empty if they are.
   std::string unproved() const;
   /// ", switching at calls, except turns of spinning tasks and spurious wake-ups"; empty if there are none.

@@ -64,6 +64,15 @@ class Search {
   const std::optional<std::string>& scope() const { return scope_; }
   /// The reason why all schedules have been tried, and there may be other orders; empty if that is not so.
   const std::string& unproved() const { return unproved_; }
+  /// Exhausted, by schedules in which the program's accesses to memory were no switch points.
+  bool is_exhausted_at_calls() const { return scope_ && enumeration_->is_at_calls(); }
+  /// Of such a search: other orders may exist, for this reason.
+  void doubt(std::string reason) {
+    scope_.reset();
+    unproved_ = std::move(reason);
+  }
+  /// Of such a search: an addition to its scope.
+  void assume(const std::string& words) { *scope_ += words; }
   /// How much has been seen; nothing if there is no sample.
   std::optional<NewPairChance> chance_of_news() const { return sample_ ? sample_->chance() : std::nullopt; }
   /// The strategy of the options draws: it was an enumeration that exhausted the search.

@@ -24,6 +24,9 @@ enum class AccessObstacle : std::uint8_t {
   unlearned,         ///< nothing was learned, as runs with breakpoints failed
   several_programs,  ///< or one that is a shared object
   no_disassembler,   ///< this waitpoint was built without one
+  // Of runs in which accesses are observed.
+  several_processes,  ///< what they share is not seen
+  long_loops,         ///< some breakpoints were removed
 };
 
 }  // namespace waitpoint

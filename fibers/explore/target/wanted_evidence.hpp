@@ -25,11 +25,12 @@ struct WantedEvents {
 
 struct WantedEvidence {
   bool profile = false;
-  bool learn = false;    ///< for the profile: code that accesses memory shared by tasks
-  bool choices = false;  ///< all choices made
-  bool pairs = false;    ///< the reads-from relation, of the first process
-  bool words = false;    ///< switches in words
-  bool places = false;   ///< source locations of the tasks in reports
+  bool learn = false;      ///< for the profile: code that accesses memory shared by tasks
+  bool conflicts = false;  ///< of a program that is not instrumented: unordered accesses to memory, as races
+  bool choices = false;    ///< all choices made
+  bool pairs = false;      ///< the reads-from relation, of the first process
+  bool words = false;      ///< switches in words
+  bool places = false;     ///< source locations of the tasks in reports
   std::optional<WantedEvents> events = {};
   std::optional<std::size_t> decision = {};   ///< the choice made there, in words
   std::optional<std::uint32_t> instead = {};  ///< with it, not of a program: also this alternative to it

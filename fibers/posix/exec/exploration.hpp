@@ -48,12 +48,13 @@ struct Asked {
 
   Memory memory = Memory::sc;  ///< of instrumented code
 
-  bool learn = false;    ///< record the code that accesses shared memory
-  bool notes = false;    ///< log whether other code does
-  bool pairs = false;    ///< record the reads-from relation, of the first process
-  bool profile = false;  ///< record the profile
-  bool words = false;    ///< record choices in words
-  bool events = false;   ///< record events, from `events_from` on
+  bool learn = false;      ///< record the code that accesses shared memory
+  bool notes = false;      ///< log whether other code does
+  bool conflicts = false;  ///< log accesses of several threads to the same memory that no event orders
+  bool pairs = false;      ///< record the reads-from relation, of the first process
+  bool profile = false;    ///< record the profile
+  bool words = false;      ///< record choices in words
+  bool events = false;     ///< record events, from `events_from` on
   Time events_from;
   std::size_t decision = none;
   std::size_t log_from = none;  ///< log the events after this decision

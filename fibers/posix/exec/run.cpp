@@ -167,7 +167,8 @@ kernel::Scheduler& begin_run() {
     if (asked == nullptr)
       begin_race_log(false, false, Memory::sc, {});
     else if (!asked->accesses.empty())
-      begin_access_log(asked->learn, asked->notes, asked->accesses, asked->libraries, asked->code);
+      asked->conflicts ? begin_conflict_log(asked->accesses, asked->libraries)
+                       : begin_access_log(asked->learn, asked->notes, asked->accesses, asked->libraries, asked->code);
     else
       begin_race_log(asked->learn, asked->notes, asked->memory, asked->code);
   }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fibers/posix/reports/race_log.hpp"
 
+#include <link.h>
+
 #include <new>
 
 #include "core/error.hpp"
@@ -62,6 +64,57 @@ void begin_race_log(bool learn, bool notes, Memory memory, std::span<const std::
   for (const std::uint64_t place : code) waitpoint_races_runtime()->know(place);
 }
 
+namespace {
+
+// By time: a breakpoint takes some microseconds.
+struct HitLimits {
+  std::uint32_t of_one, of_all;
+};
+constexpr HitLimits when_learning{1'000, 20'000}, when_exploring{1'000, 6'000}, when_observing{20'000, 200'000};
+
+void report_accesses(std::span<const AccessInstruction> instructions, std::span<const AccessLibrary> libraries,
+                     ReportAccess report, HitLimits limits) {
+  constexpr std::uint32_t spins_max = 20'000;
+  trap_accesses({.instructions = instructions,
+                 .libraries = libraries,
+                 .loaded = [](std::uint64_t loaded) { log().libraries = loaded; },
+                 .report = report,
+                 .let_others_run = kernel::yield_after_computing,
+                 .missed = [] { log().has_other_code = log().has_lost_breakpoints = true; },
+                 .prevented = [](AccessObstacle obstacle) { log().obstacle = obstacle; },
+                 .hits_of_one_max = limits.of_one,
+                 .hits_max = limits.of_all,
+                 .spins_max = spins_max});
+}
+
+std::uint64_t loaded_at = 0;  // the program
+
+std::uint64_t program_start() {
+  std::uint64_t start = 0;
+  dl_iterate_phdr(
+      [](dl_phdr_info* program, std::size_t, void* into) {
+        *static_cast<std::uint64_t*>(into) = program->dlpi_addr;
+        return 1;
+      },
+      &start);
+  return start;
+}
+
+// As no atomic operation, which would order others. The place is told like that of a call, by the code behind it.
+void report_conflicts(std::uint64_t address, std::uint32_t bytes, bool writes, bool, std::uint64_t place) {
+  const bool is_of_program = place >> AccessInstruction::module_shift == 0;
+  waitpoint_races_runtime()->accessed(address, bytes, writes, false, is_of_program ? loaded_at + place + 1 : place);
+}
+
+}  // namespace
+
+void begin_conflict_log(std::span<const AccessInstruction> instructions, std::span<const AccessLibrary> libraries) {
+  begin_log(false, false, listener);
+  waitpoint_races_runtime()->set_weak(false);
+  loaded_at = program_start();
+  report_accesses(instructions, libraries, report_conflicts, when_observing);
+}
+
 void begin_access_log(bool learn, bool notes, std::span<const AccessInstruction> instructions,
                       std::span<const AccessLibrary> libraries, std::span<const std::uint64_t> code) {
   static constexpr races::Listener without_races = {[](const races::FoundRace&) {}, listener.learned,
@@ -70,18 +123,7 @@ void begin_access_log(bool learn, bool notes, std::span<const AccessInstruction>
   const races::Runtime& runtime = *waitpoint_races_runtime();
   runtime.set_weak(false);
   for (const std::uint64_t place : code) runtime.know(place);
-  // By time: a breakpoint takes some microseconds.
-  constexpr std::uint32_t of_one_max = 1'000, learning_max = 20'000, exploring_max = 6'000, spins_max = 20'000;
-  trap_accesses({.instructions = instructions,
-                 .libraries = libraries,
-                 .loaded = [](std::uint64_t loaded) { log().libraries = loaded; },
-                 .report = runtime.accessed,
-                 .let_others_run = kernel::yield_after_computing,
-                 .missed = [] { log().has_other_code = log().has_lost_breakpoints = true; },
-                 .prevented = [](AccessObstacle obstacle) { log().obstacle = obstacle; },
-                 .hits_of_one_max = of_one_max,
-                 .hits_max = learn ? learning_max : exploring_max,
-                 .spins_max = spins_max});
+  report_accesses(instructions, libraries, runtime.accessed, learn ? when_learning : when_exploring);
 }
 
 }  // namespace waitpoint::posix

@@ -44,5 +44,8 @@ void begin_race_log(bool learn, bool notes, Memory memory, std::span<const std::
 /// plain instructions cannot be told from others, so that no races are logged. `code` are places.
 void begin_access_log(bool learn, bool notes, std::span<const AccessInstruction> instructions,
                       std::span<const AccessLibrary> libraries, std::span<const std::uint64_t> code);
+/// The same without code: all conflicts are logged as races, atomic or not. Two accesses of which one is a write
+/// conflict if no event, of a call, orders them.
+void begin_conflict_log(std::span<const AccessInstruction> instructions, std::span<const AccessLibrary> libraries);
 
 }  // namespace waitpoint::posix

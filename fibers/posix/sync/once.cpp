@@ -114,11 +114,14 @@ WAITPOINT_INTERPOSED void call_once(once_flag* flag, void (*function)()) {
   call(reinterpret_cast<int*>(flag), function);
 }
 
-// The runtime for -fsanitize=thread has others, which note the accesses to the guard.
+// The runtime for -fsanitize=thread has others, which note the accesses to the guard, and call these where the program
+// is not instrumented.
+extern "C" {
+[[gnu::visibility("hidden")]] bool waitpoint_begin_guard(std::uint64_t* guard) { return begin_guard(guard); }
+[[gnu::visibility("hidden")]] void waitpoint_end_guard(std::uint64_t* guard, bool is_made) {
+  end_guard(guard, is_made ? done : fresh, is_made ? of_library().release : of_library().abort);
+}
+}
 WAITPOINT_INTERPOSED [[gnu::weak]] int __cxa_guard_acquire(std::uint64_t* guard) { return begin_guard(guard) ? 1 : 0; }
-WAITPOINT_INTERPOSED [[gnu::weak]] void __cxa_guard_release(std::uint64_t* guard) {
-  end_guard(guard, done, of_library().release);
-}
-WAITPOINT_INTERPOSED [[gnu::weak]] void __cxa_guard_abort(std::uint64_t* guard) {
-  end_guard(guard, fresh, of_library().abort);
-}
+WAITPOINT_INTERPOSED [[gnu::weak]] void __cxa_guard_release(std::uint64_t* guard) { waitpoint_end_guard(guard, true); }
+WAITPOINT_INTERPOSED [[gnu::weak]] void __cxa_guard_abort(std::uint64_t* guard) { waitpoint_end_guard(guard, false); }

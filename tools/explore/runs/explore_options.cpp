@@ -23,7 +23,7 @@
 namespace waitpoint::tools {
 namespace {
 
-constexpr std::uint32_t snapshots_max = 1000;
+constexpr std::uint32_t snapshots_max = 1000, observed_max = 1'000'000;
 
 /// A strategy is checked once it is known whether there is a program.
 OptionValue strategy_value(std::string& into) {
@@ -204,6 +204,11 @@ void declare_program(Command& command, ExploreOptions& options) {
                        "calls, ten of each in turn, where that is possible. accesses:LIBRARY: those of the library, "
                        "too; it is named as by the program, with or without its version, or by a path.",
                .is_rare = true});
+  command.add("--observe", whole(options.observed, 0u, observed_max),
+              "observe accesses to memory in N schedules before all orderings are said to be tried",
+              {.usual = "20",
+               .more = "If no call orders two accesses, it is not said. 0: none; the assumption is named.",
+               .is_rare = true});
   command.add("--memory", word<Memory>(options.memory, {{"sc", Memory::sc}, {"weak", Memory::weak}}),
               "memory of a program compiled with -fsanitize=thread",
               {.usual = "sc",
@@ -230,7 +235,7 @@ std::vector<Rule> rules_of_explore() {
   };
   for (const char* option : {"SCENARIO", "--set", "--property", "--from", "--confined"})
     rules.push_back({option, excludes, {"--"}});
-  for (const char* option : {"--races", "--switch-at", "--memory", "--fork-each", "--snapshots", "--clock",
+  for (const char* option : {"--races", "--switch-at", "--observe", "--memory", "--fork-each", "--snapshots", "--clock",
                              "--call-cost", "--children", "--speed", "--idle-limit", "--own-machine", "--loss",
                              "--delay", "--isolate", "--trap-rdtsc", "--strict", "--trap-libc"})
     rules.push_back({option, needs, {"--"}, "not a scenario"});

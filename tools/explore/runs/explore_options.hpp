@@ -45,6 +45,7 @@ struct ExploreOptions : waitpoint::ExploreOptions, ScenarioOptions {
   bool json = false;                                     ///< the result as JSON to standard output
   bool forks_each = false;                               ///< each schedule of a program has a process of its own
   std::uint32_t snapshots = 0;                           ///< of a program: the most that are kept
+  std::uint32_t observed = 20;                           ///< schedules before it is said that no other ordering exists
   ProgramConditions conditions;                          ///< of a program
   SwitchAt switch_at = SwitchAt::automatic;              ///< of a program without -fsanitize=thread
   std::vector<std::string> libraries;                    ///< of --switch-at: their accesses are switch points, too

@@ -140,11 +140,13 @@ void ask_for_run(RunMemory& memory, const ProgramFiles& files, const ExploreOpti
   if (plan.drawn) tell_profile(record.arena, profile, asked);
   asked.code = copied(record.arena, profile.code);
   if (!files.instrumented)
-    asked.accesses = copied(record.arena, wanted.learn ? files.accesses : learned(files.accesses, profile.code));
+    asked.accesses =
+        copied(record.arena, wanted.learn || wanted.conflicts ? files.accesses : learned(files.accesses, profile.code));
   asked.libraries = copied(record.arena, files.libraries);
   asked.memory = options.memory;
   asked.learn = wanted.learn;
   asked.notes = wanted.choices;
+  asked.conflicts = wanted.conflicts;
   asked.pairs = wanted.pairs;
   asked.profile = wanted.profile;
   asked.words = wanted.words;
@@ -189,16 +191,18 @@ Finding finding_of_run(const RunMemory& memory, int status, const std::string& o
   const posix::Record& record = memory.record();
   finding.obstacle = obstacle_of(record);
   finding.libraries = watched_libraries_of(record);
+  if (wanted.conflicts && has_lost_breakpoints(record)) finding.obstacle = AccessObstacle::long_loops;
+  if (wanted.conflicts && !is_single(record)) finding.obstacle = AccessObstacle::several_processes;
   finding.racing = racing_code(record);
   finding.has_raced = !finding.racing.empty();
-  if (wanted.places) tell_races(record, finding);
+  if (wanted.places || wanted.conflicts) tell_races(record, finding);
   if (wanted.places && !finding.passed()) finding.evidence.details = last_calls_of(record);
   if (const std::string misuse = first_misuse(record); finding.passed() && !misuse.empty()) {
     finding.kind = RunVerdict::Kind::misuse;
     finding.words = "misuse: " + misuse;
     if (wanted.places) finding.evidence.details = misuses_of(record);
   }
-  if (finding.passed() && races_fail && finding.has_raced) {
+  if (finding.passed() && races_fail && finding.has_raced && !wanted.conflicts) {
     finding.kind = RunVerdict::Kind::race;
     finding.words = "a data race";
     if (wanted.places) finding.evidence.details = races_of(record);

@@ -109,9 +109,25 @@ void ProgramTarget::prepare() {
 }
 
 Finding ProgramTarget::run(const Plan& plan, const WantedEvidence& wanted) {
+  if (wanted.conflicts) return observe_accesses(plan);
   const SwitchAt at = fixed_switch_at().value_or(switch_points_of(plan, options_, waits_.are_at_accesses()));
   return at == SwitchAt::calls || calls_.files.instrumented ? run_at_calls(plan, wanted)
                                                             : run_at_accesses(plan, wanted);
+}
+
+// With breakpoints at all accesses.
+Finding ProgramTarget::observe_accesses(const Plan& plan) {
+  Finding finding;
+  if (!has_disassembler()) {
+    finding.obstacle = AccessObstacle::no_disassembler;
+    return finding;
+  }
+  if (!accesses_) accesses_.emplace(ProgramFiles(options_.program, false, SwitchAt::accesses, options_.libraries));
+  if (accesses_->files.accesses.empty()) {
+    finding.obstacle = AccessObstacle::several_programs;
+    return finding;
+  }
+  return run_once(*accesses_, plan, {.conflicts = true}, exploration::Profile());
 }
 
 Finding ProgramTarget::run_at_calls(const Plan& plan, const WantedEvidence& wanted) {
@@ -264,7 +280,8 @@ Finding ProgramTarget::run_in_process(Runs& runs, const posix::Settings& setting
   if (watch.words().empty() && !wanted.stop_before) end_others(memory.record(), is_to_end_by_now);
   Finding finding = finding_of_run(memory, *status, runs.streams.end_of_output(), wanted, races_fail());
   if (options_.has_nodes) tell_unmet(finding);
-  if (options_.races == Races::report && !wanted.learn && !wanted.places && shows_new_races(finding))
+  if (options_.races == Races::report && !wanted.learn && !wanted.places && !wanted.conflicts &&
+      shows_new_races(finding))
     tell_races(memory.record(), finding);
   if (!watch.words().empty()) {
     finding.kind = RunVerdict::Kind::no_progress;

@@ -53,6 +53,7 @@ class ProgramTarget final : public ProcessTarget {
   AccessObstacle prepare_accesses();
   AccessObstacle learn_accesses();
   Finding run_at_accesses(const Plan& plan, const WantedEvidence& wanted);
+  Finding observe_accesses(const Plan& plan);
   Finding run_at_calls(const Plan& plan, const WantedEvidence& wanted);
   Finding run_once(Runs& runs, const Plan& plan, const WantedEvidence& wanted, const exploration::Profile& profile);
   Finding run_in_process(Runs& runs, const posix::Settings& settings, const Plan& plan, const WantedEvidence& wanted,

@@ -10,8 +10,8 @@ using exploration::Deviation;
 
 // Others need to see the run from its beginning.
 bool is_of_end_only(const WantedEvidence& wanted) {
-  return !wanted.profile && !wanted.learn && !wanted.pairs && !wanted.words && !wanted.places && !wanted.events &&
-         !wanted.decision && !wanted.log_from && !wanted.trail && !wanted.stop_before;
+  return !wanted.profile && !wanted.learn && !wanted.pairs && !wanted.conflicts && !wanted.words && !wanted.places &&
+         !wanted.events && !wanted.decision && !wanted.log_from && !wanted.trail && !wanted.stop_before;
 }
 
 // Others also draw, count or learn at events without an alternative. Without a name: the default order.

@@ -97,9 +97,10 @@ Covered cover_by_exec(const ExecTools& tools, const Program& program, const std:
   const std::string runs = tools.folder + "/runs", results = tools.folder + "/results", told = tools.folder + "/told";
   for (const std::string& file : {runs, results, told}) (void)std::remove(file.c_str());
   // Each schedule is one run: in a process that is put back, a failing one would be run again.
-  const std::string command = "'" + tools.waitpoint + "' explore --fork-each --no-minimize --strategy " + strategy +
-                              " --iterations " + std::to_string(schedules_max) + " --results '" + results + "' -- '" +
-                              tools.interpreter + "' '" + to_text(program) + "' '" + runs + "' > '" + told + "' 2>&1";
+  const std::string command = "'" + tools.waitpoint + "' explore --fork-each --no-minimize --observe 0 --strategy " +
+                              strategy + " --iterations " + std::to_string(schedules_max) + " --results '" + results +
+                              "' -- '" + tools.interpreter + "' '" + to_text(program) + "' '" + runs + "' > '" + told +
+                              "' 2>&1";
   const int status = std::system(command.c_str());
   const std::string said = text_of(told), records = text_of(runs);
   if (records.empty() || records.size() % page != 0) throw BadInput(command, "expected runs, found: " + said);
