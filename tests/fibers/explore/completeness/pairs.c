@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Two threads, each of which makes a call on state that both share: pairs BUILD-UP CALL CALL SAME FOLDER FILE.
+// Two or three threads, each of which makes a call on state that all share: pairs BUILD-UP CALL CALL [CALL] SAME FOLDER
+// FILE.
 //
-// SAME is 1 if both calls are about the same object, else 0. Each run that ends appends its outcome, a line, to FILE:
-// the results of the calls, and the state that they leave. Build-up `native:ORDER` makes the calls in this order, as in
-// `native:aba`, whose first thread makes its call twice; without the simulation, it is the oracle. `pairs` alone lists
-// the calls with their groups.
+// SAME is 1 if all calls are about the same object, else 0: then the second call is about another one. Each run that
+// ends appends its outcome, a line, to FILE: the results of the calls, and the state that they leave. Build-up
+// `native:ORDER` makes the calls in this order, as in `native:aba`, whose first thread makes its call twice; without
+// the simulation, it is the oracle. `pairs` alone lists the calls with their groups.
 #define _GNU_SOURCE
 #include <dirent.h>
 #include <errno.h>
@@ -221,10 +222,10 @@ static const struct call* find(const char* name) {
   exit(2);
 }
 
-static const struct call* made[2];
-static int objects_of[2], repeats = 1, is_once, is_pending, results[2][4], counts[2];
+static const struct call* made[3];
+static int objects_of[3], calls_made = 2, repeats = 1, is_once, is_pending, results[3][4], counts[3];
 static const char* order;  // null: as the threads are scheduled
-static sem_t turn, made_one;
+static sem_t turns[3], made_one;
 static pthread_once_t once_before = PTHREAD_ONCE_INIT;
 static pthread_mutex_t between = PTHREAD_MUTEX_INITIALIZER;
 static int first_of_once;
@@ -243,13 +244,13 @@ static void* run(void* argument) {
   const int which = (int)(long)argument;
   self = which + 1;
   while (order != NULL) {
-    while (sem_wait(&turn) != 0) {
+    while (sem_wait(&turns[which]) != 0) {
     }
     make_one(which);
     sem_post(&made_one);
   }
   if (is_pending && which == 0)
-    while (sem_wait(&turn) != 0) {
+    while (sem_wait(&turns[0]) != 0) {
     }
   if (is_once) pthread_once(&once_before, note_first);
   const int times = which == 0 ? repeats : 1;
@@ -264,7 +265,7 @@ static void make_in_order(void) {
       make_one(1);
       continue;
     }
-    sem_post(&turn);
+    sem_post(&turns[*at - 'a']);
     while (sem_wait(&made_one) != 0) {
     }
   }
@@ -316,14 +317,15 @@ static void set_up(const char* folder) {
     setenv(named(i, "V"), "v", 1);
     sem_unlink(named(i, "/pairs"));
   }
-  sem_init(&turn, 0, 0), sem_init(&made_one, 0, 0);
+  for (int i = 0; i < 3; ++i) sem_init(&turns[i], 0, 0);
+  sem_init(&made_one, 0, 0);
   signal(SIGPIPE, SIG_IGN);
 }
 
 static void print_outcome(const char* file) {
   char text[2048];
   int size = 0;
-  for (int which = 0; which < 2; ++which)
+  for (int which = 0; which < calls_made; ++which)
     for (int i = 0; i < counts[which] && i < 3; ++i)
       size += snprintf(text + size, sizeof text - (size_t)size, "%c=%d ", 'a' + which, results[which][i]);
   size += snprintf(text + size, sizeof text - (size_t)size, "once=%d cwd=%d ", first_of_once, folder_now(0));
@@ -353,11 +355,13 @@ int main(int count, char** arguments) {
     for (int i = 0; i < calls_count; ++i) printf("%s %s\n", calls[i].group, calls[i].name);
     return 0;
   }
-  if (count != 7 || chdir(arguments[5]) != 0) return 2;
-  const char* const build_up = arguments[1];
-  made[0] = find(arguments[2]), made[1] = find(arguments[3]);
-  objects_of[1] = arguments[4][0] == '0';
-  set_up(arguments[5]);
+  if (count != 7 && count != 8) return 2;
+  calls_made = count - 5;
+  const char *const build_up = arguments[1], *const file = arguments[count - 1];
+  for (int i = 0; i < calls_made; ++i) made[i] = find(arguments[2 + i]);
+  objects_of[1] = arguments[count - 3][0] == '0';
+  if (chdir(arguments[count - 2]) != 0) return 2;
+  set_up(arguments[count - 2]);
   pthread_t threads[3];
   if (strncmp(build_up, "native:", 7) == 0) order = build_up + 7;
   if (strcmp(build_up, "twice") == 0) repeats = 2;
@@ -366,17 +370,19 @@ int main(int count, char** arguments) {
   if (is_pending) repeats = 0, signal(SIGUSR1, in_handler);
   const int has_third = strcmp(build_up, "third") == 0;
   pthread_create(&threads[0], NULL, run, (void*)0L);
-  if (is_pending) pthread_kill(threads[0], SIGUSR1), sem_post(&turn);
+  if (is_pending) pthread_kill(threads[0], SIGUSR1), sem_post(&turns[0]);
+  if (calls_made == 3) pthread_create(&threads[2], NULL, run, (void*)2L);
   if (has_third) {
     pthread_create(&threads[2], NULL, run_between, NULL);
     pthread_create(&threads[1], NULL, run, (void*)1L);
     pthread_join(threads[2], NULL), pthread_join(threads[1], NULL);
   } else if (order != NULL) {
     make_in_order();
-    print_outcome(arguments[6]);
+    print_outcome(file);
   } else {
     run((void*)1L);  // few threads have few schedules
   }
   pthread_join(threads[0], NULL);
-  print_outcome(arguments[6]);
+  if (calls_made == 3) pthread_join(threads[2], NULL);
+  print_outcome(file);
 }
