@@ -6,7 +6,6 @@
 #include <optional>
 #include <string>
 
-#include "core/error.hpp"
 #include "fibers/explore/report/reordered_events.hpp"
 #include "fibers/kernel/call_stack.hpp"
 #include "fibers/kernel/visit.hpp"
@@ -16,6 +15,24 @@ namespace waitpoint::posix {
 namespace {
 
 constexpr std::size_t frames_of_running_max = 64;
+
+struct StackVisit : kernel::Visit {
+  void* frames[exploration::frames_searched];
+  std::size_t count = 0;
+};
+
+// Of the running thread. The search for handlers of exceptions takes locks, which are waitpoints in the program's code.
+std::size_t capture(std::span<void*> frames) {
+  std::optional<InKernel> within;
+  if (is_simulated()) within.emplace();
+  return kernel::capture_call_stack(frames.data(), frames.size());
+}
+
+// At an access to memory a task is in the program's code, too.
+void capture_stack(kernel::Visit& visit) {
+  auto& request = static_cast<StackVisit&>(visit);
+  request.count = capture(request.frames);
+}
 
 }  // namespace
 
@@ -32,17 +49,16 @@ sync::CodePlaces program_calls(std::span<void* const> frames) {
 }
 
 sync::CodePlaces running_calls() {
-  std::optional<InKernel> within;  // the search for handlers of exceptions takes locks
-  if (is_simulated()) within.emplace();
   void* frames[frames_of_running_max];
-  return program_calls({frames, kernel::capture_call_stack(frames, frames_of_running_max)});
+  return program_calls({frames, capture(frames)});
 }
 
 sync::CodePlaces program_calls(kernel::Task& task) {
-  void* frames[exploration::frames_searched];
-  const std::size_t count = kernel::call_stack(task, frames, exploration::frames_searched);
-  WAITPOINT_CHECK(count <= exploration::frames_searched, "a call stack is longer than its room");
-  return program_calls(std::span(frames, count));
+  if (task.sequence == 0) return {};
+  StackVisit request;
+  request.act = capture_stack;
+  kernel::visit(task, request);
+  return program_calls(std::span(request.frames, request.count));
 }
 
 }  // namespace waitpoint::posix
