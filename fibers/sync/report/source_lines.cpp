@@ -23,8 +23,23 @@ bool is_ours(const std::string& line) {
     return contains(line, "waitpoint::kernel::") || contains(line, "waitpoint::sync::") ||
            contains(line, "waitpoint::races::") || contains(line, "waitpoint::tools::") || line.starts_with("std::");
   for (const char* folder : {"fibers/switch/", "fibers/kernel/", "fibers/clocks/", "fibers/sync/", "fibers/io/",
-                             "fibers/laas/", "core/error.", "fibers/explore/races/", "tools/run/", "/include/c++/"})
+                             "fibers/laas/", "core/error.", "fibers/explore/races/", "tools/run/"})
     if (line.find(folder, place) != std::string::npos) return true;
+  const std::size_t headers = line.find("/include/", place);
+  return headers != std::string::npos && line.find("/c++/", headers) != std::string::npos;
+}
+
+// A call, and the functions inlined there, innermost first: "function at file:line".
+struct Place : CodePlace {
+  std::vector<std::string> lines;
+};
+
+// Of the C and C++ runtimes: a crash is raised and a thread begins there, which says nothing about the program.
+bool is_of_runtime(const Place& place) {
+  const std::string_view name = std::string_view(place.module).substr(place.module.rfind('/') + 1);
+  for (const std::string_view runtime :
+       {"libc.so", "libstdc++.so", "libpthread.so", "libc++.so", "libgcc_s.so", "ld-linux"})
+    if (name.starts_with(runtime)) return true;
   return false;
 }
 
@@ -36,7 +51,8 @@ std::string readable(const std::string& line) {
   const std::string name = line.substr(0, end);
   const std::string place = end == std::string::npos ? "" : line.substr(end);
   const std::size_t lambda = name.find("{lambda");
-  const bool calls = name.starts_with("std::_Function_handler<") || name.starts_with("waitpoint::sync::CallOf<");
+  const bool calls = name.starts_with("std::_Function_handler<") || name.starts_with("std::thread::_State_impl<") ||
+                     name.starts_with("waitpoint::sync::CallOf<");
   if (calls && lambda != std::string::npos) {
     const std::size_t begin = name.find_last_of("<,", lambda) + 1;
     return name.substr(begin, name.find('}', lambda) + 1 - begin) + place;
@@ -56,11 +72,6 @@ bool is_entry(const std::string& line) {
   return contains(line, "waitpoint::sync::(anonymous namespace)::run_thread") ||
          contains(line, "waitpoint::kernel::task_main");
 }
-
-// A call, and the functions inlined there, innermost first: "function at file:line".
-struct Place : CodePlace {
-  std::vector<std::string> lines;
-};
 
 std::string name_from_symbols(const Place& place) {
   if (place.module.empty()) return "?";
@@ -102,10 +113,12 @@ void add_lines(const std::vector<Place*>& asked, const std::string& module) {
 }
 
 // The lines of one stack with known places.
-std::vector<std::string> user_lines(std::span<const Place> places, const std::string& own_library, std::size_t most) {
+std::vector<std::string> lines_of(std::span<const Place> places, const std::string& own_library, bool with_runtime,
+                                  std::size_t most) {
   std::vector<std::string> found;
   for (const Place& place : places) {
     if (!place.module.empty() && place.module == own_library) continue;
+    if (!with_runtime && is_of_runtime(place)) continue;
     const std::vector<std::string> without = {name_from_symbols(place)};
     for (const std::string& line : place.lines.empty() ? without : place.lines) {
       if (is_entry(line)) return found;
@@ -115,6 +128,11 @@ std::vector<std::string> user_lines(std::span<const Place> places, const std::st
     }
   }
   return found;
+}
+
+std::vector<std::string> user_lines(std::span<const Place> places, const std::string& own_library, std::size_t most) {
+  std::vector<std::string> found = lines_of(places, own_library, false, most);
+  return found.empty() ? lines_of(places, own_library, true, most) : found;
 }
 
 }  // namespace
