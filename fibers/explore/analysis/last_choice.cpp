@@ -52,7 +52,7 @@ std::optional<LastChoice> by_all_alternatives(Trials& trials, const LeastFailure
   if (!failing) return std::nullopt;
   const std::vector<Decision>& decisions = failing->lesson.choices;
   for (std::size_t i = decisions.size(); i-- > 0;) {
-    // The absence of a spurious wake-up explains nothing.
+    // As in Continuation.
     if (decisions[i].choice == kernel::Choice::spurious && !decisions[i].is_switch()) continue;
     for (std::uint32_t other = 0; other < decisions[i].count; ++other) {
       if (other == decisions[i].chosen) continue;
