@@ -12,6 +12,13 @@ namespace waitpoint::kernel {
 /// Object::kind of memory, by address.
 extern const char memory_kind[];
 
+/// A word of eight bytes.
+struct Memory : Object {
+  explicit Memory(std::uint64_t address_of) : Object(memory_kind), address(address_of) {}
+
+  const std::uint64_t address;
+};
+
 /// A waitpoint of the running task before `operation` on memory shared with others; `memory` is null for operations
 /// without a location. Returns at once for a timer, which cannot wait, and when the run is over.
 void access(Operation operation, Object* memory);

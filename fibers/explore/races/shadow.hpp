@@ -111,8 +111,7 @@ class Shadow {
   }
   /// The kernel's object for the cell, in this run.
   kernel::Object& object(Cell& cell) {
-    if (cell.object == nullptr)
-      cell.object = new (objects_.take(sizeof(kernel::Object))) kernel::Object(kernel::memory_kind);
+    if (cell.object == nullptr) cell.object = new (objects_.take(sizeof(kernel::Memory))) kernel::Memory(cell.word * 8);
     return *cell.object;
   }
   /// The accesses older than the cell's latest, in reverse order: more_count of them.

@@ -10,9 +10,11 @@
 #include "fibers/explore/schedules/course.hpp"
 #include "fibers/kernel/run.hpp"
 #include "fibers/kernel/watch.hpp"
+#include "fibers/posix/base/symbols.hpp"
 #include "fibers/posix/family/processes.hpp"
 #include "fibers/posix/program/program.hpp"
 #include "fibers/posix/reports/program_calls.hpp"
+#include "fibers/sync/report/object_names.hpp"
 
 namespace waitpoint::posix {
 namespace {
@@ -105,6 +107,7 @@ void Explored::begin(const Asked& asked) {
 }
 
 void Explored::watch(kernel::Scheduler& scheduler, const Asked& asked) {
+  sync::name_variables_by(symbol_at);
   if (asked.decision != Asked::none) narrator.ask_for(asked.decision);
   const auto begin_in_process = [] { record->explored->continue_in_process(*record->settings.asked); };
   if (asked.stops)
