@@ -10,7 +10,7 @@
 #include "fibers/sync/mutex.hpp"
 #include "fibers/sync/semaphore.hpp"
 #include "fibers/sync/thread.hpp"
-#include "tests/fibers/explore/contains.hpp"
+#include "tests/fibers/contains.hpp"
 #include "tests/fibers/explore/faulty_bodies.hpp"
 
 namespace waitpoint {

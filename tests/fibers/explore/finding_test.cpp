@@ -15,7 +15,7 @@
 #include "fibers/explore/report/event_columns.hpp"
 #include "fibers/sync/mutex.hpp"
 #include "fibers/sync/thread.hpp"
-#include "tests/fibers/explore/contains.hpp"
+#include "tests/fibers/contains.hpp"
 
 namespace waitpoint {
 namespace {

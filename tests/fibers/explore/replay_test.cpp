@@ -12,7 +12,7 @@
 #include "fibers/explore/strategies/factory.hpp"
 #include "fibers/sync/mutex.hpp"
 #include "fibers/sync/thread.hpp"
-#include "tests/fibers/explore/contains.hpp"
+#include "tests/fibers/contains.hpp"
 #include "tests/fibers/explore/faulty_bodies.hpp"
 
 namespace waitpoint {

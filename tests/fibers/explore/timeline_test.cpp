@@ -18,7 +18,7 @@
 #include "fibers/sync/mutex.hpp"
 #include "fibers/sync/semaphore.hpp"
 #include "fibers/sync/thread.hpp"
-#include "tests/fibers/explore/contains.hpp"
+#include "tests/fibers/contains.hpp"
 
 namespace waitpoint {
 namespace {

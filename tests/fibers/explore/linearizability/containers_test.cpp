@@ -9,7 +9,7 @@
 #include "fibers/sync/condition_variable.hpp"
 #include "fibers/sync/simulation.hpp"
 #include "fibers/sync/thread.hpp"
-#include "tests/fibers/explore/contains.hpp"
+#include "tests/fibers/contains.hpp"
 #include "tests/fibers/explore/linearizability/containers.hpp"
 #include "tests/fibers/explore/linearizability/models.hpp"
 

@@ -6,7 +6,7 @@
 
 #include <string>
 
-#include "tests/fibers/explore/contains.hpp"
+#include "tests/fibers/contains.hpp"
 #include "tests/fibers/explore/linearizability/histories.hpp"
 #include "tests/fibers/explore/linearizability/models.hpp"
 

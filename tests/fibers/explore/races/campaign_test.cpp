@@ -7,7 +7,7 @@
 #include <string>
 
 #include "fibers/explore/explore.hpp"
-#include "tests/fibers/explore/contains.hpp"
+#include "tests/fibers/contains.hpp"
 #include "tests/fibers/explore/races/programs.hpp"
 
 namespace waitpoint::races {

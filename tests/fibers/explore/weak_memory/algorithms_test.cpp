@@ -8,7 +8,7 @@
 #include <functional>
 
 #include "fibers/explore/explore.hpp"
-#include "tests/fibers/explore/contains.hpp"
+#include "tests/fibers/contains.hpp"
 
 namespace waitpoint::weak_memory {
 namespace {

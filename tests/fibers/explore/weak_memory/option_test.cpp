@@ -6,7 +6,7 @@
 
 #include "fibers/explore/explore.hpp"
 #include "fibers/explore/schedules/token.hpp"
-#include "tests/fibers/explore/contains.hpp"
+#include "tests/fibers/contains.hpp"
 #include "tests/fibers/explore/weak_memory/memory_uses.hpp"
 
 namespace waitpoint::weak_memory {

@@ -11,8 +11,8 @@
 #include "fibers/sync/report/source_lines.hpp"
 #include "fibers/sync/semaphore.hpp"
 #include "fibers/sync/thread.hpp"
+#include "tests/fibers/contains.hpp"
 #include "tests/fibers/sync/orders.hpp"
-#include "tests/fibers/sync/report/text_parts.hpp"
 
 namespace waitpoint {
 namespace {

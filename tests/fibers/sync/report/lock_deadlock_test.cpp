@@ -13,8 +13,8 @@
 #include "fibers/sync/recursive_mutex.hpp"
 #include "fibers/sync/shared_mutex.hpp"
 #include "fibers/sync/thread.hpp"
+#include "tests/fibers/contains.hpp"
 #include "tests/fibers/sync/orders.hpp"
-#include "tests/fibers/sync/report/text_parts.hpp"
 
 namespace waitpoint {
 namespace {
