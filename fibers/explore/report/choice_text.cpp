@@ -5,6 +5,7 @@
 
 #include "core/error.hpp"
 #include "fibers/explore/races/runtime.hpp"
+#include "fibers/explore/report/event_words.hpp"
 #include "fibers/sync/report/object_names.hpp"
 
 namespace waitpoint::exploration {
@@ -45,10 +46,11 @@ std::string title_of(const Task& task) {
   return std::string_view(task.robot->name) == "environment" ? title : title + " of " + task.robot->name;
 }
 
-std::string about_to(const Task& task) {
-  std::string text = title_of(task) + ", about to " + name(task.operation);
-  if (task.at != nullptr) text += " " + sync::describe(*task.at);
-  return text;
+std::string about_to(const Task& task) { return title_of(task) + ", about to " + next_event(task); }
+
+std::string next_event(const Task& task) {
+  const std::string_view kind = task.at != nullptr ? task.at->kind : "";
+  return event_in_words(task.operation, task.sequence, kind, task.at != nullptr ? sync::describe(*task.at) : "");
 }
 
 ChoiceText in_words(Choice choice, const Task& task, std::uint32_t chosen, std::uint32_t count) {

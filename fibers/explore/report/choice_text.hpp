@@ -13,6 +13,8 @@ namespace waitpoint::exploration {
 std::string title_of(const Task& task);
 /// "consumer#2, about to lock mutex #1".
 std::string about_to(const Task& task);
+/// "lock mutex #1": what the task is about to do.
+std::string next_event(const Task& task);
 
 /// An alternative in words, and the code that they name at their end; none without its module.
 struct ChoiceText {

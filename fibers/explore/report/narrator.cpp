@@ -11,11 +11,7 @@
 namespace waitpoint::exploration {
 namespace {
 
-std::string in_brackets(const Task& task) {
-  std::string text = title_of(task) + " (" + kernel::name(task.operation);
-  if (task.at != nullptr) text += " " + sync::describe(*task.at);
-  return text + ")";
-}
+std::string in_brackets(const Task& task) { return title_of(task) + " (" + next_event(task) + ")"; }
 
 std::string milliseconds(Duration duration) {
   char text[32];

@@ -15,8 +15,7 @@ constexpr std::size_t repeats_shown = 3;  // repetitions up to this number are p
 std::string line_of(const Timeline& timeline, const TimelineEvent& event, std::size_t width) {
   const std::string& task = timeline.tasks[event.task].title;
   std::string line = "  " + to_string(event.time) + (event.is_switch ? " * " : "   ") + task;
-  line += std::string(width - task.size() + 2, ' ') + name(event.operation);
-  return event.object < 0 ? line : line + " " + timeline.object(event.object);
+  return line + std::string(width - task.size() + 2, ' ') + timeline.words(event);
 }
 
 // The number of further repetitions of the `count` lines from `from` on.
@@ -128,8 +127,7 @@ void write_trace(std::ostream& out, const Timeline& timeline) {
       out << "{\"ph\":\"X\",\"name\":" << json_text(title) << ",\"cat\":\"" << kind
           << "\",\"ts\":" << microseconds(from_ns) << ",\"dur\":" << microseconds(to_ns - from_ns) << where << "},\n";
     };
-    slice(name(event.operation) + (event.object < 0 ? "" : " " + timeline.object(event.object)),
-          event.is_switch ? "switch" : "event", stamps_ns[i], stamps_ns[i] + 1);
+    slice(timeline.words(event), event.is_switch ? "switch" : "event", stamps_ns[i], stamps_ns[i] + 1);
     const bool is_last = next[i] == events.size();
     const std::int64_t until_ns = is_last ? end_ns : stamps_ns[next[i]];
     const std::string state = state_after(timeline, event, is_last ? nullptr : &events[next[i]]);

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "core/time.hpp"
+#include "fibers/explore/report/event_words.hpp"
 #include "fibers/explore/strategies/schedule.hpp"
 #include "fibers/kernel/operation.hpp"
 
@@ -57,6 +58,11 @@ struct Timeline {
   /// The object's title; empty for none.
   std::string object(std::int32_t index) const {
     return index < 0 ? "" : objects[static_cast<std::size_t>(index)].title;
+  }
+  /// "lock mutex #1".
+  std::string words(const TimelineEvent& event) const {
+    const std::string_view kind = event.object < 0 ? "" : objects[static_cast<std::size_t>(event.object)].kind;
+    return event_in_words(event.operation, event.which.sequence, kind, object(event.object));
   }
 };
 
