@@ -48,6 +48,7 @@ OWN_CASES = {
     "view, in a browser": [sys.executable, str(ROOT / "tests/view/browser_test.py"), BUILD],
     "exec": [sys.executable, str(ROOT / "tests/exec/debian_test.py"), BUILD],
     "exec, the command": [sys.executable, str(ROOT / "tests/exec/command_test.py"), BUILD],
+    "explore, programs: causes": [sys.executable, str(ROOT / "tests/exec/causes_test.py"), BUILD],
     "exec, misuse": [sys.executable, str(ROOT / "tests/exec/misuse_test.py"), BUILD],
     "exec, endless runs": [sys.executable, str(ROOT / "tests/exec/endless_test.py"), BUILD],
     "exec, partners": [sys.executable, str(ROOT / "tests/exec/partners_test.py"), BUILD],

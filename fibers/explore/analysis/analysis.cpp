@@ -62,7 +62,7 @@ class Analyser {
   bool explains() const {
     if (traits_.is_cheap) return true;
     if (!options_.minimize || analysis_.least.kind == RunVerdict::Kind::killed) return false;
-    return is_default_ ? options_.page && !traits_.has_noise : !analysis_.least.deviations.empty();
+    return is_default_ ? !traits_.has_noise : !analysis_.least.deviations.empty();
   }
 
   void explain() {
@@ -73,7 +73,6 @@ class Analyser {
     note_gravest(trials);
     if (!choice) return;
     analysis_.finding.choice = choice->words;
-    if (is_default_ && !traits_.is_cheap) return;  // sought for the page alone: the text is the same without one
     analysis_.text += "the last choice from which it could still have passed" +
                       std::string(is_default_ ? " by deviating from the default order" : "") + ": " + choice->words +
                       "\n" + reversed_.text;
@@ -99,12 +98,15 @@ class Analyser {
   void tell_run() {
     const Time from =
         traits_.is_cheap ? Time() : Time() + std::max(Duration(), analysis_.least.end.since_start() - shown);
-    const auto told = target_.repeat(
-        analysis_.plan, {.words = true, .places = true, .events = WantedEvents{.from = from, .trace = options_.trace}});
+    WantedEvents events{.from = from, .trace = options_.trace};
+    if (!traits_.has_noise)
+      events.cause = {analysis_.least.kind == RunVerdict::Kind::deadlock, reversed_.passing.has_value(), order()};
+    const auto told = target_.repeat(analysis_.plan, {.words = true, .places = true, .events = events});
     if (!told) return;
     const Evidence& evidence = told->evidence;
     std::string& text = analysis_.text;
     if (!told->passed()) analysis_.words = told->words;
+    if (!evidence.cause.empty()) text.insert(0, "cause: " + evidence.cause + "\n");
     text += evidence.details;
     analysis_.races = evidence.races;
     if (!evidence.told.empty()) text += "switches away from the default order:\n" + evidence.told;
@@ -112,6 +114,12 @@ class Analyser {
     if (!evidence.last_events.empty())
       text += "last events of the tasks (*: switch away from the default order):\n" + evidence.last_events;
     analysis_.trace = evidence.trace;
+  }
+
+  std::optional<ReversedOrder> order() const {
+    if (!reversed_.pair) return std::nullopt;
+    return ReversedOrder{reversed_.pair->failing.event, reversed_.pair->passing.event.task,
+                         reversed_.pair->passing.operation};
   }
 
   Target& target_;

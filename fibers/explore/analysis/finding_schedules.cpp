@@ -34,7 +34,7 @@ class Schedules {
   Schedules(Target& target, const Finding& failure, const ReversedEvents& reversed)
       : target_(target), events_{.page = true} {
     if (reversed.pair) {
-      events_.marked = {reversed.pair->failing, reversed.pair->passing};
+      events_.marked = {reversed.pair->failing.event, reversed.pair->passing.event};
       events_.marked_count = 2;
     }
     const Time from = reversed.pair ? reversed.from - lead : failure.end - last_seconds;

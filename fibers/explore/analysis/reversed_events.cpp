@@ -28,8 +28,8 @@ class Comparison {
       if (const std::optional<Finding> tried = log_of(choice_.passing)) consider(choice_.passing, *tried);
     if (!passes_) return {};
     if (!pair_) return {no_pair_in_words(), passes_};
-    const std::optional<Finding> first = before(least_.plan(), pair_->failing),
-                                 second = before(*passes_, pair_->passing);
+    const std::optional<Finding> first = before(least_.plan(), pair_->failing.event),
+                                 second = before(*passes_, pair_->passing.event);
     if (!first || !second) return {"", passes_};
     return {pair_in_words(first->evidence.told, second->evidence.told), passes_, pair_,
             std::min(first->end, second->end)};

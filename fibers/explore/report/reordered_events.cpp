@@ -73,7 +73,7 @@ std::optional<EventPair> pair_in_other_order(std::span<const DoneEvent> fails, s
       found_place = place;
     }
     if (found)
-      return EventPair{fails[first].event, passes[*found].event,
+      return EventPair{fails[first], passes[*found],
                        static_cast<std::size_t>(first != parting) + static_cast<std::size_t>(*found != parting)};
   }
   return std::nullopt;

@@ -20,8 +20,8 @@
 namespace waitpoint::exploration {
 
 struct EventPair {
-  EventOf failing;          ///< first in the failing run
-  EventOf passing;          ///< first in the passing run
+  DoneEvent failing;        ///< first in the failing run
+  DoneEvent passing;        ///< first in the passing run
   std::size_t indirection;  ///< the number of the two that are not the events at which the runs diverge
 };
 

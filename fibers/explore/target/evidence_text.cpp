@@ -24,6 +24,7 @@ void tell(const Narration& narration, const WantedEvidence& wanted, Evidence& ev
 
 void tell(const Timeline& timeline, const WantedEvents& wanted, Evidence& evidence) {
   evidence.last_events = to_text(timeline, lines_of_events_max);
+  if (wanted.cause) evidence.cause = cause_in_words(timeline, *wanted.cause);
   if (wanted.page) evidence.columns = to_columns(timeline, wanted.marks());
   if (!wanted.trace) return;
   std::ostringstream text;

@@ -76,6 +76,7 @@ struct Evidence {
   std::string told;             ///< the switches, a decision or an event, in words
   std::string system_calls;     ///< with the profile: warnings of calls that leave virtual time
   std::string last_events;      ///< in words
+  std::string cause;            ///< cause_in_words()
   std::string trace;            ///< for Chrome and Perfetto
   std::string columns;          ///< of a page: to_columns()
   std::string scene, frames;    ///< the same, of a scenario: its floor, as JSON

@@ -8,6 +8,7 @@
 #include <span>
 
 #include "core/time.hpp"
+#include "fibers/explore/report/cause.hpp"
 #include "fibers/explore/strategies/schedule.hpp"
 
 namespace waitpoint::exploration {
@@ -18,7 +19,8 @@ struct WantedEvents {
   bool trace = false;  ///< also as a trace
   bool page = false;   ///< also in columns, and of a scenario the floor
   std::uint32_t marked_count = 0;
-  std::array<EventOf, 2> marked = {};  ///< in the columns: so many of these
+  std::array<EventOf, 2> marked = {};      ///< in the columns: so many of these
+  std::optional<FailureOrder> cause = {};  ///< the cause is wanted
 
   std::span<const EventOf> marks() const { return std::span(marked).first(marked_count); }
 };

@@ -35,8 +35,9 @@ void pass_lesson(Pass& pass, Lesson& lesson) {
 
 template <class Pass, class Evidence>
 void pass_evidence(Pass& pass, Evidence& evidence) {
-  for (auto* const text : {&evidence.details, &evidence.told, &evidence.system_calls, &evidence.last_events,
-                           &evidence.trace, &evidence.columns, &evidence.scene, &evidence.frames, &evidence.trail})
+  for (auto* const text :
+       {&evidence.details, &evidence.told, &evidence.system_calls, &evidence.last_events, &evidence.cause,
+        &evidence.trace, &evidence.columns, &evidence.scene, &evidence.frames, &evidence.trail})
     pass(*text);
   pass(evidence.log);
 }
