@@ -12,11 +12,12 @@ namespace waitpoint::kernel {
 /// Object::kind of memory, by address.
 extern const char memory_kind[];
 
-/// A word of eight bytes.
+/// A word of eight bytes, in which accesses begin at the bytes of `starts`, one bit each.
 struct Memory : Object {
   explicit Memory(std::uint64_t address_of) : Object(memory_kind), address(address_of) {}
 
   const std::uint64_t address;
+  std::uint8_t starts = 0;
 };
 
 /// A waitpoint of the running task before `operation` on memory shared with others; `memory` is null for operations

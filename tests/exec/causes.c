@@ -13,6 +13,9 @@ static struct {
   long owner;
   int balance;
 } account;
+static struct {
+  int first, second;
+} pair;
 static int* config = NULL;
 
 static void* left_then_right(void* unused) {
@@ -60,6 +63,13 @@ static void* produce(void* unused) {
 
 static void* deposit(void* unused) {
   account.balance = account.balance + 1;
+  return unused;
+}
+
+static void* change_both(void* unused) {
+  pair.first = pair.first + 1;
+  sched_yield();
+  pair.second = pair.second + 1;
   return unused;
 }
 
@@ -111,6 +121,10 @@ int main(int count, char** words) {
   if (strcmp(mistake, "lost update") == 0) run(deposit, deposit);
   if (strcmp(mistake, "two sections") == 0) run(deposit_in_two_sections, deposit_in_two_sections);
   if (strcmp(mistake, "lost update") == 0 || strcmp(mistake, "two sections") == 0) assert(account.balance == 2);
+  if (strcmp(mistake, "neighbours") == 0) {
+    run(change_both, change_both);
+    assert(pair.first == 2 && pair.second == 2);
+  }
   if (strcmp(mistake, "initialisation") == 0) run(set_up, use);
   if (strcmp(mistake, "destruction") == 0) {
     pthread_t thread;

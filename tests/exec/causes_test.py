@@ -2,10 +2,13 @@
 """The cause in the report of a failure: causes_test.py BUILD."""
 
 import re
+import shutil
 import unittest
 
 from exec_case import ExecCase, explore
 
+# gdb reads the types of variables.
+BALANCE = r"account\.balance" if shutil.which("gdb") else r"account\+8"
 LEFT, CHANGE = 'mutex #\\d+ "left"', 'condition variable #\\d+ "change"'
 CROSSED = (
     'locks are taken in opposite orders: thread 1 holds mutex #\\d+ "left" and waits for mutex #\\d+ "right", '
@@ -16,7 +19,7 @@ CAUSES = {
     "lost wake-up": f"lost wake-up: notify_one of thread 2 comes before thread 1 waits for {CHANGE}, and no notification comes after it",
     "missed notification": f"missed notification: thread [12] waits for {CHANGE}, but the only notification since then, "
     "notify_one of thread [34], wakes thread [12]",
-    "lost update": 'lost update: thread [12] writes memory #\\d+ "account\\+8" between the read and the write of thread [12]',
+    "lost update": f'lost update: thread [12] writes memory #\\d+ "{BALANCE}" between the read and the write of thread [12]',
     "two sections": f"atomicity violation: thread [12] locks {LEFT} between two critical sections of thread [12]",
 }
 MISUSES = {
@@ -59,8 +62,13 @@ class Stacks(ExecCase):
 
     def test_both_accesses_are_shown_with_variable_and_line(self):
         done = explore("--", self.compile("causes.c", "-g", "-pthread"), "lost update")
-        accesses = re.findall(r'about to (?:load|store) memory #\d+ "account\+8"\n      at deposit at .*causes\.c:\d+\n', done.stdout)
+        accesses = re.findall(rf'about to (?:load|store) memory #\d+ "{BALANCE}"\n      at deposit at .*causes\.c:\d+\n', done.stdout)
         self.assertEqual(len(accesses), 2, done.stdout)
+
+    def test_two_fields_of_one_word_are_both_named(self):
+        done = explore("--switch-at", "accesses", "--", self.compile("causes.c", "-g", "-pthread"), "neighbours")
+        fields = r"pair\.first, pair\.second" if shutil.which("gdb") else r"pair, pair\+4"
+        self.assertRegex(done.stdout, rf' memory #\d+ "{fields}"')
 
     def test_a_crash_begins_in_the_program(self):
         done = explore("--", self.compile("causes.c", "-g", "-pthread"), "two sections")

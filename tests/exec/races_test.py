@@ -36,7 +36,7 @@ class RacesBesideFailures(ExecCase):
                 self.assertRegex(line, "^waitpoint: the default order: " + self.RACE + "$")
             self.assertRegex(lines[2], r"^waitpoint: schedule \d+ of strategy portfolio, seed 1: terminated by signal 6 \(Aborted\)$")
             self.assertRegex(done.stdout, r"\d+ failed \(\d+ by a data race alone\), in ")
-            self.assertRegex(done.stdout, r"schedule \d+ of .* failed at \S+ s: terminated by signal 6 \(Aborted\)\n1 switch away from")
+            self.assertRegex(done.stdout, r"schedule \d+ of .* failed at \S+ s: terminated by signal 6 \(Aborted\)\ncause: lost update: .*\n1 switch away from")
             self.assertIn("the last choice from which it could still have passed", done.stdout)
             self.assertEqual(done.stdout.count("also found, by the default order: data race at"), 2, done.stdout)
             replays = re.findall(r"^replay: (.*)$", done.stdout, re.M)

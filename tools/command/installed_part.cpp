@@ -49,6 +49,14 @@ std::filesystem::path find_part(const std::string& name) {
   throw BadInput("programs", name + ", which they need, is not installed: " + missing_part::programs);
 }
 
+std::filesystem::path find_gdb_script(const std::string& name) {
+  const std::filesystem::path folder = std::filesystem::read_symlink("/proc/self/exe").parent_path();
+  const std::filesystem::path installed = std::filesystem::path(data_folder) / "gdb";
+  for (const std::filesystem::path& place : {folder / "gdb", folder / "../share/waitpoint/gdb", installed})
+    if (std::filesystem::exists(place / name)) return (place / name).lexically_normal();
+  throw BadInput("gdb", "the gdb commands are not installed: expected " + (installed / name).string());
+}
+
 std::filesystem::path scenarios_folder() {
   const std::vector<std::filesystem::path> folders = folders_of_scenarios();
   if (folders.empty())

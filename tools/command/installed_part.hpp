@@ -9,6 +9,8 @@ namespace waitpoint::tools {
 
 /// The part of this name from beside this library, the build folder, or the installation. BadInput if it is missing.
 std::filesystem::path find_part(const std::string& name);
+/// A script for gdb: the build folder's, or an installed one.
+std::filesystem::path find_gdb_script(const std::string& name);
 
 /// The folder of the shipped scenarios: beside this program's (the build tree has a link there), or installed. BadInput
 /// if there is none.

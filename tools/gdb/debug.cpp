@@ -13,7 +13,7 @@
 
 #include "core/error.hpp"
 #include "core/program_path.hpp"
-#include "tools/command/data_folder.hpp"
+#include "tools/command/installed_part.hpp"
 #include "tools/command/own_command_line.hpp"
 #include "tools/command/shell_words.hpp"
 #include "tools/exec/exec.hpp"
@@ -26,19 +26,9 @@ namespace {
 
 std::filesystem::path own_program() { return std::filesystem::read_symlink("/proc/self/exe"); }
 
-std::filesystem::path commands() {
-  const std::filesystem::path folder = own_program().parent_path();
-  const std::filesystem::path installed = std::filesystem::path(data_folder) / "gdb";
-  for (const std::filesystem::path& place : {folder / "gdb", folder / "../share/waitpoint/gdb", installed}) {
-    const std::filesystem::path script = place / "waitpoint-gdb.py";
-    if (std::filesystem::exists(script)) return script.lexically_normal();
-  }
-  throw BadInput("gdb", "the gdb commands are not installed: expected " + (installed / "waitpoint-gdb.py").string());
-}
-
 [[noreturn]] void become_gdb(const DebugOptions& options, const std::vector<std::string>& first,
                              const std::vector<std::string>& program) {
-  std::vector<std::string> words = {"gdb", "-q", "-x", commands().string()};
+  std::vector<std::string> words = {"gdb", "-q", "-x", find_gdb_script("waitpoint-gdb.py").string()};
   for (const auto* some : {&first, &options.gdb_options}) words.insert(words.end(), some->begin(), some->end());
   words.push_back("--args");
   words.insert(words.end(), program.begin(), program.end());

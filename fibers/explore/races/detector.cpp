@@ -26,7 +26,7 @@ void Detector::touch(std::uint64_t word, Seen seen) {
   Cell& cell = shadow_.new_cell(word);
   if (!is_other_switch_point(seen)) return begin_cell(cell, seen);
   const std::uint32_t index = shadow_.index_of(cell);
-  pass_switch_point(seen.operation, cell);
+  pass_switch_point(seen, cell);
   if (watching_) record(shadow_.cell_again(index, word), seen);
 }
 
@@ -44,7 +44,7 @@ void Detector::access_shared(Cell& known, Seen seen) {
   if (is_shared_switch_point(known, seen.writes()) || is_other_switch_point(seen)) {
     const std::uint32_t index = shadow_.index_of(known);
     const std::uint64_t word = known.word;
-    pass_switch_point(seen.operation, known);
+    pass_switch_point(seen, known);
     if (!watching_) return;
     cell = &shadow_.cell_again(index, word);
   }
@@ -71,7 +71,9 @@ void Detector::access_range(std::uint64_t address, std::size_t size, std::uint8_
   for (std::uint64_t word = address / 8; word * 8 < end; ++word) {
     Cell* const cell = shadow_.find(word);
     if ((cell == nullptr || !is_shared_switch_point(*cell, seen.writes())) && !is_other_switch_point(seen)) continue;
-    pass_switch_point(operation, cell != nullptr ? *cell : shadow_.new_cell(word));
+    const std::uint64_t low = std::max(address, word * 8);
+    seen.footprint = footprint_of(low, std::min(end, word * 8 + 8) - low, kind);
+    pass_switch_point(seen, cell != nullptr ? *cell : shadow_.new_cell(word));
     if (!watching_) return;
     break;
   }
@@ -95,11 +97,14 @@ inline bool Detector::is_other_switch_point(const Seen& seen) {
   return weight_ >= weight_max || is_learned(seen.place);
 }
 
-void Detector::pass_switch_point(kernel::Operation operation, Cell& cell) {
+void Detector::pass_switch_point(const Seen& seen, Cell& cell) {
   const bool computed_long = weight_ >= weight_max;
   weight_ = 0;
   if (computed_long) return kernel::yield_after_computing();
-  kernel::access(operation, &shadow_.object(cell));
+  kernel::Memory& memory = shadow_.object(cell);
+  const std::uint32_t bytes = seen.footprint & footprint::bytes;
+  memory.starts |= static_cast<std::uint8_t>(bytes & ~(bytes - 1));
+  kernel::access(seen.operation, &memory);
 }
 
 // A task that spins on memory while it is unwound would never end: the kernel abandons it.

@@ -196,7 +196,7 @@ class Detector {
   static std::uint64_t bit_of(std::uint64_t place) { return place * 0x9E3779B97F4A7C15u >> (64 - 12); }
   bool is_shared_switch_point(const Cell& cell, bool writes) const;
   bool is_other_switch_point(const Seen& seen);
-  void pass_switch_point(kernel::Operation operation, Cell& cell);
+  void pass_switch_point(const Seen& seen, Cell& cell);
   void learn_from(Cell& cell, std::uint64_t place);
   void learn_place(std::uint64_t place);
   void begin_cell(Cell& cell, const Seen& seen);

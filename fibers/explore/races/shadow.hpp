@@ -64,7 +64,7 @@ inline constexpr int more_max = 3;
 
 struct alignas(64) Cell {
   std::uint64_t word;       ///< address / 8; 0: forgotten
-  kernel::Object* object;   ///< the kernel's object for it; null before its first switch point
+  kernel::Memory* object;   ///< the kernel's object for it; null before its first switch point
   std::uint32_t more;       ///< index of the accesses older than `latest`; no_more until needed
   std::uint32_t locations;  ///< in weak memory, index of the first atomic one; no_location until needed
   std::uint16_t owner;      ///< the task with the first access
@@ -110,7 +110,7 @@ class Shadow {
     return __builtin_expect(cells_[index].word == word, 1) ? cells_[index] : cell_of(word);
   }
   /// The kernel's object for the cell, in this run.
-  kernel::Object& object(Cell& cell) {
+  kernel::Memory& object(Cell& cell) {
     if (cell.object == nullptr) cell.object = new (objects_.take(sizeof(kernel::Memory))) kernel::Memory(cell.word * 8);
     return *cell.object;
   }

@@ -13,20 +13,14 @@ constexpr std::uint32_t holders_shown = 4;
 
 std::atomic<VariableName> name_of_variable = nullptr;
 
-std::string_view without_offset(std::string_view name) { return name.substr(0, name.find('+')); }
-
-// Of a word the variables that begin at a multiple of four bytes, and, if there are none, at others.
+// Of a word the variables, and parts of them, that are accessed.
 std::string variables_in(const kernel::Memory& memory) {
   const VariableName name_of = name_of_variable;
-  std::string names, latest;
-  for (const std::uint64_t offset : {0, 4, 1, 2, 3, 5, 6, 7}) {
-    if (offset == 1 && !names.empty()) break;
-    const char* const name =
-        name_of == nullptr ? nullptr : name_of(reinterpret_cast<const void*>(memory.address + offset));
-    if (name == nullptr || without_offset(name) == latest) continue;
-    latest = without_offset(name);
-    names.append(names.empty() ? "" : ", ").append(name);
-  }
+  std::string names;
+  for (unsigned byte = 0; byte < 8 && name_of != nullptr; ++byte)
+    if ((memory.starts >> byte & 1) != 0)
+      if (const char* const name = name_of(reinterpret_cast<const void*>(memory.address + byte)); name != nullptr)
+        names.append(names.empty() ? "" : ", ").append(name);
   return names;
 }
 

@@ -3,9 +3,12 @@
 
 #include <fmt/format.h>
 
+#include "core/program_path.hpp"
 #include "fibers/explore/analysis/analysis.hpp"
+#include "fibers/explore/report/reordered_events.hpp"
 #include "fibers/explore/schedules/token.hpp"
 #include "tools/command/version.hpp"
+#include "tools/explore/report/variable_fields.hpp"
 #include "tools/explore/runs/replay_command.hpp"
 #include "tools/explore/runs/switch_points.hpp"
 
@@ -39,6 +42,8 @@ Analysis analysed(ProcessTarget& target, SearchProgress& progress, const Plan& p
               {.minimize = options.minimize, .page = options.tells_finding(), .trace = options.trace.has_value()});
   progress.finish();
   report.text = headline(which, found) + analysis.text;
+  if (found.switch_at == SwitchAt::calls && analysis.finding.note == exploration::no_pair_in_words())
+    report.text += "accesses to memory are no events here: --switch-at accesses searches their orders, too\n";
   if (analysis.least.digest != 0) report.text += "digest: " + digest_text(analysis.least.digest) + "\n";
   report.races = std::move(analysis.races);
   report.trace = std::move(analysis.trace);
@@ -60,6 +65,8 @@ void tell_replay(const ProcessTarget& target, const ExploreOptions& options, con
                  const std::string& token, const std::string& schedule, FailureReport& report) {
   const std::string command = replay_command(options, token);
   report.text += "replay: " + command + "\n";
+  if (!options.program.empty())
+    report.text = with_fields(std::move(report.text), find_program(options.program.front()));
   report.finding.title = target.name();
   report.finding.version = version_line();
   report.finding.seed = options.seed;
