@@ -13,8 +13,8 @@ namespace waitpoint::kernel {
 extern const char memory_kind[];
 
 /// A word of eight bytes, in which accesses begin at the bytes of `starts`, one bit each.
-struct Memory : Object {
-  explicit Memory(std::uint64_t address_of) : Object(memory_kind), address(address_of) {}
+struct MemoryWord : Object {
+  explicit MemoryWord(std::uint64_t address_of) : Object(memory_kind), address(address_of) {}
 
   const std::uint64_t address;
   std::uint8_t starts = 0;

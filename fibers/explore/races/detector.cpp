@@ -101,7 +101,7 @@ void Detector::pass_switch_point(const Seen& seen, Cell& cell) {
   const bool computed_long = weight_ >= weight_max;
   weight_ = 0;
   if (computed_long) return kernel::yield_after_computing();
-  kernel::Memory& memory = shadow_.object(cell);
+  kernel::MemoryWord& memory = shadow_.object(cell);
   const std::uint32_t bytes = seen.footprint & footprint::bytes;
   memory.starts |= static_cast<std::uint8_t>(bytes & ~(bytes - 1));
   kernel::access(seen.operation, &memory);

@@ -63,11 +63,11 @@ static_assert(sizeof(MemoryAccess) == 24);
 inline constexpr int more_max = 3;
 
 struct alignas(64) Cell {
-  std::uint64_t word;       ///< address / 8; 0: forgotten
-  kernel::Memory* object;   ///< the kernel's object for it; null before its first switch point
-  std::uint32_t more;       ///< index of the accesses older than `latest`; no_more until needed
-  std::uint32_t locations;  ///< in weak memory, index of the first atomic one; no_location until needed
-  std::uint16_t owner;      ///< the task with the first access
+  std::uint64_t word;          ///< address / 8; 0: forgotten
+  kernel::MemoryWord* object;  ///< the kernel's object for it; null before its first switch point
+  std::uint32_t more;          ///< index of the accesses older than `latest`; no_more until needed
+  std::uint32_t locations;     ///< in weak memory, index of the first atomic one; no_location until needed
+  std::uint16_t owner;         ///< the task with the first access
   std::uint8_t more_count;
   bool touched;
   bool is_private;  ///< touched, by its owner alone, and without locations: plain accesses of the owner need no care
@@ -110,8 +110,9 @@ class Shadow {
     return __builtin_expect(cells_[index].word == word, 1) ? cells_[index] : cell_of(word);
   }
   /// The kernel's object for the cell, in this run.
-  kernel::Memory& object(Cell& cell) {
-    if (cell.object == nullptr) cell.object = new (objects_.take(sizeof(kernel::Memory))) kernel::Memory(cell.word * 8);
+  kernel::MemoryWord& object(Cell& cell) {
+    if (cell.object == nullptr)
+      cell.object = new (objects_.take(sizeof(kernel::MemoryWord))) kernel::MemoryWord(cell.word * 8);
     return *cell.object;
   }
   /// The accesses older than the cell's latest, in reverse order: more_count of them.

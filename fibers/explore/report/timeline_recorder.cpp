@@ -24,12 +24,12 @@ std::int32_t TimelineRecorder::number_of(const kernel::Object& object) {
   if (is_new)
     timeline_.objects.push_back({sync::describe(object), object.kind, object.label,
                                  object.robot != nullptr ? object.robot->name : "", object.number});
-  if (object.kind == kernel::memory_kind) name_again(static_cast<const kernel::Memory&>(object), known->second);
+  if (object.kind == kernel::memory_kind) name_again(static_cast<const kernel::MemoryWord&>(object), known->second);
   return known->second;
 }
 
 // Accesses that begin elsewhere in the word are to other variables.
-void TimelineRecorder::name_again(const kernel::Memory& memory, std::int32_t number) {
+void TimelineRecorder::name_again(const kernel::MemoryWord& memory, std::int32_t number) {
   std::uint8_t& starts = starts_[number];
   if (starts != memory.starts) timeline_.objects[static_cast<std::size_t>(number)].title = sync::describe(memory);
   starts = memory.starts;

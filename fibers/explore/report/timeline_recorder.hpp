@@ -27,7 +27,7 @@ class TimelineRecorder : public kernel::Watch {
   static void record(kernel::Watch& watch, const kernel::EventRecord& record);
   std::uint32_t number_of(const Task& task);
   std::int32_t number_of(const kernel::Object& object);
-  void name_again(const kernel::Memory& memory, std::int32_t number);
+  void name_again(const kernel::MemoryWord& memory, std::int32_t number);
   bool is_switch(const Explorer& explorer);
   void note_wait(const kernel::EventRecord& record);
 
@@ -36,7 +36,7 @@ class TimelineRecorder : public kernel::Watch {
   Time from_;
   std::map<std::uint64_t, std::uint32_t> numbers_;      // by task id
   std::map<std::uint64_t, std::int32_t> objects_;       // by identity
-  std::map<std::int32_t, std::uint8_t> starts_;         // of memory: kernel::Memory::starts
+  std::map<std::int32_t, std::uint8_t> starts_;         // of memory: kernel::MemoryWord::starts
   std::map<std::uint64_t, std::int64_t> last_release_;  // by object id: the last event that may have woken another task
   std::uint32_t process_ = 0;
   const Task* last_ = nullptr;  // the task of the last recorded event

@@ -14,7 +14,7 @@ constexpr std::uint32_t holders_shown = 4;
 std::atomic<VariableName> name_of_variable = nullptr;
 
 // Of a word the variables, and parts of them, that are accessed.
-std::string variables_in(const kernel::Memory& memory) {
+std::string variables_in(const kernel::MemoryWord& memory) {
   const VariableName name_of = name_of_variable;
   std::string names;
   for (unsigned byte = 0; byte < 8 && name_of != nullptr; ++byte)
@@ -33,7 +33,7 @@ std::string describe(const kernel::Object& object) {
   std::string text = object.kind;
   text += " #" + std::to_string(object.number);
   const bool is_memory = object.kind == kernel::memory_kind;
-  const std::string label = is_memory ? variables_in(static_cast<const kernel::Memory&>(object)) : object.label;
+  const std::string label = is_memory ? variables_in(static_cast<const kernel::MemoryWord&>(object)) : object.label;
   return label.empty() ? text : text + " \"" + label + "\"";
 }
 

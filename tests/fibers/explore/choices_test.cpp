@@ -12,7 +12,7 @@
 #include "fibers/sync/mutex.hpp"
 #include "fibers/sync/semaphore.hpp"
 #include "fibers/sync/thread.hpp"
-#include "tests/fibers/contains.hpp"
+#include "tests/fibers/text/contains.hpp"
 
 namespace waitpoint {
 namespace {

@@ -9,8 +9,8 @@
 #include "fibers/explore/explore.hpp"
 #include "fibers/sync/atomic.hpp"
 #include "fibers/sync/thread.hpp"
-#include "tests/fibers/contains.hpp"
 #include "tests/fibers/explore/alternation.hpp"
+#include "tests/fibers/text/contains.hpp"
 
 namespace waitpoint {
 namespace {

@@ -10,8 +10,8 @@
 #include "fibers/sync/mutex.hpp"
 #include "fibers/sync/semaphore.hpp"
 #include "fibers/sync/thread.hpp"
-#include "tests/fibers/contains.hpp"
 #include "tests/fibers/explore/faulty_bodies.hpp"
+#include "tests/fibers/text/contains.hpp"
 
 namespace waitpoint {
 namespace {

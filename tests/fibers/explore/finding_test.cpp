@@ -15,7 +15,7 @@
 #include "fibers/explore/report/event_columns.hpp"
 #include "fibers/sync/mutex.hpp"
 #include "fibers/sync/thread.hpp"
-#include "tests/fibers/contains.hpp"
+#include "tests/fibers/text/contains.hpp"
 
 namespace waitpoint {
 namespace {

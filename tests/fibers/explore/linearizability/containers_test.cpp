@@ -9,9 +9,9 @@
 #include "fibers/sync/condition_variable.hpp"
 #include "fibers/sync/simulation.hpp"
 #include "fibers/sync/thread.hpp"
-#include "tests/fibers/contains.hpp"
 #include "tests/fibers/explore/linearizability/containers.hpp"
 #include "tests/fibers/explore/linearizability/models.hpp"
+#include "tests/fibers/text/contains.hpp"
 
 namespace waitpoint {
 namespace {

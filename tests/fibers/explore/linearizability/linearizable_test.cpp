@@ -6,9 +6,9 @@
 
 #include <string>
 
-#include "tests/fibers/contains.hpp"
 #include "tests/fibers/explore/linearizability/histories.hpp"
 #include "tests/fibers/explore/linearizability/models.hpp"
+#include "tests/fibers/text/contains.hpp"
 
 namespace waitpoint {
 namespace {

@@ -7,8 +7,8 @@
 #include <string>
 
 #include "fibers/explore/explore.hpp"
-#include "tests/fibers/contains.hpp"
 #include "tests/fibers/explore/races/programs.hpp"
+#include "tests/fibers/text/contains.hpp"
 
 namespace waitpoint::races {
 namespace {

@@ -8,7 +8,7 @@
 #include <functional>
 
 #include "fibers/explore/explore.hpp"
-#include "tests/fibers/contains.hpp"
+#include "tests/fibers/text/contains.hpp"
 
 namespace waitpoint::weak_memory {
 namespace {

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "fibers/explore/explore.hpp"
-#include "tests/fibers/contains.hpp"
+#include "tests/fibers/text/contains.hpp"
 
 namespace waitpoint::weak_memory {
 namespace {

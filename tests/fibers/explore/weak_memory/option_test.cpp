@@ -6,8 +6,8 @@
 
 #include "fibers/explore/explore.hpp"
 #include "fibers/explore/schedules/token.hpp"
-#include "tests/fibers/contains.hpp"
 #include "tests/fibers/explore/weak_memory/memory_uses.hpp"
+#include "tests/fibers/text/contains.hpp"
 
 namespace waitpoint::weak_memory {
 namespace {

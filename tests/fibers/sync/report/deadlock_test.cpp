@@ -11,8 +11,8 @@
 #include "fibers/sync/report/source_lines.hpp"
 #include "fibers/sync/semaphore.hpp"
 #include "fibers/sync/thread.hpp"
-#include "tests/fibers/contains.hpp"
 #include "tests/fibers/sync/orders.hpp"
+#include "tests/fibers/text/contains.hpp"
 
 namespace waitpoint {
 namespace {

@@ -13,8 +13,8 @@
 #include "fibers/sync/recursive_mutex.hpp"
 #include "fibers/sync/shared_mutex.hpp"
 #include "fibers/sync/thread.hpp"
-#include "tests/fibers/contains.hpp"
 #include "tests/fibers/sync/orders.hpp"
+#include "tests/fibers/text/contains.hpp"
 
 namespace waitpoint {
 namespace {

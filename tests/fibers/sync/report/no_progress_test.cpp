@@ -12,8 +12,8 @@
 #include "fibers/sync/semaphore.hpp"
 #include "fibers/sync/thread.hpp"
 #include "fibers/sync/timer.hpp"
-#include "tests/fibers/contains.hpp"
 #include "tests/fibers/sync/orders.hpp"
+#include "tests/fibers/text/contains.hpp"
 
 namespace waitpoint {
 namespace {
