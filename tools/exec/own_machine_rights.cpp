@@ -28,7 +28,7 @@ struct Rights {
 
 bool read_rights(Rights& rights) { return syscall(SYS_capget, &rights.head, rights.words) == 0; }
 
-bool write_text(const char* path, const std::string& text) {
+bool write_into(const char* path, const std::string& text) {
   const int file = open(path, O_WRONLY | O_CLOEXEC);
   if (file < 0) return false;
   const bool is_written = write(file, text.data(), text.size()) == static_cast<ssize_t>(text.size());
@@ -40,9 +40,9 @@ bool write_text(const char* path, const std::string& text) {
 bool enter_user_namespace() {
   const uid_t user = geteuid();
   const gid_t group = getegid();
-  return unshare(CLONE_NEWUSER) == 0 && write_text("/proc/self/setgroups", "deny") &&
-         write_text("/proc/self/uid_map", fmt::format("{} {} 1", user, user)) &&
-         write_text("/proc/self/gid_map", fmt::format("{} {} 1", group, group));
+  return unshare(CLONE_NEWUSER) == 0 && write_into("/proc/self/setgroups", "deny") &&
+         write_into("/proc/self/uid_map", fmt::format("{} {} 1", user, user)) &&
+         write_into("/proc/self/gid_map", fmt::format("{} {} 1", group, group));
 }
 
 // Started programs keep them, as each finds the run's file in the files of this process, which must not have further
