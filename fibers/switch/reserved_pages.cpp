@@ -10,7 +10,7 @@
 namespace waitpoint::kernel {
 namespace {
 
-constexpr std::size_t kept_max = 8;
+constexpr std::size_t kept_max = 12;
 constinit ReservedPages kept[kept_max] = {};
 constinit std::size_t kept_count = 0;
 constinit bool keeps = false;
@@ -53,7 +53,7 @@ void release_pages(void* memory, std::size_t bytes) {
 }
 
 PagesKept::PagesKept() {
-  WAITPOINT_CHECK(!keeps && kept_count == 0, "pages are kept a second time");
+  WAITPOINT_CHECK(!keeps, "a scope that keeps pages is within another");
   keeps = true;
 }
 PagesKept::~PagesKept() { keeps = false; }

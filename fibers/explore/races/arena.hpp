@@ -10,15 +10,45 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 
 #include "core/error.hpp"
 
 namespace waitpoint::races {
 
+/// Zeroed pages that are taken first; none by default.
+struct PagesAhead {
+  char *begin = nullptr, *at = nullptr, *end = nullptr;
+  bool contains(const void* memory) const { return memory >= begin && memory < end; }
+};
+extern PagesAhead pages_ahead;
+
 inline void* map_memory(std::size_t bytes) {
+  constexpr std::size_t page = 4096;
+  const std::size_t whole = (bytes + page - 1) / page * page;
+  if (whole <= static_cast<std::size_t>(pages_ahead.end - pages_ahead.at)) {
+    pages_ahead.at += whole;
+    return pages_ahead.at - whole;
+  }
   void* memory = mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
   WAITPOINT_CHECK(memory != MAP_FAILED, "out of memory for the records of memory accesses");
   return memory;
+}
+
+inline void unmap_memory(void* memory, std::size_t bytes) {
+  if (!pages_ahead.contains(memory)) munmap(memory, bytes);
+}
+
+/// Its contents move to larger memory.
+inline void* grow_memory(void* old, std::size_t old_bytes, std::size_t bytes) {
+  if (!pages_ahead.contains(old)) {
+    void* const grown = mremap(old, old_bytes, bytes, MREMAP_MAYMOVE);
+    WAITPOINT_CHECK(grown != MAP_FAILED, "out of memory for the records of memory accesses");
+    return grown;
+  }
+  void* const grown = map_memory(bytes);
+  std::memcpy(grown, old, old_bytes);
+  return grown;
 }
 
 class Arena {
@@ -77,10 +107,8 @@ class Table {
  private:
   void grow() {
     const std::uint32_t room = room_ == 0 ? 1024 : 2 * room_;
-    void* grown = room_ == 0 ? map_memory(room * sizeof(T))
-                             : mremap(records_, room_ * sizeof(T), room * sizeof(T), MREMAP_MAYMOVE);
-    WAITPOINT_CHECK(grown != MAP_FAILED, "out of memory for the records of memory accesses");
-    records_ = static_cast<T*>(grown);
+    records_ = static_cast<T*>(room_ == 0 ? map_memory(room * sizeof(T))
+                                          : grow_memory(records_, room_ * sizeof(T), room * sizeof(T)));
     room_ = room;
   }
 

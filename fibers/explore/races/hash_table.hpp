@@ -53,7 +53,7 @@ class HashTable {
     entries_ = static_cast<Entry*>(map_memory(room_ * sizeof(Entry)));
     for (std::uint64_t i = 0; i < old_room; ++i)
       if (old[i].key != 0) slot(old[i].key) = old[i];
-    if (old != nullptr) munmap(old, old_room * sizeof(Entry));
+    if (old != nullptr) unmap_memory(old, old_room * sizeof(Entry));
   }
 
   Entry* entries_ = nullptr;

@@ -68,6 +68,7 @@ struct Runtime {
   ReadableStore (*readable_store)(std::uint32_t newer);
   bool (*left_out_values)();  ///< a load was not offered a value that it may have returned
   void (*forget_left_out_values)();
+  void (*use_pages)(void* zeroed, std::size_t bytes);  ///< takes its memory from there first
 };
 
 }  // namespace waitpoint::races

@@ -48,9 +48,15 @@ const waitpoint::races::Runtime runtime = {
     [](std::uint32_t newer) { return Detector::the().readable_store(newer); },
     [] { return Detector::the().left_out_values(); },
     [] { Detector::the().forget_left_out_values(); },
+    [](void* zeroed, std::size_t bytes) {
+      char* const begin = static_cast<char*>(zeroed);
+      waitpoint::races::pages_ahead = {begin, begin, begin + bytes};
+    },
 };
 
 }  // namespace
+
+constinit waitpoint::races::PagesAhead waitpoint::races::pages_ahead{};
 
 const waitpoint::races::Runtime* waitpoint_races_runtime() { return &runtime; }
 

@@ -153,6 +153,8 @@ kernel::Scheduler& begin_run() {
     begin_reruns();
     begin_snapshots(begin_at_snapshot);
   } else {
+    // Addresses are those of the server's runs.
+    if (has_race_runtime() && record->settings.asked != nullptr && !family::is_joined()) prepare_reruns();
     begin_crash_log();
   }
   if (record->settings.own_machine && !family::is_joined()) enter_own_machine();

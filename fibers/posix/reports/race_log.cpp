@@ -58,6 +58,8 @@ void begin_log(bool learn, bool notes, const races::Listener& heard) {
 
 bool has_race_runtime() { return &waitpoint_races_runtime != nullptr; }
 
+void use_pages_for_races(void* zeroed, std::size_t bytes) { waitpoint_races_runtime()->use_pages(zeroed, bytes); }
+
 void begin_race_log(bool learn, bool notes, Memory memory, std::span<const std::uint64_t> code) {
   begin_log(learn, notes, listener);
   waitpoint_races_runtime()->set_weak(memory == Memory::weak);

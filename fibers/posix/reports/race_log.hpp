@@ -36,6 +36,8 @@ struct RaceLog {
 
 /// True if this library is the one with the runtime, which instrumented programs load.
 bool has_race_runtime();
+/// The runtime takes its memory from these zeroed pages first.
+void use_pages_for_races(void* zeroed, std::size_t bytes);
 /// From now on races of this process are logged; and whether other code than `code` accesses shared memory, if that is
 /// not recorded and `notes`. Called before the scheduler is made, where there is the runtime. Atomics have `memory`.
 /// `code` comes from an earlier run.

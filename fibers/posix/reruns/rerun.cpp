@@ -19,6 +19,7 @@
 #include "fibers/posix/reruns/rerun_control.hpp"
 #include "fibers/posix/traps/access_breakpoints.hpp"
 #include "fibers/posix/traps/followed_calls.hpp"
+#include "fibers/posix/traps/instruction_copies.hpp"
 #include "fibers/posix/traps/library_calls.hpp"
 #include "fibers/posix/traps/raw_calls.hpp"
 #include "fibers/switch/reserved_pages.hpp"
@@ -77,6 +78,7 @@ void Zeroed::find() {
   }
   const auto [begin, end] = reserved_for_waitables();
   if (begin != end) add({begin, end});
+  if (const LibraryRange copies = reserved_for_copies(); copies.begin != copies.end) add({copies.begin, copies.end});
 }
 
 void Zeroed::add(Pages pages) {
@@ -155,10 +157,28 @@ void put_back(void*) {
 
 }  // namespace
 
+namespace {
+
+// Null without address space.
+void* reserve_kept_pages(std::size_t bytes) {
+  {
+    const kernel::PagesKept kept;
+    if (void* const memory = kernel::reserve_pages(bytes); memory != nullptr) kernel::release_pages(memory, bytes);
+  }
+  return kernel::reserve_pages(bytes);
+}
+
+}  // namespace
+
 void prepare_reruns() {
-  // The runtime reserves its own memory before the scheduler does.
-  if (has_race_runtime()) return;
   reserve_waitables();
+  constexpr std::size_t for_races = std::size_t{1} << 32;
+  if (has_race_runtime() && kernel::Scheduler::has_address_space()) {
+    if (void* const memory = reserve_kept_pages(for_races); memory != nullptr) use_pages_for_races(memory, for_races);
+    if (void* const memory = reserve_kept_pages(for_breakpoints); memory != nullptr)
+      keep_memory_for_breakpoints(memory, for_breakpoints);
+    (void)reserve_for_copies();
+  }
   kernel::Scheduler::reserve_ahead();
 }
 

@@ -8,7 +8,8 @@
 
 namespace waitpoint::posix {
 
-/// In the server, before the first fork: what each run reserves anew otherwise.
+/// In the server, before the first fork, and in a run at accesses that repeats one of its runs: what each run reserves
+/// anew otherwise.
 void prepare_reruns();
 /// In a run, if further ones are asked for: returns again at the beginning of each.
 void begin_reruns();

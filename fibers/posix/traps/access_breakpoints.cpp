@@ -53,12 +53,13 @@ unsigned long long loaded_before = 0;
 
 // Its own, not a jump to another's, by which it may know the address, too.
 bool defines_allocator() {
+  const void* const allocator = dlsym(RTLD_DEFAULT, "malloc");
   Dl_info of_allocator{};
   const ElfW(Sym)* symbol = nullptr;
-  if (dladdr1(dlsym(RTLD_DEFAULT, "malloc"), &of_allocator, const_cast<void**>(reinterpret_cast<const void**>(&symbol)),
-              RTLD_DL_SYMENT) == 0)
-    return false;
-  return code.is_base(of_allocator.dli_fbase) && symbol != nullptr && symbol->st_shndx != SHN_UNDEF;
+  return code.contains(allocator) &&
+         dladdr1(allocator, &of_allocator, const_cast<void**>(reinterpret_cast<const void**>(&symbol)),
+                 RTLD_DL_SYMENT) != 0 &&
+         symbol != nullptr && symbol->st_shndx != SHN_UNDEF;
 }
 
 // Of modules that were not loaded before.
@@ -93,8 +94,17 @@ void place_breakpoints(std::size_t from, std::size_t to, bool set) {
 
 void remove_breakpoints(std::size_t from, std::size_t to) { place_breakpoints(from, to, false); }
 
+// The memory that is kept for all runs, if it is large enough: the stacks, and behind them the tables.
+char* kept_memory = nullptr;
+std::size_t kept_bytes = 0;
+bool are_tables_kept() { return kept_memory != nullptr && ReportStacks::bytes + table_bytes <= kept_bytes; }
+
 bool make_tables() {
   table_bytes = sizeof(Tables) + code.size() * sizeof(Breakpoint);
+  if (are_tables_kept()) {
+    tables = reinterpret_cast<Tables*>(kept_memory + ReportStacks::bytes);
+    return true;
+  }
   const long memory = call_directly(SYS_mmap, 0, static_cast<long>(table_bytes), PROT_READ | PROT_WRITE,
                                     MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
   if (memory < 0 && memory > -4096) return false;
@@ -107,7 +117,7 @@ bool begin_traps() {
     asked.prevented(AccessObstacle::trap_handler);
     return false;
   }
-  if (!make_tables() || !stacks.make()) {
+  if (!make_tables() || !stacks.make(kept_memory)) {
     asked.prevented(AccessObstacle::no_memory);
     return false;
   }
@@ -249,6 +259,12 @@ void report_and_return(siginfo_t* information, ucontext_t* context) {
 
 }  // namespace
 
+void keep_memory_for_breakpoints(void* memory, std::size_t bytes) {
+  WAITPOINT_CHECK(bytes >= ReportStacks::bytes, "the memory kept for breakpoints is too small for their stacks");
+  kept_memory = static_cast<char*>(memory);
+  kept_bytes = bytes;
+}
+
 void trap_accesses(const Breakpoints& breakpoints) {
   if (breakpoints.instructions.empty()) return;
   asked = breakpoints;
@@ -276,7 +292,7 @@ void restore_code() {
   if (!is_prevented) remove_breakpoints(0, code.size());
   code.leave();
   stacks.remove();
-  call_directly(SYS_munmap, reinterpret_cast<long>(tables), static_cast<long>(table_bytes));
+  if (!are_tables_kept()) call_directly(SYS_munmap, reinterpret_cast<long>(tables), static_cast<long>(table_bytes));
   is_trapped = false;
 }
 

@@ -20,6 +20,7 @@
 
 #include "fibers/explore/strategies/switch_points.hpp"
 #include "fibers/posix/traps/access_instruction.hpp"
+#include "fibers/posix/traps/report_stacks.hpp"
 
 namespace waitpoint::posix {
 
@@ -43,6 +44,9 @@ struct Breakpoints {
   std::uint32_t hits_of_one_max, hits_max, spins_max;
 };
 void trap_accesses(const Breakpoints& breakpoints);
+/// Zeroed memory for stacks and tables of all later runs, in place of memory that each maps: `for_breakpoints` bytes.
+void keep_memory_for_breakpoints(void* memory, std::size_t bytes);
+inline constexpr std::size_t for_breakpoints = ReportStacks::bytes + (std::size_t{1} << 26);
 bool are_accesses_trapped();
 /// The program has done what breakpoints would disturb: they are removed.
 void prevent_breakpoints(AccessObstacle obstacle);

@@ -14,11 +14,12 @@ namespace {
 constexpr std::uint64_t page_bytes = 4096;
 
 // Below the program, above it behind the heap's usual growth.
-std::uint64_t memory_near(std::uint64_t program, std::uint64_t bytes) {
+std::uint64_t memory_near(std::uint64_t program, std::uint64_t bytes, int access) {
   constexpr std::uint64_t step = std::uint64_t{1} << 24, reach = std::uint64_t{3} << 29;
   const auto map = [&](std::uint64_t at) {
-    return call_directly(SYS_mmap, static_cast<long>(at), static_cast<long>(bytes), PROT_READ | PROT_WRITE,
-                         MAP_PRIVATE | MAP_ANONYMOUS | MAP_FIXED_NOREPLACE, -1, 0) == static_cast<long>(at);
+    return call_directly(SYS_mmap, static_cast<long>(at), static_cast<long>(bytes), access,
+                         MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE | MAP_FIXED_NOREPLACE, -1,
+                         0) == static_cast<long>(at);
   };
   for (std::uint64_t away = bytes; away < reach && away + page_bytes < program; away += step)
     if (map(program - away)) return program - away;
@@ -37,7 +38,29 @@ void put_distance(std::uint64_t at, std::uint64_t from, std::uint64_t to) {
   put(at, &distance, sizeof distance);
 }
 
+LibraryRange reserved{};
+
+// Of the program itself, which is the first that is loaded.
+std::uint64_t begin_of_program() {
+  std::uintptr_t begin = 0;
+  dl_iterate_phdr(
+      [](dl_phdr_info* program, std::size_t, void* to) {
+        *static_cast<std::uintptr_t*>(to) = range_of_loaded(*program).begin;
+        return 1;
+      },
+      &begin);
+  return begin & ~(page_bytes - 1);
+}
+
 }  // namespace
+
+LibraryRange reserve_for_copies() {
+  constexpr std::uint64_t bytes = std::uint64_t{1} << 24;
+  const std::uint64_t begin = memory_near(begin_of_program(), bytes, PROT_READ | PROT_WRITE | PROT_EXEC);
+  return reserved = {begin, begin != 0 ? begin + bytes : 0};
+}
+
+LibraryRange reserved_for_copies() { return reserved; }
 
 bool InstructionCopies::make(std::span<const AccessInstruction> instructions, std::uint64_t loaded_at) {
   constexpr std::uint8_t jump = 0xE9;
@@ -46,7 +69,11 @@ bool InstructionCopies::make(std::span<const AccessInstruction> instructions, st
   const std::uint64_t bytes = (instructions.size() * copy_bytes + page_bytes - 1) / page_bytes * page_bytes;
   instructions_ = instructions;
   loaded_at_ = loaded_at;
-  begin_ = memory_near((loaded_at + instructions.front().offset()) & ~(page_bytes - 1), bytes);
+  const bool is_of_program = instructions.front().module() == 0;
+  const bool is_kept = is_of_program && bytes <= reserved.end - reserved.begin;
+  begin_ = is_kept ? reserved.begin
+                   : memory_near((loaded_at + instructions.front().offset()) & ~(page_bytes - 1), bytes,
+                                 PROT_READ | PROT_WRITE);
   end_ = begin_ + bytes;
   if (begin_ == 0) return false;
   for (std::size_t i = 0; i < instructions.size(); ++i) {
@@ -58,11 +85,13 @@ bool InstructionCopies::make(std::span<const AccessInstruction> instructions, st
     put(behind, &jump, sizeof jump);
     put_distance(behind + sizeof jump, behind + jump_bytes, loaded_at + one.offset() + one.length);
   }
-  return call_directly(SYS_mprotect, static_cast<long>(begin_), static_cast<long>(bytes), PROT_READ | PROT_EXEC) == 0;
+  return is_kept ||
+         call_directly(SYS_mprotect, static_cast<long>(begin_), static_cast<long>(bytes), PROT_READ | PROT_EXEC) == 0;
 }
 
 void InstructionCopies::remove() {
-  if (begin_ != 0) call_directly(SYS_munmap, static_cast<long>(begin_), static_cast<long>(end_ - begin_));
+  if (begin_ != 0 && begin_ != reserved.begin)
+    call_directly(SYS_munmap, static_cast<long>(begin_), static_cast<long>(end_ - begin_));
   begin_ = end_ = 0;
 }
 

@@ -7,8 +7,14 @@
 #include <span>
 
 #include "fibers/posix/traps/access_instruction.hpp"
+#include "fibers/posix/traps/library_range.hpp"
 
 namespace waitpoint::posix {
+
+/// Zeroed memory that can be executed, near the program, for the copies of all later runs; empty without memory.
+LibraryRange reserve_for_copies();
+/// The same, after that.
+LibraryRange reserved_for_copies();
 
 class InstructionCopies {
  public:

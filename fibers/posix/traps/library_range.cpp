@@ -8,9 +8,7 @@
 #include "core/error.hpp"
 
 namespace waitpoint::posix {
-namespace {
-
-LibraryRange range_of(const dl_phdr_info& library) {
+LibraryRange range_of_loaded(const dl_phdr_info& library) {
   LibraryRange range{UINTPTR_MAX, 0};
   for (int i = 0; i < library.dlpi_phnum; ++i) {
     const auto& part = library.dlpi_phdr[i];
@@ -23,6 +21,8 @@ LibraryRange range_of(const dl_phdr_info& library) {
   return range;
 }
 
+namespace {
+
 /// The library that is searched for, and its range.
 struct Search {
   std::uintptr_t address;
@@ -31,7 +31,7 @@ struct Search {
 };
 
 bool is_sought(const Search& search, const dl_phdr_info& library) {
-  if (search.beginning == nullptr) return range_of(library).contains(search.address);
+  if (search.beginning == nullptr) return range_of_loaded(library).contains(search.address);
   const char* const slash = std::strrchr(library.dlpi_name, '/');
   const char* const name = slash != nullptr ? slash + 1 : library.dlpi_name;
   return std::strncmp(name, search.beginning, std::strlen(search.beginning)) == 0;
@@ -41,7 +41,7 @@ LibraryRange found_by(Search search) {
   const auto look = [](dl_phdr_info* library, std::size_t, void* to) {
     auto& sought = *static_cast<Search*>(to);
     if (!is_sought(sought, *library)) return 0;
-    sought.found = range_of(*library);
+    sought.found = range_of_loaded(*library);
     return 1;
   };
   dl_iterate_phdr(look, &search);

@@ -2,6 +2,8 @@
 // The address range of a library of the process.
 #pragma once
 
+#include <link.h>
+
 #include <cstdint>
 
 namespace waitpoint::posix {
@@ -11,6 +13,8 @@ struct LibraryRange {
   bool contains(std::uintptr_t address) const { return address >= begin && address < end; }
 };
 
+/// That of a library, as dl_iterate_phdr() shows it.
+LibraryRange range_of_loaded(const dl_phdr_info& library);
 /// The library that contains this address; empty without one.
 LibraryRange range_of_library_with(const void* address);
 /// The library whose file name begins so; empty without one.

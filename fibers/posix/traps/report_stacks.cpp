@@ -7,19 +7,17 @@
 #include "fibers/posix/base/direct_call.hpp"
 
 namespace waitpoint::posix {
-namespace {
-
-constexpr std::size_t bytes_of_list = std::size_t{1} << 16;
-
-}  // namespace
-
 // The list of the free ones is behind them.
-bool ReportStacks::make() {
-  constexpr std::size_t bytes = count * bytes_of_one + bytes_of_list;
-  const long memory =
-      call_directly(SYS_mmap, 0, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
-  if (memory < 0 && memory > -4096) return false;
-  memory_ = reinterpret_cast<char*>(memory);
+bool ReportStacks::make(void* kept) {
+  is_kept_ = kept != nullptr;
+  if (is_kept_) {
+    memory_ = static_cast<char*>(kept);
+  } else {
+    const long memory =
+        call_directly(SYS_mmap, 0, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+    if (memory < 0 && memory > -4096) return false;
+    memory_ = reinterpret_cast<char*>(memory);
+  }
   free_ = reinterpret_cast<std::uint16_t*>(memory_ + count * bytes_of_one);
   static_assert(count * sizeof *free_ <= bytes_of_list);
   call_directly(SYS_sigaltstack, 0, reinterpret_cast<long>(&before_));
@@ -29,7 +27,7 @@ bool ReportStacks::make() {
 
 void ReportStacks::remove() {
   call_directly(SYS_sigaltstack, reinterpret_cast<long>(&before_), 0);
-  call_directly(SYS_munmap, reinterpret_cast<long>(memory_), count * bytes_of_one + bytes_of_list);
+  if (!is_kept_) call_directly(SYS_munmap, reinterpret_cast<long>(memory_), bytes);
   memory_ = nullptr;
 }
 

@@ -12,8 +12,12 @@ namespace waitpoint::posix {
 
 class ReportStacks {
  public:
-  /// False without memory.
-  bool make();
+  static constexpr std::size_t bytes_of_one = std::size_t{1} << 16, count = 4096;
+  static constexpr std::size_t bytes_of_list = std::size_t{1} << 16;
+  static constexpr std::size_t bytes = count * bytes_of_one + bytes_of_list;
+
+  /// In `kept` memory, which stays, unless it is null. False without memory.
+  bool make(void* kept);
   void remove();
 
   /// The top of a free one; null if there is none.
@@ -27,13 +31,12 @@ class ReportStacks {
   void keep_for_system() const;
 
  private:
-  static constexpr std::size_t bytes_of_one = std::size_t{1} << 16, count = 4096;
-
   std::size_t number_of(const void* address) const {
     return (reinterpret_cast<std::uintptr_t>(address) - reinterpret_cast<std::uintptr_t>(memory_)) / bytes_of_one;
   }
 
   char* memory_ = nullptr;
+  bool is_kept_ = false;
   std::size_t used_ = 1;  // the first is the system's
   std::size_t free_count_ = 0;
   std::uint16_t* free_ = nullptr;

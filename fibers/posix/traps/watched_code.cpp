@@ -59,10 +59,9 @@ WatchedCode::Found WatchedCode::take(Module& module, std::uint64_t loaded_at) {
 
 // A library must not be unloaded together with its breakpoints.
 void WatchedCode::keep_loaded(Module& module) {
-  Dl_info of_code{};
-  if (!module.is_loaded || module.is_kept || dladdr(module.first(), &of_code) == 0) return;
+  if (!module.is_loaded || module.is_kept) return;
   module.is_kept = true;
-  (void)dlopen(of_code.dli_fname, RTLD_LAZY | RTLD_NOLOAD | RTLD_NODELETE);
+  (void)dlopen(module.name, RTLD_LAZY | RTLD_NOLOAD | RTLD_NODELETE);
 }
 
 /// A walk over all that is loaded, the program first.
@@ -82,6 +81,8 @@ struct WatchedCode::Search {
     auto& [code, seen, found] = *static_cast<Search*>(search);
     Module* const module = static_cast<Search*>(search)->module_of(*loaded);
     if (module == nullptr || module->is_loaded || module->begin == module->end) return code.are_all_loaded() ? 1 : 0;
+    module->range = range_of_loaded(*loaded);
+    module->name = loaded->dlpi_name;
     found = has_writable_code(*loaded) ? Found::changed : code.take(*module, loaded->dlpi_addr);
     return found != Found::good || code.are_all_loaded() ? 1 : 0;
   }
@@ -143,10 +144,9 @@ std::uint64_t WatchedCode::original_of(std::uint64_t place) const {
   return place;
 }
 
-bool WatchedCode::is_base(const void* base) const {
-  return std::any_of(modules_.begin(), modules_.begin() + count_, [base](const Module& module) {
-    Dl_info of_code{};
-    return module.is_loaded && dladdr(module.first(), &of_code) != 0 && of_code.dli_fbase == base;
+bool WatchedCode::contains(const void* address) const {
+  return std::any_of(modules_.begin(), modules_.begin() + count_, [address](const Module& module) {
+    return module.is_loaded && module.range.contains(reinterpret_cast<std::uintptr_t>(address));
   });
 }
 

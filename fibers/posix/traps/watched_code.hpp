@@ -12,6 +12,7 @@
 
 #include "fibers/posix/traps/access_instruction.hpp"
 #include "fibers/posix/traps/instruction_copies.hpp"
+#include "fibers/posix/traps/library_range.hpp"
 
 namespace waitpoint::posix {
 
@@ -48,8 +49,8 @@ class WatchedCode {
   bool has_within(std::uint64_t address, std::uint64_t bytes) const;
   /// For a place within the copies, that in the code where execution is; any other remains.
   std::uint64_t original_of(std::uint64_t place) const;
-  /// True for the base address of a loaded module.
-  bool is_base(const void* base) const;
+  /// True for an address in a loaded module.
+  bool contains(const void* address) const;
 
  private:
   struct Module {
@@ -58,9 +59,9 @@ class WatchedCode {
     bool is_kept = false;
     std::uint64_t loaded_at = 0;
     std::uint64_t low = 0, high = 0;  // the addresses of its first and last instruction
+    LibraryRange range{};
+    const char* name = nullptr;
     InstructionCopies copies;
-
-    const void* first() const { return reinterpret_cast<const void*>(low); }
   };
   struct Search;
 
