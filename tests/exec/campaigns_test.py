@@ -60,7 +60,7 @@ class Exhausted(ExecCase):
         self.assertEqual(len(lines), 1, lines)
         line = lines.pop()
         self.assertRegex(line, r": \d+ schedules, 22 distinct, 0 failed, ; exhausted, no other ordering exists up to the order of "
-                               r"independent events, if there are no data races, switching at calls, no other sharing of memory in 20 schedules ")
+                               r"independent events, if there are no data races, switching at calls, the program's own code shares no other memory in 20 schedules ")
         self.assertLess(int(re.search(r": (\d+) schedules", line)[1]), 5000)
 
     def test_is_not_said_before(self):

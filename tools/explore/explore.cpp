@@ -239,7 +239,7 @@ void check_accesses(ProcessTarget& target, Search& search) {
   const ObservedAccesses observed = observe_accesses(target, search.failures() == 0);
   if (!observed.conflict.empty()) return search.doubt(observed.conflict);
   if (observed.obstacle == AccessObstacle::none && observed.schedules > 0)
-    return search.assume(fmt::format(", no other sharing of memory in {} with accesses observed",
+    return search.assume(fmt::format(", the program's own code shares no other memory in {} with accesses observed",
                                      counted(observed.schedules, "schedule")));
   const std::string why = words_of(observed.obstacle);
   search.assume(", if threads share memory by calls alone (accesses were not observed" +
