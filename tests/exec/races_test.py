@@ -13,7 +13,7 @@ from exploring_test import explore
 class RacesBesideFailures(ExecCase):
     """A program with two harmless races in each order, and a failure in few."""
 
-    RACE = r"data race of the write at .*benign\.cpp:(\d+) and the write at .*benign\.cpp:\1 \(data of .*/benign\)"
+    RACE = r"data race of the write at .*benign\.cpp:(\d+) and the write at .*benign\.cpp:\1 \(\(anonymous namespace\)::(?:begun|done)\)"
 
     def setUp(self):
         if not (WAITPOINT.parent.parent / "libwaitpoint-exec-races.so").exists():

@@ -29,11 +29,7 @@ sync::CodePlaces places_of(const Side& side) {
 }  // namespace
 
 LocatedRace located(const FoundRace& race) {
-  LocatedRace located{race, where(race), {}, places_of(race.first), places_of(race.second)};
-  // The byte behind, as of a call.
-  if (located.memory.starts_with("data of "))
-    located.data = sync::code_place_of(reinterpret_cast<void*>(race.address + 1));
-  return located;
+  return {race, where(race), places_of(race.first), places_of(race.second)};
 }
 
 }  // namespace waitpoint::races

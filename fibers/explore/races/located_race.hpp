@@ -11,8 +11,7 @@ namespace waitpoint::races {
 
 struct LocatedRace {
   FoundRace found;
-  std::string memory;    ///< as in Race
-  sync::CodePlace data;  ///< where it is in a file, if only its file's own symbols may name it
+  std::string memory;  ///< as in Race
   sync::CodePlaces first_calls, second_calls;
 };
 

@@ -6,7 +6,6 @@
 #include <set>
 
 #include "core/error.hpp"
-#include "fibers/explore/races/data_symbol.hpp"
 #include "fibers/explore/races/located_race.hpp"
 
 namespace waitpoint::races {
@@ -81,9 +80,6 @@ std::vector<Race> in_words(std::span<const LocatedRace> races) {
     const FoundRace& found = races[i].found;
     Race race{access_of(found.first, std::move(calls[2 * i])), access_of(found.second, std::move(calls[2 * i + 1])),
               reinterpret_cast<const void*>(found.address), races[i].memory};
-    if (!races[i].data.module.empty())
-      if (const std::string name = data_symbol(races[i].data.module, races[i].data.offset); !name.empty())
-        race.memory = name;
     if (known.insert({race.address, race.lines()}).second) told.push_back(std::move(race));
   }
   return told;

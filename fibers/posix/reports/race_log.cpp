@@ -4,9 +4,11 @@
 #include <link.h>
 
 #include <new>
+#include <utility>
 
 #include "core/error.hpp"
 #include "fibers/kernel/access.hpp"
+#include "fibers/posix/base/symbols.hpp"
 #include "fibers/posix/descriptors/descriptors.hpp"
 #include "fibers/posix/family/family.hpp"
 #include "fibers/posix/program/program.hpp"
@@ -24,8 +26,11 @@ RaceLog& log() {
 
 constexpr races::Listener listener = {
     [](const races::FoundRace& race) {
+      const char* const name = symbol_at(reinterpret_cast<const void*>(race.address));
       const NewInFamily memory;
-      log().races.push_back({family::own->id, record->robot.name, races::located(race)});
+      races::LocatedRace located = races::located(race);
+      if (name != nullptr) located.memory = name;
+      log().races.push_back({family::own->id, record->robot.name, std::move(located)});
     },
     [](std::uint64_t place) {
       const NewInFamily memory;
