@@ -16,7 +16,7 @@
 namespace waitpoint {
 
 /// Executes the command line. Scenarios may use the paper's modules and those of `own` by name; a module of `own`
-/// replaces the paper's module of the same name. Returns the exit status.
+/// replaces the paper's module of the same name. Returns the exit status. With --confined the process stays confined.
 int main(int argc, const char* const* argv, std::vector<genom::ModuleType> own = {});
 
 }  // namespace waitpoint
