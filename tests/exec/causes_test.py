@@ -20,7 +20,7 @@ CAUSES = {
     "missed notification": f"missed notification: thread [12] waits for {CHANGE}, but the only notification since then, "
     "notify_one of thread [34], wakes thread [12]",
     "lost update": f'lost update: thread [12] writes memory #\\d+ "{BALANCE}" between the read and the write of thread [12]',
-    "two sections": f"atomicity violation: thread [12] locks {LEFT} between two critical sections of thread [12]",
+    "two sections": f"thread [12] locks {LEFT} between two critical sections of thread [12]",
 }
 MISUSES = {
     "destruction": "misuse: thread 1 locks mutex left, which was destroyed",
@@ -48,7 +48,7 @@ class Causes(ExecCase):
 
     def test_a_read_before_the_first_write(self):
         for report in self.reports("initialisation", "--switch-at", "accesses"):
-            self.assertRegex(report, r"\ncause: order violation: thread 2 reads memory #\d+.* before thread 1 writes it first\n")
+            self.assertRegex(report, r"\ncause: thread 2 reads memory #\d+.* before thread 1 writes it first\n")
 
     def test_misuses_are_the_headline(self):
         for mistake, words in MISUSES.items():

@@ -17,7 +17,7 @@ class Exploring(ExecCase):
         done = explore("--", program)
         self.assertEqual(done.returncode, 1, done.stderr)
         self.assertRegex(done.stdout, r"schedule \d+ of strategy portfolio, seed 1, failed at \S+ s: exit status 1\n"
-                                      r"  an update was lost\ncause: atomicity violation: .*\n1 switch away from the default order fails")
+                                      r"  an update was lost\ncause: thread 2 locks .* between two critical sections of thread 1\n1 switch away from the default order fails")
         self.assertIn("thread 2#2 of lost_update (start) goes first instead of", done.stdout)
         self.assertIn("the last choice from which it could still have passed: number ", done.stdout)
         self.assertRegex(done.stdout, r"the two events whose order matters:\n"

@@ -102,29 +102,50 @@ std::string in_words(const FailingRun& run, const TimelineEvent& event) {
   return std::string(name(event.operation)) + " of " + run.task(event.task);
 }
 
+// The task that a notification wakes; nothing if several tasks may be meant.
+std::optional<std::uint32_t> woken_by(const FailingRun& run, std::size_t notification) {
+  const std::vector<TimelineEvent>& events = run.events();
+  const auto waits = [&](std::uint32_t task) {
+    for (std::size_t i = notification; i-- > 0;)
+      if (events[i].task == task)
+        return events[i].operation == Operation::wait && events[i].object == events[notification].object;
+    return false;
+  };
+  std::set<std::uint32_t> woken;
+  for (std::size_t i = notification + 1; i < events.size(); ++i)
+    if (events[i].operation == Operation::resume && events[i].object == events[notification].object &&
+        waits(events[i].task))
+      woken.insert(events[i].task);
+  if (woken.size() != 1) return std::nullopt;
+  return *woken.begin();
+}
+
 // Of a task that is blocked at an object which others notify.
 std::string missing_notification(const FailingRun& run, std::uint32_t task, bool has_passing_run) {
   const std::size_t wait = run.index_of_last(task);
   const std::int32_t object = run.events()[wait].object;
-  std::optional<std::size_t> before, after;  // the last ones
-  std::uint32_t count_after = 0;
-  std::string woken;
+  std::optional<std::size_t> before;  // the last one
+  std::vector<std::size_t> after;
   for (std::size_t i = 0; i < run.events().size(); ++i) {
-    const TimelineEvent& event = run.events()[i];
-    if (event.object != object) continue;
-    if (is_notification(event.operation)) (i < wait ? before : after) = i;
-    if (is_notification(event.operation) && i > wait) ++count_after;
-    if (event.operation == Operation::resume && i > wait) woken += (woken.empty() ? "" : ", ") + run.task(event.task);
+    if (run.events()[i].object != object || !is_notification(run.events()[i].operation)) continue;
+    if (i < wait)
+      before = i;
+    else
+      after.push_back(i);
   }
   const std::string waits = run.task(task) + " waits for " + run.object(object);
-  if (after && !woken.empty())
-    return (has_passing_run ? "missed notification: " : "") + waits + ", but " +
-           (count_after == 1 ? "the only notification since then, " + in_words(run, run.events()[*after]) + ", wakes "
-                             : "the " + std::to_string(count_after) + " notifications since then wake ") +
-           woken;
-  if (after) return "";
+  if (after.size() == 1) {
+    const std::optional<std::uint32_t> woken = woken_by(run, after.front());
+    return (has_passing_run ? "missed notification: " : "") + waits + ", but the only notification since then, " +
+           in_words(run, run.events()[after.front()]) + ", wakes " + (woken ? run.task(*woken) : "another");
+  }
+  if (!after.empty())
+    return (has_passing_run ? "missed notification: " : "") + waits + ", but the " + std::to_string(after.size()) +
+           " notifications since then wake others";
   if (!before) return waits + ", which no task notifies";
-  return (has_passing_run ? "lost wake-up: " : "") + in_words(run, run.events()[*before]) + " comes before " + waits +
+  const TimelineEvent& last = run.events()[*before];
+  if (last.task == task) return waits + ", which no task has notified since it did so itself";
+  return (has_passing_run ? "lost wake-up: " : "") + in_words(run, last) + " comes before " + waits +
          ", and no notification comes after it";
 }
 
@@ -184,14 +205,14 @@ std::string interrupted_sections(const FailingRun& run, std::size_t index, std::
     return event.operation == Operation::unlock && event.task == follower && event.object == lock.object;
   });
   if (!has_left) return "";
-  return "atomicity violation: " + run.task(lock.task) + " locks " + run.object(lock.object) +
-         " between two critical sections of " + run.task(follower);
+  return run.task(lock.task) + " locks " + run.object(lock.object) + " between two critical sections of " +
+         run.task(follower);
 }
 
 // The event at `index` is an access that comes before that of another task.
 std::string early_access(const FailingRun& run, std::size_t index, const std::string& follower, Operation then) {
   const TimelineEvent& access = run.events()[index];
-  const std::string subject = "order violation: " + run.task(access.task), object = run.object(access.object);
+  const std::string subject = run.task(access.task), object = run.object(access.object);
   if (writes(access.operation) && reads(then))
     return subject + " writes " + object + " before " + follower + " reads it";
   if (!reads(access.operation) || !writes(then)) return "";

@@ -132,8 +132,8 @@ TEST(Cause, IsACriticalSectionBetweenTwoOfAnotherTask) {
     check(balance == 2, "an update was lost");
   });
   const std::string cause = cause_of(report);
-  EXPECT_TRUE(cause == "atomicity violation: b locks mutex between two critical sections of a" ||
-              cause == "atomicity violation: a locks mutex between two critical sections of b")
+  EXPECT_TRUE(cause == "b locks mutex between two critical sections of a" ||
+              cause == "a locks mutex between two critical sections of b")
       << report;
 }
 
@@ -150,7 +150,7 @@ TEST(Cause, IsAReadBeforeTheFirstWrite) {
     });
     writer.join(), reader.join();
   });
-  const std::string cause = cause_of(report), early = "order violation: reader reads atomic before ";
+  const std::string cause = cause_of(report), early = "reader reads atomic before ";
   EXPECT_TRUE(cause == early + "writer writes it first" || cause == early + "a task that has not begun writes it first")
       << report;
 }
