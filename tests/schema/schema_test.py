@@ -33,7 +33,7 @@ ONLY_READERS = re.compile("|".join(line for line in (pathlib.Path(__file__).pare
 # Their robots have modules of the programs' own.
 OWN_MODULES = {"tests/programs/blinker", "tests/programs/deaths", "tests/programs/late_pom", "tests/programs/mast", "tests/programs/meddling",
                "tests/programs/mixed", "tests/programs/two_robots", "tests/programs/unrepeatable", "examples/lookout",
-               "tests/faults"}
+               "tests/faults", "tests/programs/trespasser"}
 
 
 def schema_of(kind):
