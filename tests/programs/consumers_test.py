@@ -2,6 +2,7 @@
 """Projects that find the installed library by pkg-config, CMake and Meson: consumers_test.py BUILD."""
 
 import os
+import re
 import shutil
 import subprocess
 import unittest
@@ -86,6 +87,13 @@ class Consumers(Installed):
         for program, source, package in (("threads", "main", "waitpoint"), ("robots", "robots", "waitpoint-robots")):
             run("g++", "-std=c++20", "-I.", f"{source}.cpp", "-o", program, *flags(self.prefix, "--cflags", "--libs", package), cwd=folder)
         self.check(folder)
+
+    def test_library_behind_the_c_library(self):
+        """Of a program that uses it through another library alone, and is linked without the flags that keep it in front."""
+        words = [word for word in flags(self.prefix, "--cflags", "--libs", "waitpoint-robots") if not re.search("push-state|pop-state", word)]
+        program = self.folder / "behind"
+        run("g++", "-std=c++20", HERE / "trespasser/trespasser.cpp", "-o", program, "-Wl,--as-needed", *words)
+        self.assertIn("digest", run(program, "run", HERE / "trespasser/trespasser.yaml", timeout=60))
 
     def build_with_cmake(self, folder):
         run("cmake", "-S", folder, "-B", folder / "build", f"-DCMAKE_PREFIX_PATH={self.prefix}")

@@ -38,10 +38,12 @@ using namespace waitpoint::sync;  // NOLINT: below are C functions only
 namespace {
 
 /// The next definition of a function: the C library's, or a sanitizer's. `known` caches it: a guarded static would call
-/// some of these functions itself.
+/// some of these functions itself. Behind the C library, as in a program that loads this library later, there is no
+/// next one.
 template <class Function>
 Function* next(Function*& known, const char* name) {
   if (known == nullptr) known = reinterpret_cast<Function*>(dlsym(RTLD_NEXT, name));
+  if (known == nullptr) known = reinterpret_cast<Function*>(dlsym(dlopen("libc.so.6", RTLD_LAZY | RTLD_NOLOAD), name));
   return known;
 }
 
