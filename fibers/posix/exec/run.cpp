@@ -54,6 +54,9 @@
 #include "fibers/posix/traps/raw_calls.hpp"
 #include "fibers/posix/traps/vdso.hpp"
 
+// Of sync/freed_memory.cpp.
+extern "C" [[gnu::visibility("hidden")]] void waitpoint_look_up_allocator();
+
 namespace waitpoint::posix {
 
 const bool has_host = false;
@@ -144,6 +147,7 @@ void begin_at_snapshot() {
 // Its scheduler has no robot yet.
 kernel::Scheduler& begin_run() {
   begin();
+  waitpoint_look_up_allocator();
   if (const int server = record->settings.server; server >= 0 && !family::is_joined()) {
     prepare_reruns();
     serve_runs(server);

@@ -8,6 +8,7 @@
 
 #include "core/error.hpp"
 #include "fibers/kernel/access.hpp"
+#include "fibers/kernel/run.hpp"
 #include "fibers/posix/base/symbols.hpp"
 #include "fibers/posix/descriptors/descriptors.hpp"
 #include "fibers/posix/family/family.hpp"
@@ -86,6 +87,7 @@ void report_accesses(std::span<const AccessInstruction> instructions, std::span<
                  .libraries = libraries,
                  .loaded = [](std::uint64_t loaded) { log().libraries = loaded; },
                  .report = report,
+                 .switches = [] { return kernel::switches(record->scheduler()); },
                  .let_others_run = kernel::yield_after_computing,
                  .missed = [] { log().has_other_code = log().has_lost_breakpoints = true; },
                  .prevented = [](AccessObstacle obstacle) { log().obstacle = obstacle; },

@@ -45,6 +45,9 @@ extern "C" [[gnu::visibility("hidden")]] void waitpoint_note_freed(void* memory)
     note_misuse("frees", *awaited, ", awaited by ", awaited->object.first_waiter);
 }
 
+/// Before the run, as runs that are put back would each do it again.
+extern "C" [[gnu::visibility("hidden")]] void waitpoint_look_up_allocator() { (void)the_allocator(); }
+
 extern "C" [[gnu::visibility("default"), gnu::weak]] void free(void* memory) noexcept {
   const auto free_of_program = the_allocator().free;
   if (free_of_program == nullptr) return;

@@ -181,7 +181,9 @@ void report_both(const AccessInstruction& instruction, std::uint64_t address) {
   std::uint8_t before[64], now[64];
   asked.report(address, instruction.bytes, false, false, instruction.place);
   const bool is_readable = peek(address, before, instruction.bytes);
+  const std::uint64_t switches = asked.switches();
   asked.report(address, instruction.bytes, true, false, instruction.place);
+  if (asked.switches() == switches) return;
   if (is_readable && peek(address, now, instruction.bytes) && std::memcmp(now, before, instruction.bytes) != 0)
     (void)poke(address, before, instruction.bytes);
 }

@@ -38,6 +38,7 @@ struct Breakpoints {
   std::span<const AccessLibrary> libraries;
   void (*loaded)(std::uint64_t libraries);
   ReportAccess report;
+  std::uint64_t (*switches)();  ///< the number of switches between threads so far
   void (*let_others_run)();
   void (*missed)();
   void (*prevented)(AccessObstacle obstacle);
