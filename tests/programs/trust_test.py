@@ -90,6 +90,38 @@ class Runs(Case):
         self.assertEqual((done.returncode, done.stderr), (0, "waitpoint: --confined: the system does not enforce it, as it has no Landlock\n"))
 
 
+class Messages(Case):
+    """Of files that a scenario names for what they are not."""
+
+    SHAPE = "shape: {radius_m: 0.2, height_m: 1}"
+    KEYS = [f"world: {{{key}}}" for key in ("map: $", "include: $", "shapes: [{mesh: $.stl, at_m: [9, 9]}]", "shapes: [{mesh: $.obj, at_m: [9, 9]}]",
+                                            "shapes: [{octomap: $}]")] + ["robot_types: {include: $}"]
+    KEYS_OF_ROBOT = ["plan: $, " + SHAPE, "trajectory: $, " + SHAPE, "control: $, " + SHAPE, "launch: $, " + SHAPE, "urdf: $"]
+
+    def messages(self, contents):
+        for name in ("secret", "secret.stl", "secret.obj"):
+            (self.top / name).write_text(contents)
+        for key, robot in [(key, self.SHAPE) for key in self.KEYS] + [("until_s: 1", key) for key in self.KEYS_OF_ROBOT]:
+            (self.top / "s.yaml").write_text(f"format: 1\n{key}\nrobots: [{{name: a, start: [0, 0, 0], {robot}}}]\n".replace("$", "secret"))
+            done = subprocess.run([PROGRAM, "check", self.top / "s.yaml"], capture_output=True, text=True)
+            yield key, done.stdout + done.stderr
+
+    def test_errors_quote_at_most_80_characters(self):
+        line = "".join(chr(97 + i % 26) for i in range(400))
+        for contents in (line, "{" + line, line + ": " + line, "<" + line):
+            for key, text in self.messages(f"{contents}\n{contents}\n"):
+                quoted = [part for part in re.findall("[a-z]+", text) if len(part) > 20]
+                self.assertLessEqual(max(map(len, quoted), default=0), 80, f"{key}: {text}")
+                self.assertLessEqual(len(quoted), 2, f"{key}: {text}")
+
+    def test_warnings_quote_at_most_100_words(self):
+        words = "".join(f"{'ab' * 30}{number} x = 1\n" for number in range(500))
+        for key, text in self.messages(words):
+            lines = [line for line in text.splitlines() if "abab" in line]
+            self.assertLessEqual(len(lines), 100, key)
+            self.assertFalse([line for line in lines if line.startswith("warning: ") and "ab" * 21 in line], key)
+
+
 @unittest.skipUnless(HAS_LANDLOCK, "the kernel has no Landlock")
 class Modules(Case):
     """That try what a confined run may not do: they have all rights of the user, but for what the system takes away."""
