@@ -201,8 +201,9 @@ void declare_program(Command& command, ExploreOptions& options) {
               {.usual = "auto",
                .environment = "WAITPOINT_SWITCH_AT",
                .more = "Accesses are switch points in any case with -fsanitize=thread. auto: after twenty schedules at "
-                       "calls, ten of each in turn, where that is possible. accesses:LIBRARY: those of the library, "
-                       "too; it is named as by the program, with or without its version, or by a path.",
+                       "calls, ten of each in turn, where that is possible; from the first on, if the threads wait by "
+                       "futexes of their own, or call nothing that waits. accesses:LIBRARY: those of the library, too; "
+                       "it is named as by the program, with or without its version, or by a path.",
                .is_rare = true});
   command.add("--observe", whole(options.observed, 0u, observed_max),
               "observe accesses to memory in N schedules before all orderings are said to be tried",
