@@ -101,6 +101,24 @@ static void* lock_once(void* unused) {
   return unused;
 }
 
+static sem_t units;
+static pthread_once_t once = PTHREAD_ONCE_INIT;
+static _Thread_local int own_number;
+static int first_number;
+
+static void* give(void* unused) {
+  sem_post(&units);
+  return unused;
+}
+
+static void note_first(void) { first_number = own_number; }
+
+static void* look_once(void* number) {
+  own_number = (int)(long)number;
+  pthread_once(&once, note_first);
+  return NULL;
+}
+
 static void run(void* (*one)(void*), void* (*two)(void*)) {
   pthread_t threads[2];
   pthread_create(&threads[0], NULL, one, NULL);
@@ -132,6 +150,19 @@ int main(int count, char** words) {
     sched_yield();
     pthread_mutex_destroy(&left);
     pthread_join(thread, NULL);
+  }
+  if (strcmp(mistake, "unjoined") == 0) {
+    pthread_t thread;
+    int value;
+    pthread_create(&thread, NULL, give, NULL);
+    sem_getvalue(&units, &value);
+    assert(value == 0);
+  }
+  if (strcmp(mistake, "once") == 0) {
+    pthread_t threads[2];
+    for (long i = 0; i < 2; ++i) pthread_create(&threads[i], NULL, look_once, (void*)(i + 1));
+    for (int i = 0; i < 2; ++i) pthread_join(threads[i], NULL);
+    assert(first_number == 1);
   }
   if (strcmp(mistake, "release") == 0) {
     pthread_mutex_lock(&left);

@@ -65,6 +65,16 @@ class Stacks(ExecCase):
         accesses = re.findall(rf'about to (?:load|store) memory #\d+ "{BALANCE}"\n      at deposit at .*causes\.c:\d+\n', done.stdout)
         self.assertEqual(len(accesses), 2, done.stdout)
 
+    def check_pair(self, mistake, first, other):
+        done = explore("--", self.compile("causes.c", "-g", "-pthread"), mistake)
+        self.assertRegex(done.stdout, rf"first in the failing run: .*, about to {first}\n      at .*\n  first in a passing run: .*, about to {other}\n")
+
+    def test_an_event_that_the_passing_run_ends_without_is_one_of_the_pair(self):
+        self.check_pair("unjoined", r'release semaphore #\d+ "units"', r'load semaphore #\d+ "units"')
+
+    def test_calls_that_are_made_once_are_a_pair(self):
+        self.check_pair("once", r'call_once word #\d+ "once"', r'call_once word #\d+ "once"')
+
     def test_two_fields_of_one_word_are_both_named(self):
         done = explore("--switch-at", "accesses", "--", self.compile("causes.c", "-g", "-pthread"), "neighbours")
         fields = r"pair\.first, pair\.second" if shutil.which("gdb") else r"pair, pair\+4"

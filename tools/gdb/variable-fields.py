@@ -28,6 +28,9 @@ def part_of(name, offset):
             text += f"[{offset // kind.sizeof}]"
             offset %= kind.sizeof
         elif kind.code == gdb.TYPE_CODE_STRUCT and (field := field_at(kind, offset)) is not None:
+            # Of the C++ library: std::atomic<int> is one variable.
+            if not field.is_base_class and (field.name or "").startswith("_"):
+                return text
             if not field.is_base_class and field.name:
                 text += "." + field.name
             offset -= field.bitpos // 8

@@ -11,7 +11,13 @@ namespace {
 
 using kernel::Operation;
 
-bool is_same(const DoneEvent& a, const DoneEvent& b) { return a.event == b.event && a.operation == b.operation; }
+// Where a call that is made once has been made, another caller only looks.
+bool may_call_once(Operation operation) { return operation == Operation::call_once || operation == Operation::load; }
+
+bool is_same(const DoneEvent& a, const DoneEvent& b) {
+  const bool is_once = a.object == b.object && may_call_once(a.operation) && may_call_once(b.operation);
+  return a.event == b.event && (a.operation == b.operation || is_once);
+}
 
 bool is_unlock(Operation operation) { return operation == Operation::unlock || operation == Operation::unlock_shared; }
 bool is_lock(Operation operation) { return operation == Operation::lock || operation == Operation::lock_shared; }
@@ -45,6 +51,21 @@ EventPlaces places_of(std::span<const DoneEvent> events) {
   return places;
 }
 
+// An event that the passing run ends without, and the next one in the failing run that depends on it.
+std::optional<EventPair> pair_with_an_absent_event(std::span<const DoneEvent> fails, std::span<const DoneEvent> passes,
+                                                   std::size_t parting, const EventPlaces& in_passing) {
+  for (std::size_t first = parting; first < fails.size(); ++first) {
+    if (in_passing.contains(fails[first].event)) continue;
+    for (std::size_t next = first + 1; next < fails.size(); ++next) {
+      const auto again = in_passing.find(fails[next].event);
+      if (again == in_passing.end() || again->second < parting || !depend(fails[first], fails[next])) continue;
+      if (const DoneEvent& other = passes[again->second]; is_same(other, fails[next]))
+        return EventPair{fails[first], other, static_cast<std::size_t>(first != parting) + 1};
+    }
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 std::optional<EventPair> pair_in_other_order(std::span<const DoneEvent> fails, std::span<const DoneEvent> passes) {
@@ -76,7 +97,7 @@ std::optional<EventPair> pair_in_other_order(std::span<const DoneEvent> fails, s
       return EventPair{fails[first], passes[*found],
                        static_cast<std::size_t>(first != parting) + static_cast<std::size_t>(*found != parting)};
   }
-  return std::nullopt;
+  return pair_with_an_absent_event(fails, passes, parting, in_passing);
 }
 
 std::string with_calls(const std::string& event, const std::vector<std::string>& calls) {

@@ -5,8 +5,8 @@
 //   passes:  ... reader load x  | writer store x  ...
 //
 // After the runs diverge, it is the first event of the failing run that follows an event of another task at the same
-// object in the passing run, but precedes it, or lacks it, in the failing one. Only dependent events are considered
-// (dependence.hpp).
+// object in the passing run, but precedes it, or lacks it, in the failing one; else the first event of the failing run
+// that the passing one ends without, before an event of both. Only dependent events are considered (dependence.hpp).
 #pragma once
 
 #include <cstddef>
