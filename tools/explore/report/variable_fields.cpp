@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/explore/report/variable_fields.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <map>
 #include <memory>
-#include <regex>
 #include <set>
+#include <string_view>
 #include <vector>
 
 #include "core/error.hpp"
@@ -18,10 +19,22 @@ namespace {
 
 constexpr int patience_s = 20;  // it reads all of a program's debugging information
 
-// As sync::describe() writes memory with variables, and each of these.
-const std::regex& memory() {
-  static const std::regex pattern("memory #[0-9]+ \"([^\"\n]+)\"");
-  return pattern;
+/// Where a text names variables: between the quotation marks of `memory #3 "account+8, pair"`, as sync::describe()
+/// writes it.
+struct Names {
+  std::size_t begin, end;
+};
+
+std::vector<Names> names_in(const std::string& text) {
+  constexpr std::string_view memory = "memory #";
+  std::vector<Names> all;
+  for (std::size_t at = text.find(memory); at != std::string::npos; at = text.find(memory, at + 1)) {
+    const std::size_t behind = text.find_first_not_of("0123456789", at + memory.size());
+    if (behind == std::string::npos || text.compare(behind, 2, " \"") != 0) continue;
+    const std::size_t begin = behind + 2, end = text.find_first_of("\"\n", begin);
+    if (end != std::string::npos && text[end] == '"') all.push_back({begin, end});
+  }
+  return all;
 }
 
 std::vector<std::string> variables_in(const std::string& list) {
@@ -36,8 +49,9 @@ std::vector<std::string> variables_in(const std::string& list) {
 
 std::set<std::string> variables_named(const std::string& text) {
   std::set<std::string> variables;
-  for (std::sregex_iterator found(text.begin(), text.end(), memory()); found != std::sregex_iterator(); ++found)
-    for (const std::string& variable : variables_in((*found)[1])) variables.insert(variable);
+  for (const Names& names : names_in(text))
+    for (const std::string& variable : variables_in(text.substr(names.begin, names.end - names.begin)))
+      variables.insert(variable);
   return variables;
 }
 
@@ -92,15 +106,13 @@ std::string with_fields(std::string text, const std::filesystem::path& program) 
   for (const std::string& variable : variables) field_of[variable] = *field++;
   std::string result;
   std::size_t from = 0;
-  for (std::sregex_iterator found(text.begin(), text.end(), memory()); found != std::sregex_iterator(); ++found) {
-    const auto begin = static_cast<std::size_t>(found->position(1)),
-               length = static_cast<std::size_t>(found->length(1));
-    result += text.substr(from, begin - from);
+  for (const Names& names : names_in(text)) {
+    result.append(text, from, names.begin - from);
     std::string list;
-    for (const std::string& variable : variables_in((*found)[1]))
-      list += (list.empty() ? "" : ", ") + (field_of[variable].empty() ? variable : field_of[variable]);
+    for (const std::string& variable : variables_in(text.substr(names.begin, names.end - names.begin)))
+      list.append(list.empty() ? "" : ", ").append(field_of[variable].empty() ? variable : field_of[variable]);
     result += list;
-    from = begin + length;
+    from = names.end;
   }
   return result + text.substr(from);
 }
