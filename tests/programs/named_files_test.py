@@ -24,7 +24,7 @@ BUILD = pathlib.Path(sys.argv.pop(1)).resolve()
 WAITPOINT = BUILD / "tools/waitpoint"
 PROGRAMS = BUILD / "tests/exec/several"
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-OPENED = re.compile(r'\b(?:openat\(AT_FDCWD, |open\(|execve\()"([^"]*)"(.*)\) = (?:\d+)$')
+OPENED = re.compile(r'\b(?:openat\(AT_FDCWD, |open\(|execve\()"([^"]*)"(.*)\) += (?:\d+)$')
 
 
 def waitpoint(*words, cwd=None, before=()):
@@ -47,8 +47,12 @@ HAS = parts()
 
 def traced(trace, cwd, *words):
     """The command's end, and the regular files that it and its children opened or executed, without links."""
-    done = waitpoint(*words, cwd=cwd, before=["strace", "-f", "-qq", "-s", "4096", "-o", trace, "-e", "trace=openat,open,execve"])
-    names = [found[1] for found in map(OPENED.search, trace.read_text(errors="replace").splitlines()) if found and "O_DIRECTORY" not in found[2]]
+    for old in trace.parent.glob(trace.name + ".*"):
+        old.unlink()
+    # A file for each process: in one, a call that another's interrupts has two lines.
+    done = waitpoint(*words, cwd=cwd, before=["strace", "-ff", "-qq", "-s", "4096", "-o", trace, "-e", "trace=openat,open,execve"])
+    lines = [line for one in trace.parent.glob(trace.name + ".*") for line in one.read_text(errors="replace").splitlines()]
+    names = [found[1] for found in map(OPENED.search, lines) if found and "O_DIRECTORY" not in found[2]]
     paths = {pathlib.Path(os.path.realpath(cwd / name)) for name in names}
     return done, {path for path in paths if path.is_file()}
 
