@@ -155,6 +155,19 @@ TEST(Cause, IsAReadBeforeTheFirstWrite) {
       << report;
 }
 
+// A barrier that is used again: the last thread of a round may wait for the next before the others have left.
+TEST(Cause, IsNoLostWakeUpWhereTheWaiterItselfWasTheLastToNotify) {
+  const ExploreReport report = explore([] {
+    mutex guard;
+    condition_variable change;
+    std::unique_lock lock(guard);
+    change.notify_all();
+    change.wait(lock);
+  });
+  EXPECT_EQ(cause_of(report), "main waits for condition variable, which no task has notified since it did so itself")
+      << report;
+}
+
 // What no pattern fits has no sentence.
 TEST(Cause, IsNotClaimedOfOtherFailures) {
   EXPECT_EQ(cause_of(explore([] { check(false, "always"); })), "");
