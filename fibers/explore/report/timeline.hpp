@@ -61,8 +61,9 @@ struct Timeline {
   }
   /// "lock mutex #1".
   std::string words(const TimelineEvent& event) const {
-    const std::string_view kind = event.object < 0 ? "" : objects[static_cast<std::size_t>(event.object)].kind;
-    return event_in_words(event.operation, event.which.sequence, kind, object(event.object));
+    if (event.object < 0) return event_in_words(event.operation, event.which.sequence, "", "");
+    const TimelineObject& at = objects[static_cast<std::size_t>(event.object)];
+    return event_in_words(event.operation, event.which.sequence, at.kind, at.title);
   }
 };
 
